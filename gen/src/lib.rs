@@ -1,0 +1,1 @@
+//! Files for a real FPGA, from a netlist.

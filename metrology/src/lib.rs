@@ -1,0 +1,1 @@
+//! Lead screws, straightness, scales and transmission error: numbers in, numbers out.

@@ -1,0 +1,1 @@
+//! The logic of the correction device, one block a file, in signal order.

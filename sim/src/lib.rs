@@ -1,0 +1,1 @@
+//! Cycle-accurate simulation of the device in closed loop with the machine.
