@@ -115,3 +115,69 @@ pub struct Netlist {
     /// Assignments; each reads only inputs, registers and targets before it.
     pub assignments: Vec<Assignment>,
 }
+
+impl Netlist {
+    /// The signal of that path.
+    #[must_use]
+    pub fn find(&self, path: &str) -> Option<SignalId> {
+        let index = self.signals.iter().position(|signal| signal.path == path)?;
+        u32::try_from(index).ok().map(SignalId)
+    }
+
+    /// Name and width of a signal.
+    ///
+    /// # Panics
+    ///
+    /// When the id belongs to another netlist and is too large for this one.
+    #[must_use]
+    pub fn signal(&self, id: SignalId) -> &Signal {
+        &self.signals[id.0 as usize]
+    }
+}
+
+impl Expression {
+    /// Its value when the signals have the given ones, in the order of [`Netlist::signals`].
+    ///
+    /// # Panics
+    ///
+    /// When it reads a signal that `values` does not have.
+    #[must_use]
+    pub fn evaluate(&self, values: &[u64]) -> u64 {
+        let of = |operand: &Self| operand.evaluate(values);
+        let raw = match &self.node {
+            Node::Constant(value) => *value,
+            Node::Signal(id) => values[id.0 as usize],
+            Node::Not(a) => !of(a),
+            Node::And(a, b) => of(a) & of(b),
+            Node::Or(a, b) => of(a) | of(b),
+            Node::Xor(a, b) => of(a) ^ of(b),
+            Node::Add(a, b) => of(a).wrapping_add(of(b)),
+            Node::Subtract(a, b) => of(a).wrapping_sub(of(b)),
+            Node::ShiftUp(a, b) => shift(of(b), |by| of(a) << by),
+            Node::ShiftDown(a, b) => shift(of(b), |by| of(a) >> by),
+            Node::Equal(a, b) => u64::from(of(a) == of(b)),
+            Node::Less(a, b) => u64::from(of(a) < of(b)),
+            Node::LessOrEqual(a, b) => u64::from(of(a) <= of(b)),
+            Node::All(a) => u64::from(of(a) == mask(a.width)),
+            Node::Any(a) => u64::from(of(a) != 0),
+            Node::Parity(a) => u64::from(of(a).count_ones() & 1),
+            Node::Slice { of: wider, low } => of(wider) >> low,
+            Node::Extend(a) => of(a),
+            Node::Select { condition, then, otherwise } => {
+                of(if of(condition) == 0 { otherwise } else { then })
+            }
+        };
+        raw & mask(self.width)
+    }
+}
+
+/// `width` ones, `width` from 1 to 64.
+#[must_use]
+pub fn mask(width: u32) -> u64 {
+    u64::MAX >> (64 - width)
+}
+
+/// Shifts by 64 and more leave nothing.
+fn shift(by: u64, shifted: impl Fn(u64) -> u64) -> u64 {
+    if by < 64 { shifted(by) } else { 0 }
+}

@@ -2,4 +2,4 @@
 
 mod flat;
 
-pub use flat::{Assignment, Expression, Netlist, Node, Register, Signal, SignalId};
+pub use flat::{Assignment, Expression, Netlist, Node, Register, Signal, SignalId, mask};
