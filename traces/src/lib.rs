@@ -1,1 +1,20 @@
 //! Samples and waveforms in files.
+//!
+//! - [`table`]: named columns of numbers; [`read_table`] takes CSV and Parquet
+//! - [`csv`], [`parquet`]: the two formats, read and written
+//! - [`vcd`]: value change dumps, written and read change by change
+//! - [`capture`]: the edges of every one-bit signal of a dump
+//! - [`error`]: what was wrong with a file, and where
+
+pub mod capture;
+pub mod csv;
+pub mod error;
+mod number;
+pub mod parquet;
+pub mod table;
+pub mod vcd;
+
+pub use capture::{Capture, CapturedSignal, read_capture};
+pub use error::{At, TraceError};
+pub use table::{Column, Table, read_table};
+pub use vcd::{Tick, Variable, VcdReader, VcdWriter};

@@ -1,0 +1,213 @@
+//! Comma-separated text: a header with units in the names, `#` comments, a number a cell.
+//!
+//! An empty cell is a missing value. Text such as `NaN`, `inf`, `1,5` or `5 mm` is refused with
+//! its line and column, because what it stands for would have to be guessed.
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use ::csv::{ByteRecord, ReaderBuilder};
+
+use crate::error::{At, TraceError};
+use crate::number::write_number;
+use crate::table::{Column, Table};
+
+mod place;
+
+use place::{Line, Source};
+
+/// Reads comma-separated text; `path` is for messages only.
+///
+/// A byte-order mark, CRLF, comment lines, blank lines and quoted cells are taken; the header
+/// comes first. Cells are finite decimal numbers or empty.
+///
+/// # Errors
+///
+/// Everything else: no header, numbers for a header, a name twice, semicolons or tabs between
+/// cells, a decimal comma, a row too long or too short, a cell that is no finite number.
+pub fn read_csv(bytes: &[u8], path: &Path) -> Result<Table, TraceError> {
+    let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+    let mut reader = ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .comment(Some(b'#'))
+        .buffer_capacity(1 << 20)
+        .from_reader(text);
+    let source = Source { text, path };
+    let mut record = ByteRecord::new();
+    if !source.next(&mut reader, &mut record)? {
+        return Err(TraceError::Empty { at: At::file(path), found: "an empty file" });
+    }
+    let mut table = empty_table(header(&record, &source.line(&reader))?, path);
+    let mut next_line = 0;
+    while source.next(&mut reader, &mut record)? {
+        let line = source.line(&reader);
+        if line.number != next_line {
+            table.line_jumps.push((table.rows(), line.number));
+        }
+        next_line = line.number + 1;
+        push_row(&mut table, &record, &line)?;
+    }
+    if table.rows() == 0 {
+        return Err(TraceError::Empty { at: At::file(path), found: "a header only" });
+    }
+    Ok(table)
+}
+
+/// Writes a table as comma-separated text; numbers read back to the same bits, NaN is an empty
+/// cell.
+///
+/// # Errors
+///
+/// Those of `out`.
+pub fn write_csv(table: &Table, out: &mut impl Write) -> io::Result<()> {
+    let names: Vec<_> = table.names().collect();
+    let mut rows = RowWriter::new(out, &names)?;
+    let mut cells = vec![0.0; table.columns.len()];
+    for row in 0..table.rows() {
+        for (cell, column) in cells.iter_mut().zip(&table.columns) {
+            *cell = column.values[row];
+        }
+        rows.row(&cells)?;
+    }
+    Ok(())
+}
+
+/// Comma-separated text, written row by row.
+#[derive(Debug)]
+pub struct RowWriter<W: Write> {
+    out: W,
+}
+
+impl<W: Write> RowWriter<W> {
+    /// Begins with the header.
+    ///
+    /// # Errors
+    ///
+    /// Those of `out`.
+    pub fn new(mut out: W, names: &[&str]) -> io::Result<Self> {
+        ::csv::WriterBuilder::new().from_writer(&mut out).write_record(names)?;
+        Ok(Self { out })
+    }
+
+    /// Adds a row, one cell a column; NaN is written as an empty cell.
+    ///
+    /// # Errors
+    ///
+    /// Those of `out`.
+    pub fn row(&mut self, cells: &[f64]) -> io::Result<()> {
+        for (index, cell) in cells.iter().enumerate() {
+            if index > 0 {
+                self.out.write_all(b",")?;
+            }
+            if !cell.is_nan() {
+                write_number(&mut self.out, *cell)?;
+            }
+        }
+        self.out.write_all(b"\n")
+    }
+}
+
+/// Names of the columns, from the first record.
+fn header(record: &ByteRecord, line: &Line) -> Result<Vec<String>, TraceError> {
+    let refuse = |cell: usize, found: String, expected: &'static str| {
+        Err(TraceError::Header { at: line.at(cell), found, expected })
+    };
+    let mut names: Vec<String> = Vec::with_capacity(record.len());
+    for (index, cell) in record.iter().enumerate() {
+        let Ok(name) = std::str::from_utf8(cell.trim_ascii()) else {
+            let found = format!("`{}`", String::from_utf8_lossy(cell));
+            return refuse(index, found, "a name in UTF-8");
+        };
+        if let Some(separator) = name.chars().find(|c| matches!(c, ';' | '\t')) {
+            let found = if separator == ';' { "semicolons" } else { "tabs" };
+            let found = format!("{found} between the names");
+            return refuse(index, found, "commas between cells and points in numbers");
+        }
+        if name.is_empty() {
+            return refuse(index, "no name".into(), "a name for every column");
+        }
+        if names.iter().any(|known| known == name) {
+            return Err(TraceError::DuplicateColumn { at: line.at(index), name: name.into() });
+        }
+        names.push(name.to_owned());
+    }
+    match names.iter().position(|name| name.parse::<f64>().is_err()) {
+        Some(_) => Ok(names),
+        None => refuse(0, format!("`{}`", names[0]), "a header with names such as `position_mm`"),
+    }
+}
+
+fn empty_table(names: Vec<String>, path: &Path) -> Table {
+    let columns = names.into_iter().map(|name| Column { name, values: Vec::new() }).collect();
+    Table { path: path.to_owned(), columns, line_jumps: Vec::new() }
+}
+
+fn push_row(table: &mut Table, record: &ByteRecord, line: &Line) -> Result<(), TraceError> {
+    let (found, expected) = (record.len(), table.columns.len());
+    if found != expected {
+        let hint = ragged_hint(found, expected, line);
+        return Err(TraceError::Ragged { at: line.whole(), found, expected, hint });
+    }
+    for (index, (cell, column)) in record.iter().zip(&mut table.columns).enumerate() {
+        match number(cell) {
+            Some(value) => column.values.push(value),
+            None => return Err(bad_cell(cell, &column.name, line.at(index))),
+        }
+    }
+    Ok(())
+}
+
+/// The cell as a number, NaN when it is empty; `None` when it is anything but finite.
+fn number(cell: &[u8]) -> Option<f64> {
+    let cell = cell.trim_ascii();
+    if cell.is_empty() {
+        return Some(f64::NAN);
+    }
+    let value: f64 = std::str::from_utf8(cell).ok()?.parse().ok()?;
+    value.is_finite().then_some(value)
+}
+
+fn bad_cell(cell: &[u8], name: &str, at: At) -> TraceError {
+    let found = String::from_utf8_lossy(cell.trim_ascii());
+    let hint = cell_hint(&found);
+    TraceError::Cell { at, name: name.into(), found: shortened(&found), hint }
+}
+
+/// At most forty characters, so that a message stays a line.
+fn shortened(text: &str) -> String {
+    const LONGEST: usize = 40;
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
+    }
+}
+
+fn cell_hint(found: &str) -> &'static str {
+    let word = found.trim_start_matches(['+', '-']).to_ascii_lowercase();
+    let decimal_comma = found.replacen(',', ".", 1).parse::<f64>().is_ok();
+    if decimal_comma {
+        "\n\nhint: write the decimal sign as a point"
+    } else if matches!(word.as_str(), "nan" | "na" | "n/a" | "null" | "none" | "-" | "") {
+        "\n\nhint: leave the cell empty where a value is missing"
+    } else if found.starts_with('\u{2212}') {
+        "\n\nhint: write minus as `-`"
+    } else if matches!(word.as_str(), "inf" | "infinity") || found.parse::<f64>().is_ok() {
+        "\n\nhint: only finite numbers can be used"
+    } else {
+        ""
+    }
+}
+
+fn ragged_hint(found: usize, expected: usize, line: &Line) -> &'static str {
+    if line.last && found < expected {
+        "\n\nhint: the file ends here, it may have been cut off"
+    } else if found == 2 * expected {
+        "\n\nhint: write the decimal sign as a point"
+    } else {
+        ""
+    }
+}
+
+#[cfg(test)]
+mod tests;

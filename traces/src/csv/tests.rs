@@ -1,0 +1,50 @@
+use super::*;
+
+fn read(text: &str) -> Result<Table, TraceError> {
+    read_csv(text.as_bytes(), Path::new("data.csv"))
+}
+
+fn refusal(text: &str) -> String {
+    read(text).unwrap_err().to_string()
+}
+
+#[test]
+fn byte_order_mark_crlf_and_missing_cells() {
+    let table = read("\u{feff}# pass 1\r\nposition_mm, error_um\r\n1,0.5\r\n2,\r\n").unwrap();
+    assert_eq!(table.names().collect::<Vec<_>>(), ["position_mm", "error_um"]);
+    assert_eq!(table.column("position_mm"), Some(&[1.0, 2.0][..]));
+    let error_um = table.column("error_um").unwrap();
+    assert!((error_um[0] - 0.5).abs() < f64::EPSILON && error_um[1].is_nan());
+    assert_eq!(table.at(1).line, Some(4));
+}
+
+#[test]
+fn a_bad_cell_is_named_by_line_and_column() {
+    assert_eq!(
+        refusal("time_s,µ_um\r\n# µ\r\n1,  abc\r\n"),
+        "data.csv:3:5: column `µ_um`: found `abc`, expected a number or an empty cell"
+    );
+}
+
+#[test]
+fn a_short_last_line_is_taken_for_a_cut() {
+    assert_eq!(
+        refusal("a,b\n1,2\n3"),
+        "data.csv:3: found 1 cells, expected 2 as in the header\n\n\
+         hint: the file ends here, it may have been cut off"
+    );
+}
+
+#[test]
+fn written_numbers_read_back_to_the_same_bits() {
+    let values = vec![0.1 + 0.2, -1e-300, f64::MAX, 5e-324, -0.0, 1e16, f64::NAN];
+    let table = Table::new(vec![
+        Column { name: "a_um".into(), values: values.clone() },
+        Column { name: "row".into(), values: vec![1.0; 7] },
+    ]);
+    let mut text = Vec::new();
+    write_csv(&table, &mut text).unwrap();
+    let again = read_csv(&text, Path::new("data.csv")).unwrap();
+    let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
+    assert_eq!(bits(&again.columns[0].values), bits(&values));
+}

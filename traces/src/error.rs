@@ -1,0 +1,170 @@
+//! What was wrong with a file, and where.
+
+use std::fmt;
+use std::path::PathBuf;
+
+/// A place in a file; what is not known is left out of the message.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct At {
+    /// The file.
+    pub path: PathBuf,
+    /// Line, from 1.
+    pub line: Option<usize>,
+    /// Column, from 1, in characters.
+    pub column: Option<usize>,
+}
+
+impl At {
+    /// The file as a whole.
+    pub fn file(path: impl Into<PathBuf>) -> Self {
+        Self { path: path.into(), line: None, column: None }
+    }
+
+    /// A whole line of it, counted from 1.
+    #[must_use]
+    pub fn on_line(mut self, line: usize) -> Self {
+        self.line = Some(line);
+        self
+    }
+
+    /// A place in that line, counted from 1 in characters.
+    #[must_use]
+    pub fn at_column(mut self, column: usize) -> Self {
+        self.column = Some(column);
+        self
+    }
+}
+
+impl fmt::Display for At {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.path.display())?;
+        for number in [self.line, self.column].into_iter().flatten() {
+            write!(f, ":{number}")?;
+        }
+        Ok(())
+    }
+}
+
+/// Why a file of samples or waveforms was refused: where, what was found, what was expected.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum TraceError {
+    /// The file could not be opened or read.
+    #[error("{}: cannot be read: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The file is of another kind.
+    #[error("{}: found {found}, expected {expected}", path.display())]
+    Kind {
+        /// The file.
+        path: PathBuf,
+        /// What it looks like.
+        found: &'static str,
+        /// What would have been read.
+        expected: &'static str,
+    },
+    /// Nothing is in it: no header, or no row below it.
+    #[error("{at}: found {found}, expected a header with units in the names and rows below it")]
+    Empty {
+        /// The file.
+        at: At,
+        /// What there is.
+        found: &'static str,
+    },
+    /// The first line holds numbers or names that cannot be used.
+    #[error("{at}: found {found}, expected {expected}")]
+    Header {
+        /// Where in the header.
+        at: At,
+        /// The cell, or what is wrong with the line.
+        found: String,
+        /// What belongs there.
+        expected: &'static str,
+    },
+    /// Two columns have one name.
+    #[error("{at}: column `{name}` comes twice, expected every name once")]
+    DuplicateColumn {
+        /// The second of them.
+        at: At,
+        /// The name.
+        name: String,
+    },
+    /// A row that is longer or shorter than the header.
+    #[error("{at}: found {found} cells, expected {expected} as in the header{hint}")]
+    Ragged {
+        /// The row.
+        at: At,
+        /// Its cells.
+        found: usize,
+        /// The header's cells.
+        expected: usize,
+        /// What the likely reason is; empty, or a line of its own.
+        hint: &'static str,
+    },
+    /// A cell that is not a finite number.
+    #[error("{at}: column `{name}`: found `{found}`, expected a number or an empty cell{hint}")]
+    Cell {
+        /// The cell.
+        at: At,
+        /// Its column.
+        name: String,
+        /// What stands in it.
+        found: String,
+        /// What the likely reason is; empty, or a line of its own.
+        hint: &'static str,
+    },
+    /// A column of a binary file whose type is not a number.
+    #[error("{}: column `{name}`: found {found}, expected numbers", path.display())]
+    ColumnType {
+        /// The file.
+        path: PathBuf,
+        /// The column.
+        name: String,
+        /// Its type.
+        found: String,
+    },
+    /// A binary file that contradicts itself.
+    #[error("{}: cannot be read as Parquet: {message}", path.display())]
+    Parquet {
+        /// The file.
+        path: PathBuf,
+        /// What the library said.
+        message: String,
+    },
+    /// A column someone asked for is not there.
+    #[error("{}: column `{name}` is missing, found {found}", path.display())]
+    NoColumn {
+        /// The file.
+        path: PathBuf,
+        /// The column wanted.
+        name: String,
+        /// The columns there are.
+        found: String,
+    },
+    /// A dump that breaks its own format.
+    #[error("{at}: found {found}, expected {expected}")]
+    Dump {
+        /// The line.
+        at: At,
+        /// What stands there.
+        found: String,
+        /// What the format wants.
+        expected: &'static str,
+    },
+    /// A signal someone asked for is not there, or more than one is meant.
+    #[error("{}: signal `{name}` {problem}, found {found}", path.display())]
+    NoSignal {
+        /// The file.
+        path: PathBuf,
+        /// The signal wanted.
+        name: String,
+        /// Whether it is missing or ambiguous.
+        problem: &'static str,
+        /// The signals there are, or those meant.
+        found: String,
+    },
+}

@@ -1,0 +1,242 @@
+//! Parquet: the same columns as the text form, in binary.
+//!
+//! Null and NaN are missing values. Booleans count as 0 and 1. Text, times and nested columns
+//! are refused by name.
+
+use std::io::{self, Write};
+use std::path::Path;
+use std::sync::Arc;
+
+use ::parquet::basic::{Compression, ConvertedType, LogicalType, Repetition, Type as PhysicalType};
+use ::parquet::column::reader::{ColumnReader, ColumnReaderImpl};
+use ::parquet::data_type::{DataType, DoubleType};
+use ::parquet::errors::ParquetError;
+use ::parquet::file::properties::WriterProperties;
+use ::parquet::file::reader::{FileReader, SerializedFileReader};
+use ::parquet::file::writer::SerializedFileWriter;
+use ::parquet::schema::types::{ColumnDescriptor, Type};
+use bytes::Bytes;
+
+use crate::error::{At, TraceError};
+use crate::table::{Column, Table};
+
+/// Rows decoded at a time, and rows written to a group.
+const BATCH_ROWS: usize = 1 << 16;
+const GROUP_ROWS: usize = 1 << 20;
+
+/// Reads every column of a Parquet file; `path` is for messages only.
+///
+/// Columns that pandas adds for its index (`__index_level_0__`) are left out.
+///
+/// # Errors
+///
+/// A file that contradicts itself, a column that holds no numbers, an infinite value, no rows.
+pub fn read_parquet(bytes: Vec<u8>, path: &Path) -> Result<Table, TraceError> {
+    let broken = |error: ParquetError| TraceError::Parquet {
+        path: path.to_owned(),
+        message: error.to_string(),
+    };
+    let reader = SerializedFileReader::new(Bytes::from(bytes)).map_err(broken)?;
+    let schema = reader.metadata().file_metadata().schema_descr();
+    let mut columns = Vec::with_capacity(schema.num_columns());
+    for (index, descriptor) in schema.columns().iter().enumerate() {
+        let name = descriptor.path().string();
+        if name.starts_with("__index_level_") {
+            continue;
+        }
+        check_type(descriptor, &name, path)?;
+        let values = read_column(&reader, index, descriptor).map_err(broken)?;
+        columns.push(Column { name, values });
+    }
+    let table = Table { path: path.to_owned(), columns, line_jumps: Vec::new() };
+    check_rows(&table)?;
+    Ok(table)
+}
+
+/// Writes a table as Parquet, one optional double column each; NaN becomes null.
+///
+/// # Errors
+///
+/// Those of `out`, and what Parquet cannot hold.
+pub fn write_parquet(table: &Table, out: &mut (impl Write + Send)) -> io::Result<()> {
+    let fields = table.names().map(optional_double).collect::<Result<Vec<_>, _>>();
+    let schema = fields
+        .and_then(|fields| Type::group_type_builder("table").with_fields(fields).build())
+        .map_err(io::Error::other)?;
+    let properties = WriterProperties::builder().set_compression(Compression::SNAPPY).build();
+    let mut writer = SerializedFileWriter::new(out, Arc::new(schema), Arc::new(properties))
+        .map_err(io::Error::other)?;
+    for start in (0..table.rows()).step_by(GROUP_ROWS) {
+        let end = table.rows().min(start + GROUP_ROWS);
+        write_group(table, start..end, &mut writer).map_err(io::Error::other)?;
+    }
+    writer.close().map_err(io::Error::other)?;
+    Ok(())
+}
+
+fn optional_double(name: &str) -> Result<Arc<Type>, ParquetError> {
+    Type::primitive_type_builder(name, PhysicalType::DOUBLE)
+        .with_repetition(Repetition::OPTIONAL)
+        .build()
+        .map(Arc::new)
+}
+
+fn write_group<W: Write + Send>(
+    table: &Table,
+    rows: std::ops::Range<usize>,
+    writer: &mut SerializedFileWriter<W>,
+) -> Result<(), ParquetError> {
+    let mut group = writer.next_row_group()?;
+    for column in &table.columns {
+        let values = &column.values[rows.clone()];
+        let present: Vec<f64> = values.iter().copied().filter(|value| !value.is_nan()).collect();
+        let levels: Vec<i16> = values.iter().map(|value| i16::from(!value.is_nan())).collect();
+        if let Some(mut column) = group.next_column()? {
+            column.typed::<DoubleType>().write_batch(&present, Some(&levels), None)?;
+            column.close()?;
+        }
+    }
+    group.close()?;
+    Ok(())
+}
+
+/// Lets plain numbers and truth values through.
+fn check_type(column: &ColumnDescriptor, name: &str, path: &Path) -> Result<(), TraceError> {
+    use ConvertedType::{INT_8, INT_16, INT_32, INT_64, NONE, UINT_8, UINT_16, UINT_32, UINT_64};
+    let found = match (column.physical_type(), column.converted_type()) {
+        _ if column.max_rep_level() > 0 => "lists".to_owned(),
+        (PhysicalType::BYTE_ARRAY | PhysicalType::FIXED_LEN_BYTE_ARRAY, NONE) => "bytes".to_owned(),
+        (PhysicalType::INT96, _) => "times".to_owned(),
+        (_, NONE | INT_8 | INT_16 | INT_32 | INT_64 | UINT_8 | UINT_16 | UINT_32 | UINT_64)
+            if is_plain(column.logical_type_ref()) =>
+        {
+            return Ok(());
+        }
+        (_, converted) => format!("type {converted}").to_lowercase(),
+    };
+    Err(TraceError::ColumnType { path: path.to_owned(), name: name.to_owned(), found })
+}
+
+fn is_plain(logical: Option<&LogicalType>) -> bool {
+    matches!(logical, None | Some(LogicalType::Integer(_)))
+}
+
+fn check_rows(table: &Table) -> Result<(), TraceError> {
+    let rows = table.rows();
+    let broken = |message: String| TraceError::Parquet { path: table.path.clone(), message };
+    for Column { name, values } in &table.columns {
+        if values.len() != rows {
+            return Err(broken(format!("column `{name}` has {} rows of {rows}", values.len())));
+        }
+        if let Some(row) = values.iter().position(|value| value.is_infinite()) {
+            return Err(broken(format!("column `{name}`, row {}: found infinity", row + 1)));
+        }
+    }
+    if rows == 0 {
+        return Err(TraceError::Empty { at: At::file(&table.path), found: "no rows" });
+    }
+    Ok(())
+}
+
+fn read_column(
+    file: &SerializedFileReader<Bytes>,
+    index: usize,
+    descriptor: &ColumnDescriptor,
+) -> Result<Vec<f64>, ParquetError> {
+    let unsigned = matches!(
+        descriptor.converted_type(),
+        ConvertedType::UINT_8
+            | ConvertedType::UINT_16
+            | ConvertedType::UINT_32
+            | ConvertedType::UINT_64
+    );
+    let complete = descriptor.max_def_level();
+    let mut values = Vec::new();
+    for group in 0..file.num_row_groups() {
+        match file.get_row_group(group)?.get_column_reader(index)? {
+            ColumnReader::BoolColumnReader(column) => {
+                append(column, complete, &mut values, |value| f64::from(u8::from(value)))?;
+            }
+            ColumnReader::Int32ColumnReader(column) if unsigned => {
+                append(column, complete, &mut values, |value| f64::from(value.cast_unsigned()))?;
+            }
+            ColumnReader::Int32ColumnReader(column) => {
+                append(column, complete, &mut values, f64::from)?;
+            }
+            ColumnReader::Int64ColumnReader(column) if unsigned => {
+                append(column, complete, &mut values, |value| nearest_u64(value.cast_unsigned()))?;
+            }
+            ColumnReader::Int64ColumnReader(column) => {
+                append(column, complete, &mut values, nearest_i64)?;
+            }
+            ColumnReader::FloatColumnReader(column) => {
+                append(column, complete, &mut values, f64::from)?;
+            }
+            ColumnReader::DoubleColumnReader(column) => {
+                append(column, complete, &mut values, |value| value)?;
+            }
+            _ => return Err(ParquetError::General("a column changed its type".into())),
+        }
+    }
+    Ok(values)
+}
+
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "counts beyond 2^53 are taken as the nearest number"
+)]
+fn nearest_i64(value: i64) -> f64 {
+    value as f64
+}
+
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "counts beyond 2^53 are taken as the nearest number"
+)]
+fn nearest_u64(value: u64) -> f64 {
+    value as f64
+}
+
+/// Appends all values of a column chunk; a level below `complete` is a null.
+fn append<T: DataType>(
+    mut column: ColumnReaderImpl<T>,
+    complete: i16,
+    values: &mut Vec<f64>,
+    number: impl Fn(T::T) -> f64,
+) -> Result<(), ParquetError> {
+    let (mut levels, mut present) = (Vec::new(), Vec::new());
+    loop {
+        levels.clear();
+        present.clear();
+        let (rows, ..) = column.read_records(BATCH_ROWS, Some(&mut levels), None, &mut present)?;
+        if rows == 0 {
+            return Ok(());
+        }
+        let mut present = present.drain(..).map(&number);
+        if complete == 0 {
+            values.extend(present);
+        } else {
+            values.extend(levels.iter().map(|level| match *level {
+                level if level == complete => present.next().unwrap_or(f64::NAN),
+                _ => f64::NAN,
+            }));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn written_columns_read_back_with_their_gaps() {
+        let values = vec![1.5, f64::NAN, -0.0, 1e-300];
+        let table = Table::new(vec![Column { name: "error_um".into(), values }]);
+        let mut bytes = Vec::new();
+        write_parquet(&table, &mut bytes).unwrap();
+        let again = read_parquet(bytes, Path::new("data.parquet")).unwrap();
+        let bits: Vec<_> = again.columns[0].values.iter().map(|value| value.to_bits()).collect();
+        assert_eq!(again.columns[0].name, "error_um");
+        assert_eq!(bits, table.columns[0].values.iter().map(|v| v.to_bits()).collect::<Vec<_>>());
+    }
+}

@@ -1,0 +1,151 @@
+//! Named columns of numbers, and the place of every row in its file.
+
+use std::path::{Path, PathBuf};
+
+use crate::error::{At, TraceError};
+use crate::{csv, parquet};
+
+/// One column: its name, with the unit in it, and a number a row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// Name as in the header, such as `position_mm`.
+    pub name: String,
+    /// One value a row; a missing cell is NaN and keeps its place.
+    pub values: Vec<f64>,
+}
+
+/// Columns of equal length, in the order of the file.
+#[derive(Clone, Debug, Default)]
+pub struct Table {
+    /// The file they came from; empty for a table made in memory.
+    pub path: PathBuf,
+    /// The columns.
+    pub columns: Vec<Column>,
+    /// `(row, line)` where the numbering of lines jumps; empty for formats without lines.
+    pub(crate) line_jumps: Vec<(usize, usize)>,
+}
+
+impl Table {
+    /// A table made in memory; columns are of equal length.
+    #[must_use]
+    pub fn new(columns: Vec<Column>) -> Self {
+        debug_assert!(columns.windows(2).all(|pair| pair[0].values.len() == pair[1].values.len()));
+        Self { columns, ..Self::default() }
+    }
+
+    /// Number of rows.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.columns.first().map_or(0, |column| column.values.len())
+    }
+
+    /// Names of the columns, in the order of the file.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.columns.iter().map(|column| column.name.as_str())
+    }
+
+    /// Values of one column, NaN where a cell is missing; `None` when there is no such column.
+    #[must_use]
+    pub fn column(&self, name: &str) -> Option<&[f64]> {
+        let column = self.columns.iter().find(|column| column.name == name)?;
+        Some(&column.values)
+    }
+
+    /// Values of a column that has to be there.
+    ///
+    /// # Errors
+    ///
+    /// [`TraceError::NoColumn`] names the columns there are.
+    pub fn require(&self, name: &str) -> Result<&[f64], TraceError> {
+        self.column(name).ok_or_else(|| TraceError::NoColumn {
+            path: self.path.clone(),
+            name: name.to_owned(),
+            found: self.names().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", "),
+        })
+    }
+
+    /// Where a row (from 0) stands in its file; no line for formats that have none.
+    #[must_use]
+    pub fn at(&self, row: usize) -> At {
+        let at = At::file(&self.path);
+        let jump = self.line_jumps.partition_point(|(first, _)| *first <= row).checked_sub(1);
+        match jump.and_then(|jump| self.line_jumps.get(jump)) {
+            Some((first, line)) => at.on_line(line + (row - first)),
+            None => at,
+        }
+    }
+}
+
+/// Reads a table of numbers, CSV or Parquet by what the file begins with.
+///
+/// # Errors
+///
+/// Whatever is wrong with the file, with its place; see [`csv::read_csv`] and
+/// [`parquet::read_parquet`].
+pub fn read_table(path: &Path) -> Result<Table, TraceError> {
+    let bytes =
+        std::fs::read(path).map_err(|source| TraceError::Read { path: path.to_owned(), source })?;
+    if bytes.starts_with(b"PAR1") {
+        return parquet::read_parquet(bytes, path);
+    }
+    match foreign_kind(&bytes) {
+        Some(found) => Err(TraceError::Kind {
+            path: path.to_owned(),
+            found,
+            expected: "comma-separated text or Parquet",
+        }),
+        None => csv::read_csv(&bytes, path),
+    }
+}
+
+/// Kinds of file that people hand over by mistake.
+fn foreign_kind(bytes: &[u8]) -> Option<&'static str> {
+    const KINDS: &[(&[u8], &str)] = &[
+        (b"PARE", "an encrypted Parquet file"),
+        (b"PK\x03\x04", "a spreadsheet or a ZIP archive"),
+        (b"\xD0\xCF\x11\xE0", "an old spreadsheet"),
+        (b"\x1F\x8B", "a gzip archive"),
+        (b"\x89HDF", "an HDF5 file"),
+        (b"ARROW1", "an Arrow file"),
+        (b"\xFF\xFE", "UTF-16 text"),
+        (b"\xFE\xFF", "UTF-16 text"),
+        (b"$date", "a value change dump"),
+        (b"$version", "a value change dump"),
+        (b"$timescale", "a value change dump"),
+    ];
+    let known = KINDS.iter().find(|(start, _)| bytes.starts_with(start)).map(|(_, kind)| *kind);
+    known.or_else(|| bytes.contains(&0).then_some("binary data"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Table {
+        csv::read_csv(text.as_bytes(), Path::new("data.csv")).unwrap()
+    }
+
+    #[test]
+    fn rows_know_their_lines_through_comments_and_blank_lines() {
+        let table = read("# made by hand\nposition_mm\n1\n\n# pause\n2\n3\n");
+        assert_eq!(table.column("position_mm"), Some(&[1.0, 2.0, 3.0][..]));
+        let lines: Vec<_> = (0..3).map(|row| table.at(row).line).collect();
+        assert_eq!(lines, [Some(3), Some(6), Some(7)]);
+    }
+
+    #[test]
+    fn a_missing_column_names_those_there_are() {
+        let error = read("position_mm,error_um\n1,2\n").require("time_s").unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "data.csv: column `time_s` is missing, found `position_mm`, `error_um`"
+        );
+    }
+
+    #[test]
+    fn foreign_files_are_recognised() {
+        assert_eq!(foreign_kind(b"PK\x03\x04rest"), Some("a spreadsheet or a ZIP archive"));
+        assert_eq!(foreign_kind(b"a,b\n1,2\0\n"), Some("binary data"));
+        assert_eq!(foreign_kind(b"a,b\n1,2\n"), None);
+    }
+}
