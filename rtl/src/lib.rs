@@ -1,1 +1,28 @@
-//! The logic of the correction device, one block a file, in signal order.
+//! The logic of the correction device, one block a file.
+//!
+//! [`BLOCKS`] lists them in signal order; [`device::Device`] joins them, and [`settings`] says
+//! what its wheels mean. Each block's page names its figure, ports, sequence and waveform, what
+//! happens when two things come at once, and what was inferred where the print is silent.
+
+pub mod calibrator;
+pub mod compensation_divider;
+pub mod cumulative_compensator;
+pub mod decade_counter;
+pub mod device;
+pub mod direction_discriminator;
+pub mod initial_phase_selector;
+pub mod input_synchroniser;
+pub mod level_synchroniser;
+pub mod phase_meter;
+pub mod programmable_divider;
+pub mod range_stage;
+pub mod reset_counter;
+pub mod ring_distributor;
+pub mod settings;
+pub mod standard_wave;
+pub mod step_clock;
+pub mod step_selector;
+
+mod blocks;
+
+pub use blocks::{BLOCKS, BlockCard};
