@@ -2,6 +2,9 @@
 
 use rust_hdl::prelude::{Block, Logic};
 
+use crate::board_shell::BoardShell;
+use crate::settings::{Range, Settings};
+
 /// What there is to know of a block without opening its file.
 #[derive(Clone, Copy, Debug)]
 pub struct BlockCard {
@@ -68,4 +71,25 @@ pub const BLOCKS: &[BlockCard] = &[
             manual_step, manual_forward, divide_a, divide_b, range_x2, initial_phase,
             compensation, compensation_insert, step_period)
         "The whole measuring and correcting logic (figs. 6, 14)"),
+    card!(step_driver::StepDriver(clock, clear, step, forward)
+        "Pulse and direction for a bought stepper driver"),
+    BlockCard {
+        name: "board_shell",
+        summary: "The device with its wheels set, and the pins a builder wires",
+        build: || match BoardShell::connected(&EXAMPLE) {
+            Ok(shell) => Box::new(shell),
+            Err(error) => unreachable!("the example can be dialled: {error}"),
+        },
+    },
 ];
+
+/// The 6 mm screw of document 1, 160 steps per second at 12 MHz.
+const EXAMPLE: Settings = Settings {
+    a: 110,
+    b: 150,
+    range: Range::X2,
+    initial_phase: 150,
+    compensation_f: 0,
+    insert: false,
+    step_period: 75_000,
+};

@@ -4,6 +4,7 @@
 //! what its wheels mean. Each block's page names its figure, ports, sequence and waveform, what
 //! happens when two things come at once, and what was inferred where the print is silent.
 
+pub mod board_shell;
 pub mod calibrator;
 pub mod compensation_divider;
 pub mod cumulative_compensator;
@@ -21,6 +22,7 @@ pub mod ring_distributor;
 pub mod settings;
 pub mod standard_wave;
 pub mod step_clock;
+pub mod step_driver;
 pub mod step_selector;
 
 mod blocks;

@@ -170,6 +170,13 @@ pub enum SettingsError {
         /// The most they show.
         high: u32,
     },
+    /// Steps follow each other faster than a driver's pulses.
+    StepTooFast {
+        /// Clocks from step to step.
+        found: u32,
+        /// The least a pulse needs.
+        least: u32,
+    },
     /// F is not a multiple of 1000.
     LowDecades {
         /// The number.
@@ -182,6 +189,9 @@ impl fmt::Display for SettingsError {
         match self {
             Self::OutOfRange { name, found, low, high } => {
                 write!(f, "{name} is `{found}`, expected {low} to {high}")
+            }
+            Self::StepTooFast { found, least } => {
+                write!(f, "step period is `{found}` clocks, expected {least} or more at a step pin")
             }
             Self::LowDecades { found } => write!(
                 f,
