@@ -173,7 +173,7 @@ impl Expression {
 
 /// `width` ones, `width` from 1 to 64.
 #[must_use]
-pub fn mask(width: u32) -> u64 {
+pub const fn mask(width: u32) -> u64 {
     u64::MAX >> (64 - width)
 }
 
