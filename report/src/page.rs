@@ -1,0 +1,116 @@
+//! One self-contained HTML page: pictures first, then the numbers. It needs no network.
+
+use std::fmt::Write;
+
+use crate::markup::escaped;
+use crate::table::Table;
+
+/// A page; a browser shows it from a file, a printer prints it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Page {
+    /// Title of the page.
+    pub title: String,
+    /// What the reader has to know first, in a sentence or two.
+    pub summary: String,
+    /// What follows, from top to bottom.
+    pub parts: Vec<Part>,
+}
+
+/// A piece of a page.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Part {
+    /// A heading.
+    Heading(String),
+    /// A paragraph.
+    Text(String),
+    /// A few numbers set large, each with what it is: `("0.31 µm", "error after correction")`.
+    Numbers(Vec<(String, String)>),
+    /// SVG from a plot or a waveform, with what it shows.
+    Picture {
+        /// The SVG text, put in as it stands.
+        svg: String,
+        /// What to see in it.
+        caption: String,
+    },
+    /// A table.
+    Table(Table),
+    /// Something the reader must not overlook.
+    Note(String),
+    /// Text with its line breaks, such as a file.
+    Listing(String),
+}
+
+const STYLE: &str = include_str!("page.css");
+
+impl Page {
+    /// The page as HTML; the same page gives the same bytes.
+    #[must_use]
+    pub fn html(&self) -> String {
+        let title = escaped(&self.title);
+        let mut html = format!(
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+             <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n\
+             <h1>{title}</h1>\n"
+        );
+        if !self.summary.is_empty() {
+            let _ = writeln!(html, "<p class=\"summary\">{}</p>", escaped(&self.summary));
+        }
+        for part in &self.parts {
+            push_part(&mut html, part);
+        }
+        html.push_str("</main>\n</body>\n</html>\n");
+        html
+    }
+}
+
+fn push_part(html: &mut String, part: &Part) {
+    // Writing to a string cannot fail.
+    let _ = match part {
+        Part::Heading(text) => writeln!(html, "<h2>{}</h2>", escaped(text)),
+        Part::Text(text) => writeln!(html, "<p>{}</p>", escaped(text)),
+        Part::Numbers(numbers) => return push_numbers(html, numbers),
+        Part::Picture { svg, caption } => {
+            let caption = escaped(caption);
+            writeln!(html, "<figure>\n{svg}<figcaption>{caption}</figcaption>\n</figure>")
+        }
+        Part::Table(table) => writeln!(html, "<div class=\"table\">{}</div>", table.html()),
+        Part::Note(text) => writeln!(html, "<p class=\"note\">{}</p>", escaped(text)),
+        Part::Listing(text) => writeln!(html, "<pre>{}</pre>", escaped(text)),
+    };
+}
+
+fn push_numbers(html: &mut String, numbers: &[(String, String)]) {
+    html.push_str("<dl class=\"numbers\">\n");
+    for (value, meaning) in numbers {
+        let (value, meaning) = (escaped(value), escaped(meaning));
+        let _ = writeln!(html, "<div><dd>{value}</dd><dt>{meaning}</dt></div>");
+    }
+    html.push_str("</dl>\n");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_page_stands_alone_and_is_the_same_twice() {
+        let page = Page {
+            title: "Error & correction".into(),
+            summary: "Within 1 µm".into(),
+            parts: vec![
+                Part::Numbers(vec![("0.31 µm".into(), "after".into())]),
+                Part::Picture { svg: "<svg></svg>".into(), caption: "the error".into() },
+                Part::Note("slew limit <reached>".into()),
+            ],
+        };
+        let html = page.html();
+        assert_eq!(html, page.html());
+        assert!(html.contains("<title>Error &amp; correction</title>"));
+        assert!(html.contains("<dd>0.31 µm</dd><dt>after</dt>"));
+        assert!(html.contains("slew limit &lt;reached&gt;"));
+        for outside in ["http:", "https:", "src=", "href=", "@import", "url("] {
+            assert!(!html.contains(outside), "{outside}");
+        }
+    }
+}
