@@ -1,1 +1,2 @@
 //! What crosses crates; one module a subject.
+mod golden_verilog;

@@ -44,7 +44,7 @@ use crate::{Design, Library, Module, NetlistError};
 pub fn elaborate(name: &str, block: &dyn Block, library: &Library) -> Result<Design, NetlistError> {
     let mut shelf = Shelf { modules: vec![] };
     for entry in &library.entries {
-        let index = shelf.add(&Source::of(&entry.name, entry.block), &entry.name)?;
+        let index = shelf.add(&Source::of(&entry.name, &*entry.block), &entry.name)?;
         let found = &mut shelf.modules[index];
         if found.name.is_empty() {
             found.name.clone_from(&entry.name);

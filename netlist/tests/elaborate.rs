@@ -26,8 +26,7 @@ fn random(state: &mut u64) -> u64 {
 #[test]
 fn blocks_of_equal_structure_share_a_module() {
     let nested = Nested::default();
-    let decade = Decade::default();
-    let library = Library::new().with("decade_counter", "One digit.", &decade);
+    let library = Library::new().with("decade_counter", "One digit.", Box::new(Decade::default()));
     let design = elaborate("two_digits", &nested, &library).unwrap();
     let names: Vec<_> = design.modules.iter().map(|module| module.name.as_str()).collect();
     assert_eq!(names, ["decade_counter", "two_digits"]);
