@@ -4,6 +4,7 @@
 //! [`Netlist::new`] joins them into the flat list that engines are made from.
 
 mod display;
+pub mod drivers;
 mod elaborate;
 mod error;
 mod execute;
@@ -18,7 +19,10 @@ mod library;
 mod meaning;
 mod module;
 mod order;
+pub mod partition;
+pub mod rust_source;
 mod scope;
+pub mod settle;
 mod simulated;
 mod source;
 mod synthesised;

@@ -1,0 +1,127 @@
+//! The device, compiled in: its circuit, and engines that run it.
+
+use std::sync::LazyLock;
+
+use helixlock_netlist::{Library, Netlist, elaborate};
+
+use crate::circuit::Circuit;
+use crate::compiled::Compiled;
+use crate::leap::Leap;
+
+#[allow(clippy::all, clippy::pedantic, reason = "generated: written for the compiler alone")]
+#[allow(unused_imports, reason = "a design may do without shifts")]
+mod generated {
+    use crate::compiled::DenseKernel;
+    use crate::moment::{Coasting, Kernel, Moment};
+    use crate::words::{choose, shift_down, shift_up};
+
+    include!(concat!(env!("OUT_DIR"), "/device.rs"));
+}
+
+pub use generated::DeviceKernel;
+
+/// The fast engine of the device: what a closed loop runs on.
+pub type DeviceEngine = Leap<'static, DeviceKernel>;
+
+/// The device's netlist and its pieces; made once.
+///
+/// # Panics
+///
+/// Never: the build script has elaborated the same block.
+#[must_use]
+pub fn device() -> &'static Circuit {
+    static DEVICE: LazyLock<Circuit> = LazyLock::new(|| Circuit::new(elaborated()));
+    &DEVICE
+}
+
+/// The device at power-up, with all inputs low, ready to leap.
+#[must_use]
+pub fn device_engine() -> DeviceEngine {
+    Leap::new(device(), DeviceKernel)
+}
+
+/// The device at power-up, with all inputs low, stepped at every clock.
+#[must_use]
+pub fn stepped_device() -> Compiled<'static, DeviceKernel> {
+    Compiled::new(device())
+}
+
+fn elaborated() -> Netlist {
+    let card = helixlock_rtl::BLOCKS.iter().find(|card| card.name == "device");
+    let card = card.expect("the build script has found it");
+    let design = elaborate(card.name, (card.build)().as_ref(), &Library::new());
+    let netlist = Netlist::new(&design.expect("the build script has elaborated it"));
+    netlist.expect("the build script has flattened it")
+}
+
+#[cfg(test)]
+mod tests {
+    use helixlock_netlist::SignalId;
+
+    use super::*;
+    use crate::random_design::{Dice, compare};
+    use crate::{Engine, Interpreter};
+
+    #[test]
+    fn both_compiled_engines_agree_with_the_reference_on_noise() {
+        for seed in 0..20 {
+            compare(device().netlist(), &mut device_engine(), &mut Dice(seed));
+            compare(device().netlist(), &mut stepped_device(), &mut Dice(seed));
+        }
+    }
+
+    /// Pulses at nearly equal rates drift past each other, so that every coincidence comes about;
+    /// switches are thrown in between.
+    #[test]
+    fn leaping_a_pass_is_stepping_it() {
+        let netlist = device().netlist();
+        let mut leap = device_engine();
+        let mut stepped = stepped_device();
+        let mut reference = Interpreter::new(netlist);
+        let mut dice = Dice(1977);
+        let mut grating = 0;
+        let mut laser = 0;
+        for clock in 0..60_000 {
+            let mut inputs: Vec<(SignalId, u64)> = Vec::new();
+            let mut set = |path: &str, value| inputs.push((netlist.find(path).unwrap(), value));
+            if clock == 0 {
+                for (path, value) in [("divide_a", 0x003), ("divide_b", 0x004), ("start", 1)] {
+                    set(path, value);
+                }
+                for (path, value) in [("initial_phase", 0x002), ("compensation", 0x0001)] {
+                    set(path, value);
+                }
+                set("step_period", 37);
+            }
+            grating = (grating + 1) % 24;
+            laser = if clock % 1000 == 0 { laser } else { (laser + 1) % 18 };
+            set("grating", u64::from(grating < 9));
+            set("laser", u64::from(laser < 8));
+            if dice.below(900) == 0 {
+                let path = dice.pick(&[
+                    "start",
+                    "correct",
+                    "correct",
+                    "playback",
+                    "manual_step",
+                    "manual_forward",
+                    "calibrate",
+                    "range_x2",
+                    "compensation_insert",
+                    "master_reset",
+                ]);
+                set(path, dice.below(2));
+            }
+            for (input, value) in inputs {
+                leap.set_input(input, value);
+                stepped.set_input(input, value);
+                reference.set_input(input, value);
+            }
+            leap.step();
+            stepped.step();
+            reference.step();
+            assert_eq!(leap.snapshot(), reference.snapshot());
+            assert_eq!(stepped.snapshot(), reference.snapshot());
+        }
+    }
+}

@@ -1,0 +1,228 @@
+//! Designs and stimulus nobody would think of, for tests: registers in several instances, counters
+//! with odd steps and thresholds, logic of every operator.
+
+use crate::{Engine, Interpreter};
+
+use helixlock_netlist::{Assignment, Expression, Netlist, Node, Register, Signal, SignalId, mask};
+
+/// A small generator of reproducible numbers (`splitmix64`).
+#[derive(Clone, Debug)]
+pub(crate) struct Dice(pub(crate) u64);
+
+impl Dice {
+    pub(crate) fn roll(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut mixed = self.0;
+        mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        mixed ^ (mixed >> 31)
+    }
+
+    pub(crate) fn below(&mut self, bound: u64) -> u64 {
+        self.roll() % bound
+    }
+
+    pub(crate) fn pick<T: Copy>(&mut self, from: &[T]) -> T {
+        from[usize::try_from(self.below(from.len() as u64)).unwrap()]
+    }
+}
+
+/// Holds inputs for a while, now and then a long one, and compares everything with the reference
+/// engine at every stop.
+pub(crate) fn compare(netlist: &Netlist, engine: &mut dyn Engine, dice: &mut Dice) {
+    let mut reference = Interpreter::new(netlist);
+    let all: Vec<SignalId> = (0..).map(SignalId).take(netlist.signals.len()).collect();
+    for _ in 0..30 {
+        for input in &netlist.inputs {
+            let value = dice.roll() & mask(netlist.signal(*input).width);
+            if dice.below(2) == 0 {
+                reference.set_input(*input, value);
+                engine.set_input(*input, value);
+            }
+        }
+        let watched: Vec<SignalId> = (0..dice.below(3)).map(|_| dice.pick(&all)).collect();
+        reference.watch(&watched);
+        engine.watch(&watched);
+        let span = dice.pick(&[0, 1, 2, 3, 17, 300]);
+        let until = reference.clock() + dice.below(span + 1);
+        assert_eq!(engine.run_until(until), reference.run_until(until), "{watched:?}");
+        assert_eq!(engine.clock(), reference.clock(), "{watched:?}");
+        assert_eq!(engine.snapshot(), reference.snapshot(), "clock {}", reference.clock());
+        for signal in &all {
+            let path = &netlist.signal(*signal).path;
+            assert_eq!(engine.value(*signal), reference.value(*signal), "`{path}`");
+        }
+    }
+}
+
+/// A design of a few registers.
+pub(crate) fn random_design(dice: &mut Dice) -> Netlist {
+    let mut draft = Draft { dice, netlist: Netlist::default(), known: Vec::new() };
+    for width in [1, 1, 8] {
+        let input = draft.signal("input", width);
+        draft.netlist.inputs.push(input);
+        draft.known.push(input);
+    }
+    let registers = 2 + draft.dice.below(7);
+    let outputs: Vec<SignalId> = (0..registers).map(|_| draft.register_output()).collect();
+    for output in &outputs {
+        draft.show(*output);
+    }
+    for _ in 0..draft.dice.below(14) {
+        draft.local();
+    }
+    for output in outputs {
+        draft.register_input(output);
+    }
+    for _ in 0..3 {
+        let output = draft.dice.pick(&draft.known.clone());
+        draft.netlist.outputs.push(output);
+    }
+    draft.netlist
+}
+
+struct Draft<'a> {
+    dice: &'a mut Dice,
+    netlist: Netlist,
+    /// Signals that may be read.
+    known: Vec<SignalId>,
+}
+
+impl Draft<'_> {
+    fn signal(&mut self, name: &str, width: u32) -> SignalId {
+        let index = self.netlist.signals.len();
+        let instance = self.dice.pick(&["", "one.", "two.", "two.inner."]);
+        self.netlist.signals.push(Signal { path: format!("{instance}{name}{index}"), width });
+        SignalId(u32::try_from(index).unwrap())
+    }
+
+    fn register_output(&mut self) -> SignalId {
+        let width = self.dice.pick(&[1, 1, 4, 6, 8, 12, 64]);
+        self.signal("register", width)
+    }
+
+    /// Lets others read a register as it is, or no more than how it compares.
+    fn show(&mut self, register: SignalId) {
+        let width = self.netlist.signal(register).width;
+        if width < 6 || self.dice.below(3) == 0 {
+            return self.known.push(register);
+        }
+        for _ in 0..self.dice.below(3) {
+            let value = self.comparison(register, width);
+            let target = self.signal("local", 1);
+            self.netlist.assignments.push(Assignment { target, value });
+            self.known.push(target);
+        }
+    }
+
+    fn comparison(&mut self, register: SignalId, width: u32) -> Expression {
+        let own = Box::new(Expression { width, node: Node::Signal(register) });
+        let threshold = Box::new(self.leaf(width));
+        let node = match self.dice.below(4) {
+            0 => Node::Equal(own, threshold),
+            1 => Node::Less(own, threshold),
+            2 => Node::LessOrEqual(threshold, own),
+            _ => Node::Any(own),
+        };
+        Expression { width: 1, node }
+    }
+
+    fn register_input(&mut self, output: SignalId) {
+        let width = self.netlist.signal(output).width;
+        let value = match self.dice.below(3) {
+            0 => self.expression(width, 3),
+            1 => self.synchroniser(width),
+            _ => self.counter(output, width),
+        };
+        let input = self.signal("next", width);
+        self.netlist.assignments.push(Assignment { target: input, value });
+        let initial = self.dice.roll() & mask(width);
+        self.netlist.registers.push(Register { output, input, initial });
+    }
+
+    fn local(&mut self) {
+        let width = self.dice.pick(&[1, 1, 1, 4, 8, 12]);
+        let value = self.expression(width, 3);
+        let target = self.signal("local", width);
+        self.netlist.assignments.push(Assignment { target, value });
+        self.known.push(target);
+    }
+
+    fn synchroniser(&mut self, width: u32) -> Expression {
+        self.leaf(width)
+    }
+
+    /// A step up or down while a condition holds, and a load or rest otherwise.
+    fn counter(&mut self, output: SignalId, width: u32) -> Expression {
+        let own = || Box::new(Expression { width, node: Node::Signal(output) });
+        let step = Box::new(constant(self.dice.pick(&[1, 1, 1, 2, 5]) & mask(width), width));
+        let counted = match self.dice.below(2) {
+            0 => Node::Add(own(), step),
+            _ => Node::Subtract(own(), step),
+        };
+        let restart = Box::new(self.leaf(width));
+        let reached = Box::new(self.comparison(output, width));
+        let enabled = Box::new(self.expression(1, 1));
+        let counted = Box::new(Expression { width, node: counted });
+        let moved = select(width, reached, restart, counted);
+        select(width, enabled, Box::new(moved), own())
+    }
+
+    fn expression(&mut self, width: u32, depth: u32) -> Expression {
+        if depth == 0 {
+            return self.leaf(width);
+        }
+        let operands = if self.dice.below(2) == 0 { width } else { self.dice.pick(&[1, 4, 8, 12]) };
+        let mut of = |width| Box::new(self.expression(width, depth - 1));
+        let (a, b, condition) = (of(width), of(width), of(1));
+        let (left, right) = (of(operands), of(operands));
+        let wide = of((width + 3).min(64));
+        let node = match self.dice.below(if width == 1 { 15 } else { 9 }) {
+            0 => Node::Not(a),
+            1 => Node::And(a, b),
+            2 => Node::Or(a, b),
+            3 => Node::Xor(a, b),
+            4 => Node::Add(a, b),
+            5 => Node::Subtract(a, b),
+            6 => Node::ShiftUp(a, b),
+            7 => Node::Slice { low: wide.width - width, of: wide },
+            8 => return select(width, condition, a, b),
+            9 => Node::ShiftDown(a, b),
+            10 => Node::Equal(left, right),
+            11 => Node::Less(left, right),
+            12 => Node::LessOrEqual(left, right),
+            13 => Node::Parity(left),
+            _ => Node::All(left),
+        };
+        Expression { width, node }
+    }
+
+    /// A signal of that width, cut or extended if there is none, or a constant.
+    fn leaf(&mut self, width: u32) -> Expression {
+        if self.dice.below(4) == 0 {
+            return constant(self.dice.roll() & mask(width), width);
+        }
+        let known = self.known.clone();
+        let signal = self.dice.pick(&known);
+        let found = self.netlist.signal(signal).width;
+        let read = Expression { width: found, node: Node::Signal(signal) };
+        match found {
+            _ if found == width => read,
+            _ if found < width => Expression { width, node: Node::Extend(Box::new(read)) },
+            _ => Expression { width, node: Node::Slice { of: Box::new(read), low: 0 } },
+        }
+    }
+}
+
+fn constant(value: u64, width: u32) -> Expression {
+    Expression { width, node: Node::Constant(value) }
+}
+
+fn select(
+    width: u32,
+    condition: Box<Expression>,
+    then: Box<Expression>,
+    otherwise: Box<Expression>,
+) -> Expression {
+    Expression { width, node: Node::Select { condition, then, otherwise } }
+}
