@@ -1,0 +1,311 @@
+//! An effect of the user: an expression over the columns, with named parameters.
+
+mod operators;
+
+use exmex::{Express, FlatEx};
+
+use crate::{Basis, Columns, Effect, EffectError, Instant, Parameter, Role};
+use operators::Operators;
+
+type Expression = FlatEx<f64, Operators>;
+
+type Reading = fn(&Instant<'_>) -> f64;
+
+/// Quantities every instant carries, by the names a formula uses.
+const ALWAYS_THERE: &[(&str, Reading)] = &[
+    ("time_s", |now| now.time_s),
+    ("position_mm", |now| now.position_mm),
+    ("angle_rev", |now| now.spindle_rad / std::f64::consts::TAU),
+    ("spindle_rad", |now| now.spindle_rad),
+    ("speed_rpm", |now| now.speed_rpm),
+    ("direction", |now| now.direction),
+    ("travelled_mm", |now| now.travelled_mm),
+    ("error_um", |now| now.error_um),
+];
+
+/// Where a variable of the formula gets its value.
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Variable {
+    Parameter(usize),
+    AlwaysThere(usize),
+    Column(String),
+}
+
+/// A formula of the user, in µm (arcsec on a rotary chain).
+///
+/// Operators are `+ - * / ^`, functions `abs sign sqrt exp ln log10 sin cos tan asin acos atan
+/// sinh cosh tanh floor ceil round`, constants `pi` and `π`, angles in radians.
+#[derive(Clone, Debug)]
+pub struct Custom {
+    name: String,
+    formula: String,
+    expression: Expression,
+    variables: Vec<Variable>,
+    roles: Vec<Role>,
+}
+
+impl Custom {
+    /// Reads a formula; names that are neither parameters nor always there are logged columns.
+    ///
+    /// A parameter is linear when the formula is, by trial at fixed points, in it and in the other
+    /// linear ones together.
+    ///
+    /// # Errors
+    ///
+    /// [`EffectError::Formula`] when it cannot be read, or leaves a parameter out.
+    pub fn new(name: &str, formula: &str, parameters: &[String]) -> Result<Self, EffectError> {
+        let refuse = |message: String| EffectError::Formula {
+            effect: name.into(),
+            formula: formula.into(),
+            message,
+        };
+        let expression =
+            Expression::parse(formula).map_err(|error| refuse(error.msg().to_lowercase()))?;
+        let variables: Vec<_> =
+            expression.var_names().iter().map(|word| variable(word, parameters)).collect();
+        for (index, parameter) in parameters.iter().enumerate() {
+            if !variables.contains(&Variable::Parameter(index)) {
+                return Err(refuse(format!("the parameter `{parameter}` does not occur in it")));
+            }
+        }
+        let roles = vec![Role::Nonlinear; parameters.len()];
+        let mut custom =
+            Self { name: name.into(), formula: formula.into(), expression, variables, roles };
+        custom.find_linear();
+        Ok(custom)
+    }
+
+    /// The formula as written.
+    #[must_use]
+    pub fn formula(&self) -> &str {
+        &self.formula
+    }
+
+    /// Logged columns it reads.
+    #[must_use]
+    pub fn needs(&self) -> Vec<&str> {
+        let columns = self.variables.iter().filter_map(|variable| match variable {
+            Variable::Column(name) => Some(name.as_str()),
+            _ => None,
+        });
+        columns.collect()
+    }
+
+    /// The parameters with their roles.
+    #[must_use]
+    pub fn with_roles(&self, mut parameters: Vec<Parameter>) -> Vec<Parameter> {
+        for (parameter, role) in parameters.iter_mut().zip(&self.roles) {
+            parameter.role = *role;
+        }
+        parameters
+    }
+
+    /// Unit effects for given values of the nonlinear parameters.
+    ///
+    /// # Errors
+    ///
+    /// [`EffectError::MissingColumn`] when the record lacks a column of the formula.
+    pub fn basis(
+        &self,
+        columns: &Columns,
+        parameters: &[Parameter],
+        nonlinear: &[f64],
+    ) -> Result<Basis, EffectError> {
+        let mut values = vec![0.0; parameters.len()];
+        let mut rest = nonlinear.iter();
+        for (value, parameter) in values.iter_mut().zip(parameters) {
+            if parameter.is_nonlinear() {
+                *value = rest.next().copied().unwrap_or_default();
+            }
+        }
+        let fixed = self.bound(columns, values.clone(), None)?;
+        let mut basis = Basis { columns: Vec::new(), fixed: Some(Box::new(fixed)) };
+        for (index, parameter) in parameters.iter().enumerate() {
+            if !parameter.is_nonlinear() {
+                let mut one = values.clone();
+                one[index] = 1.0;
+                basis.columns.push(Box::new(self.bound(columns, one, Some(values.clone()))?));
+            }
+        }
+        Ok(basis)
+    }
+
+    fn bound(
+        &self,
+        columns: &Columns,
+        values: Vec<f64>,
+        minus: Option<Vec<f64>>,
+    ) -> Result<Bound, EffectError> {
+        let sources = self.variables.iter().map(|variable| match variable {
+            Variable::Parameter(index) => Ok(Source::Parameter(*index)),
+            Variable::AlwaysThere(index) => Ok(Source::AlwaysThere(*index)),
+            Variable::Column(name) => columns.index(name).map(Source::Column).ok_or_else(|| {
+                EffectError::MissingColumn { effect: self.name.clone(), column: name.clone() }
+            }),
+        });
+        let sources = sources.collect::<Result<_, _>>()?;
+        Ok(Bound { expression: self.expression.clone(), sources, values, minus })
+    }
+
+    /// Marks parameters the formula is linear in, taking them in order while they stay so together.
+    fn find_linear(&mut self) {
+        for index in 0..self.roles.len() {
+            let linear: Vec<_> =
+                (0..index).filter(|other| self.roles[*other] == Role::Linear).collect();
+            if self.is_linear(index, &linear) {
+                self.roles[index] = Role::Linear;
+            }
+        }
+    }
+
+    /// Second differences in `index`, alone and mixed with each of `others`, vanish everywhere.
+    fn is_linear(&self, index: usize, others: &[usize]) -> bool {
+        let mut tried = 0;
+        for trial in 0..24_u32 {
+            let at = |moves: &[usize]| self.evaluate_trial(trial, moves);
+            let (zero, one, two) = (at(&[]), at(&[index]), at(&[index, index]));
+            if ![zero, one, two].iter().all(|value| value.is_finite()) {
+                continue;
+            }
+            tried += 1;
+            let tolerance = 1e-9 * (zero.abs() + one.abs() + two.abs());
+            let bent = tolerance < (two - 2.0 * one + zero).abs();
+            let mixed = others
+                .iter()
+                .any(|&other| tolerance < (at(&[index, other]) - one - at(&[other]) + zero).abs());
+            if bent || mixed {
+                return false;
+            }
+        }
+        4 <= tried
+    }
+
+    /// The formula at the trial's point, with 1 added to a parameter for each time it is in `moves`.
+    fn evaluate_trial(&self, trial: u32, moves: &[usize]) -> f64 {
+        let values: Vec<_> = (0_u32..)
+            .zip(&self.variables)
+            .map(|(place, variable)| {
+                // Golden-ratio points: spread over 0.1 to 3.1, never two alike.
+                let turn = 0.618_033_988_749_895 * f64::from(1 + trial * 17 + place * 5);
+                let base = 0.1 + 3.0 * (turn - turn.floor());
+                match variable {
+                    Variable::Parameter(index) => moves
+                        .iter()
+                        .filter(|moved| *moved == index)
+                        .fold(base, |value, _| value + 1.0),
+                    _ => base,
+                }
+            })
+            .collect();
+        self.expression.eval(&values).unwrap_or(f64::NAN)
+    }
+}
+
+fn variable(word: &str, parameters: &[String]) -> Variable {
+    if let Some(index) = parameters.iter().position(|name| name == word) {
+        return Variable::Parameter(index);
+    }
+    ALWAYS_THERE
+        .iter()
+        .position(|(name, _)| *name == word)
+        .map_or_else(|| Variable::Column(word.into()), Variable::AlwaysThere)
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Source {
+    Parameter(usize),
+    AlwaysThere(usize),
+    Column(usize),
+}
+
+/// The formula with its parameters put in, less the same with others.
+#[derive(Debug)]
+struct Bound {
+    expression: Expression,
+    sources: Vec<Source>,
+    values: Vec<f64>,
+    minus: Option<Vec<f64>>,
+}
+
+impl Bound {
+    fn evaluate(&self, now: &Instant<'_>, parameters: &[f64]) -> f64 {
+        let values: Vec<_> = self
+            .sources
+            .iter()
+            .map(|source| match source {
+                Source::Parameter(index) => parameters[*index],
+                Source::AlwaysThere(index) => (ALWAYS_THERE[*index].1)(now),
+                Source::Column(index) => now.covariates.get(*index).copied().unwrap_or(f64::NAN),
+            })
+            .collect();
+        self.expression.eval(&values).unwrap_or(f64::NAN)
+    }
+}
+
+impl Effect for Bound {
+    fn delta_um(&self, now: &Instant<'_>) -> f64 {
+        let minus = self.minus.as_ref().map_or(0.0, |values| self.evaluate(now, values));
+        self.evaluate(now, &self.values) - minus
+    }
+
+    fn feeds_back(&self) -> bool {
+        let error = ALWAYS_THERE.len() - 1;
+        self.sources
+            .iter()
+            .any(|source| matches!(source, Source::AlwaysThere(index) if *index == error))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Record;
+
+    fn roles(formula: &str, names: &[&str]) -> Vec<Role> {
+        let names: Vec<_> = names.iter().map(ToString::to_string).collect();
+        Custom::new("test", formula, &names).expect(formula).roles
+    }
+
+    #[test]
+    fn linear_parameters_are_found() {
+        let (linear, bent) = (Role::Linear, Role::Nonlinear);
+        assert_eq!(roles("a*sin(2*pi*time_s/p) + b", &["a", "p", "b"]), [linear, bent, linear]);
+        assert_eq!(roles("a*b*time_s", &["a", "b"]), [linear, bent]);
+        assert_eq!(roles("a^2*position_mm", &["a"]), [bent]);
+        assert_eq!(roles("a*exp(0-position_mm/l)", &["a", "l"]), [linear, bent]);
+    }
+
+    #[test]
+    fn precedence_is_that_of_school() {
+        let record = Record::default();
+        for (formula, expected) in
+            [("8-4-2", 2.0), ("8/4/2", 1.0), ("2+3*4^2", 50.0), ("-2*3", -6.0), ("8/4*2", 4.0)]
+        {
+            let custom = Custom::new("test", formula, &[]).expect(formula);
+            let basis = custom.basis(&record.columns, &[], &[]).expect(formula);
+            let now = Instant { covariates: &[], ..NOWHERE };
+            let value = basis.fixed.map_or(0.0, |fixed| fixed.delta_um(&now));
+            assert!((value - expected).abs() < 1e-12, "{formula} = {value}");
+        }
+    }
+
+    const NOWHERE: Instant<'_> = Instant {
+        time_s: 0.0,
+        position_mm: 0.0,
+        spindle_rad: 0.0,
+        speed_rpm: 6.0,
+        direction: 1.0,
+        pass: 0,
+        travelled_mm: 0.0,
+        since_reversal_mm: f64::INFINITY,
+        error_um: 0.0,
+        covariates: &[],
+    };
+
+    #[test]
+    fn what_is_no_formula_is_refused() {
+        assert!(Custom::new("test", "a*(sin(time_s)", &["a".into()]).is_err());
+        assert!(Custom::new("test", "sin(time_s)", &["a".into()]).is_err());
+        assert!(Custom::new("test", "", &[]).is_err());
+    }
+}

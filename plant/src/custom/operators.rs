@@ -1,0 +1,48 @@
+//! What a formula may contain, with the same results on every platform.
+
+use exmex::{BinOp, MakeOperators, Operator};
+
+/// Operators, functions and constants of formulas.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Operators;
+
+impl MakeOperators<f64> for Operators {
+    fn make<'a>() -> Vec<Operator<'a, f64>> {
+        let binary = |apply, prio, is_commutative| BinOp { apply, prio, is_commutative };
+        let mut operators = vec![
+            Operator::make_bin("^", binary(libm::pow, 4, false)),
+            Operator::make_bin("*", binary(|a, b| a * b, 2, true)),
+            Operator::make_bin("/", binary(|a, b| a / b, 3, false)),
+            Operator::make_bin_unary("+", binary(|a, b| a + b, 0, true), |a| a),
+            Operator::make_bin_unary("-", binary(|a, b| a - b, 1, false), |a| -a),
+            Operator::make_constant("pi", std::f64::consts::PI),
+            Operator::make_constant("π", std::f64::consts::PI),
+        ];
+        operators.extend(FUNCTIONS.iter().map(|(name, apply)| Operator::make_unary(name, *apply)));
+        operators
+    }
+}
+
+type Function = fn(f64) -> f64;
+
+/// Functions of one argument.
+const FUNCTIONS: &[(&str, Function)] = &[
+    ("abs", f64::abs),
+    ("sign", |a| if a == 0.0 { 0.0 } else { f64::signum(a) }),
+    ("sqrt", f64::sqrt),
+    ("exp", libm::exp),
+    ("ln", libm::log),
+    ("log10", libm::log10),
+    ("sin", libm::sin),
+    ("cos", libm::cos),
+    ("tan", libm::tan),
+    ("asin", libm::asin),
+    ("acos", libm::acos),
+    ("atan", libm::atan),
+    ("sinh", libm::sinh),
+    ("cosh", libm::cosh),
+    ("tanh", libm::tanh),
+    ("floor", f64::floor),
+    ("ceil", f64::ceil),
+    ("round", libm::round),
+];

@@ -1,0 +1,316 @@
+//! An effect is a card and a formula: what both look like.
+
+use std::borrow::Cow;
+use std::fmt;
+use std::ops::RangeInclusive;
+
+use crate::units::Unit;
+use crate::{EffectError, Instant, Machine, Record, record::Columns};
+
+/// The one place where an effect enters the machine; it decides which sensor sees it how.
+///
+/// | entry | meaning of δ, µm |
+/// |---|---|
+/// | motion | the table is ahead by δ |
+/// | length reference | the laser reads short by δ |
+/// | angle reference | the grating reads ahead by δ, as lead |
+/// | workpiece | the thread ends up longer by δ |
+/// | electronics | the meter shows δ too much |
+/// | actuator | the correction falls short by δ |
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Entry {
+    /// Table motion.
+    Motion,
+    /// The laser.
+    LengthReference,
+    /// The grating.
+    AngleReference,
+    /// The finished thread alone.
+    Workpiece,
+    /// The meter.
+    Electronics,
+    /// The corrector.
+    Actuator,
+}
+
+impl Entry {
+    /// All entries, in the order of the table.
+    pub const ALL: [Self; 6] = [
+        Self::Motion,
+        Self::LengthReference,
+        Self::AngleReference,
+        Self::Workpiece,
+        Self::Electronics,
+        Self::Actuator,
+    ];
+
+    /// As it is written in a machine file.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Motion => "motion",
+            Self::LengthReference => "length-reference",
+            Self::AngleReference => "angle-reference",
+            Self::Workpiece => "workpiece",
+            Self::Electronics => "electronics",
+            Self::Actuator => "actuator",
+        }
+    }
+}
+
+impl fmt::Display for Entry {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.word())
+    }
+}
+
+/// How a parameter enters its effect, and so how it is fitted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Role {
+    /// δ is proportional to it: one design column, the coefficient is the value.
+    Linear,
+    /// δ is proportional to its square: one design column, the coefficient is the value squared.
+    Squared,
+    /// Amplitude of a sinusoid whose phase is the next parameter: two columns, sine and cosine.
+    Amplitude,
+    /// Phase of the sinusoid whose amplitude is the parameter before.
+    Phase,
+    /// Physics fixes it to its default: one column, fitted only within this standard deviation.
+    Known {
+        /// Standard deviation of the prior, in the parameter's unit.
+        stderr: f64,
+    },
+    /// Anything else: the columns depend on it.
+    Nonlinear,
+}
+
+/// Where values of a nonlinear parameter are worth trying.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Search {
+    /// Evenly over the range.
+    Linear,
+    /// Evenly over the logarithm of the range.
+    Logarithmic,
+    /// Every whole number in the range.
+    Whole,
+    /// Anywhere in the travel of the record, mm.
+    Position,
+    /// Anywhere in the time of the record, s.
+    Time,
+    /// Orders of the gears in the machine file, of shafts and of meshes, turns per spindle turn.
+    GearOrder,
+    /// It is not searched for: the default stands.
+    Fixed,
+}
+
+/// A number an effect needs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    /// Its key in the machine file.
+    pub name: Cow<'static, str>,
+    /// Unit of its value; on a rotary chain `um` reads `arcsec`.
+    pub unit: Unit,
+    /// Plausible values; a fit that ends at an end has failed.
+    pub range: RangeInclusive<f64>,
+    /// What stands when the file does not say; `None` makes it required.
+    pub default: Option<f64>,
+    /// How it enters.
+    pub role: Role,
+    /// Where to look for it, if nonlinear.
+    pub search: Search,
+    /// What it is, in words.
+    pub meaning: Cow<'static, str>,
+}
+
+impl Parameter {
+    const fn new(name: &'static str, unit: Unit, role: Role, meaning: &'static str) -> Self {
+        Self {
+            name: Cow::Borrowed(name),
+            unit,
+            range: 0.0..=0.0,
+            default: None,
+            role,
+            search: Search::Fixed,
+            meaning: Cow::Borrowed(meaning),
+        }
+    }
+
+    /// δ is proportional to it.
+    #[must_use]
+    pub const fn linear(name: &'static str, unit: Unit, meaning: &'static str) -> Self {
+        Self::new(name, unit, Role::Linear, meaning)
+    }
+
+    /// δ is proportional to its square.
+    #[must_use]
+    pub const fn squared(name: &'static str, unit: Unit, meaning: &'static str) -> Self {
+        Self::new(name, unit, Role::Squared, meaning)
+    }
+
+    /// An amplitude; [`Self::phase`] must follow it.
+    #[must_use]
+    pub const fn amplitude(name: &'static str, unit: Unit, meaning: &'static str) -> Self {
+        Self::new(name, unit, Role::Amplitude, meaning)
+    }
+
+    /// The phase, 0 by default, of the amplitude before it.
+    #[must_use]
+    pub const fn phase(name: &'static str, meaning: &'static str) -> Self {
+        Self::new(name, crate::units::DEG, Role::Phase, meaning).within(-180.0..=180.0).or(0.0)
+    }
+
+    /// Fixed by physics to 1, within the standard deviation `stderr`.
+    #[must_use]
+    pub const fn known(stderr: f64, meaning: &'static str) -> Self {
+        let role = Role::Known { stderr };
+        Self::new("scale", crate::units::NUMBER, role, meaning).within(0.5..=1.5).or(1.0)
+    }
+
+    /// The columns depend on it; `search` says where to look for it.
+    #[must_use]
+    pub const fn nonlinear(
+        name: &'static str,
+        unit: Unit,
+        search: Search,
+        meaning: &'static str,
+    ) -> Self {
+        let mut parameter = Self::new(name, unit, Role::Nonlinear, meaning);
+        parameter.search = search;
+        parameter
+    }
+
+    /// With these plausible values.
+    #[must_use]
+    pub const fn within(mut self, range: RangeInclusive<f64>) -> Self {
+        self.range = range;
+        self
+    }
+
+    /// With a default.
+    #[must_use]
+    pub const fn or(mut self, default: f64) -> Self {
+        self.default = Some(default);
+        self
+    }
+
+    /// Its name with its unit, as a key of results: `offset_mm`.
+    #[must_use]
+    pub fn key(&self) -> String {
+        match self.unit.suffix().as_str() {
+            "" => self.name.to_string(),
+            suffix => format!("{}_{suffix}", self.name),
+        }
+    }
+
+    /// True when the design columns depend on it.
+    #[must_use]
+    pub fn is_nonlinear(&self) -> bool {
+        self.role == Role::Nonlinear
+    }
+}
+
+/// What an effect is worked out for.
+#[derive(Clone, Copy, Debug)]
+pub struct Context<'a> {
+    /// The machine.
+    pub machine: &'a Machine,
+    /// The logged columns that instants will carry.
+    pub columns: &'a Columns,
+}
+
+/// A formula with all its numbers put in: δ in µm (arcsec on a rotary chain).
+pub trait Effect: fmt::Debug + Send + Sync {
+    /// δ at an instant.
+    fn delta_um(&self, now: &Instant<'_>) -> f64;
+
+    /// δ for every sample; an effect with a memory overrides this and looks at the samples before.
+    fn deltas_um(&self, record: &Record) -> Vec<f64> {
+        record.instants().map(|now| self.delta_um(&now)).collect()
+    }
+
+    /// How fast δ can change in time while the spindle turns at constant speed.
+    ///
+    /// Lets the solver of [`crate::edges`] replace the formula by polynomials with a proven
+    /// error; [`Smoothness::Rough`] makes it evaluate the formula each time.
+    fn smoothness(&self, _speed_rad_s: f64, _travel_mm_s: f64) -> Smoothness {
+        Smoothness::Rough
+    }
+
+    /// True when δ depends on [`Instant::error_um`], so that it has to be evaluated last.
+    fn feeds_back(&self) -> bool {
+        false
+    }
+}
+
+/// Bound on an effect between two reversals.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Smoothness {
+    /// A polynomial in time of degree 11 at most.
+    Polynomial,
+    /// The twelfth derivative in time stays below `amplitude_um · rate¹²`.
+    Band {
+        /// Scale, µm.
+        amplitude_um: f64,
+        /// Rate, 1/s.
+        rate_per_s: f64,
+    },
+    /// Nothing is promised.
+    Rough,
+}
+
+/// Unit effects that add up to an effect: δ = Σ coefficient · column + fixed.
+#[derive(Debug, Default)]
+pub struct Basis {
+    /// One for each coefficient, in the order of the parameters; a phase adds the cosine column.
+    pub columns: Vec<Box<dyn Effect>>,
+    /// What does not scale with any parameter, such as a sawtooth whose height is its period.
+    pub fixed: Option<Box<dyn Effect>>,
+}
+
+impl Basis {
+    /// A basis of one column.
+    pub fn one(column: impl Effect + 'static) -> Self {
+        Self { columns: vec![Box::new(column)], fixed: None }
+    }
+
+    /// A basis of a sine and a cosine column.
+    pub fn two(sine: impl Effect + 'static, cosine: impl Effect + 'static) -> Self {
+        Self { columns: vec![Box::new(sine), Box::new(cosine)], fixed: None }
+    }
+
+    /// A basis without coefficients.
+    pub fn fixed(effect: impl Effect + 'static) -> Self {
+        Self { columns: Vec::new(), fixed: Some(Box::new(effect)) }
+    }
+}
+
+/// Everything there is to know of an effect: simulation, fit, ranking, advice and guide read it.
+#[derive(Debug)]
+pub struct Card {
+    /// Its name in a machine file.
+    pub kind: &'static str,
+    /// Where it enters.
+    pub entry: Entry,
+    /// What happens, in one sentence.
+    pub summary: &'static str,
+    /// δ in µm; the symbols are those of the effect's page.
+    pub formula: &'static str,
+    /// Its numbers, in the order of `values`.
+    pub parameters: &'static [Parameter],
+    /// Logged columns it cannot do without.
+    pub needs: &'static [&'static str],
+    /// What gives it away in data.
+    pub signature: &'static str,
+    /// Other effects that look alike.
+    pub confused_with: &'static [&'static str],
+    /// The experiment that tells them apart.
+    pub separated_by: &'static str,
+    /// Where the formula and the numbers come from.
+    pub source: &'static str,
+    /// True when it is chance, so that its size can be estimated but not its course.
+    pub random: bool,
+    /// True when it must be looked for in data; false when it is a means of simulation only.
+    pub candidate: bool,
+    /// The unit effects for given values of the nonlinear parameters, in their order.
+    pub basis: fn(&Context<'_>, &[f64]) -> Result<Basis, EffectError>,
+}

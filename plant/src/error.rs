@@ -1,0 +1,162 @@
+//! What can be wrong with a machine file, and where.
+
+use std::path::{Path, PathBuf};
+
+use helixlock_traces::At;
+
+/// The place of byte `offset` of `text`.
+pub(crate) fn place(path: &Path, text: &str, offset: usize) -> At {
+    let before = text.get(..offset).unwrap_or(text);
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    At::file(path)
+        .on_line(before.matches('\n').count() + 1)
+        .at_column(before[line_start..].chars().count() + 1)
+}
+
+/// Why a machine file was refused; each message says where, what was found, what was expected.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum MachineError {
+    /// The file could not be read at all.
+    #[error("{}: cannot be read", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The file is not UTF-8 text.
+    #[error("{}:{line}: found bytes that are not UTF-8, expected text", path.display())]
+    Encoding {
+        /// The file.
+        path: PathBuf,
+        /// Line of the first such byte.
+        line: usize,
+    },
+    /// The file is not TOML.
+    #[error("{at}: {message}")]
+    Syntax {
+        /// Where reading stopped.
+        at: At,
+        /// What the TOML reader found and expected.
+        message: Box<str>,
+    },
+    /// A key no table has.
+    #[error("{at}: unknown key `{found}` in `{table}`, expected one of {expected}")]
+    UnknownKey {
+        /// Where the key stands.
+        at: At,
+        /// The table.
+        table: Box<str>,
+        /// The key.
+        found: Box<str>,
+        /// The keys this table takes.
+        expected: Box<str>,
+    },
+    /// A table or key that has no default.
+    #[error("{at}: `{key}` is missing, expected for example `{example}`")]
+    Missing {
+        /// The table it belongs into, or the first line for a table.
+        at: At,
+        /// The key, with its table.
+        key: Box<str>,
+        /// A line that would do.
+        example: Box<str>,
+    },
+    /// A value of another kind or with another unit.
+    #[error("{at}: `{key}` is {found}, expected {expected}")]
+    Value {
+        /// Where the value stands.
+        at: At,
+        /// The key, with its table.
+        key: Box<str>,
+        /// The value as written.
+        found: Box<str>,
+        /// What would do.
+        expected: Box<str>,
+    },
+    /// Two lines that cannot both hold.
+    #[error("{at}: `{key}` is {found}, but {conflict}")]
+    Conflict {
+        /// Where the value stands.
+        at: At,
+        /// The key, with its table.
+        key: Box<str>,
+        /// The value as written.
+        found: Box<str>,
+        /// What speaks against it.
+        conflict: Box<str>,
+    },
+    /// An effect that the machine or its surroundings cannot carry.
+    #[error("{at}: {source}")]
+    Effect {
+        /// The `[[effect]]`.
+        at: At,
+        /// Why.
+        source: Box<EffectError>,
+    },
+    /// A file the machine file names.
+    #[error("{at}: `{key}` names `{found}`: {message}")]
+    Companion {
+        /// Where it is named.
+        at: At,
+        /// The key, with its table.
+        key: Box<str>,
+        /// The file.
+        found: Box<str>,
+        /// What is wrong with it.
+        message: Box<str>,
+    },
+    /// A position in the list of effects that does not exist.
+    #[error("{}: effect {index} does not exist, there are {count}", path.display())]
+    NoSuchEffect {
+        /// The file.
+        path: PathBuf,
+        /// The position asked for, from 1.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+}
+
+/// Why an effect cannot be worked out.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum EffectError {
+    /// It is driven by a column that is not there.
+    #[error("effect `{effect}` needs the column `{column}`, which is not there")]
+    MissingColumn {
+        /// The effect.
+        effect: String,
+        /// The column.
+        column: String,
+    },
+    /// It is driven by a part of the machine that the file does not describe.
+    #[error("effect `{effect}` needs `{section}` in the machine file")]
+    MissingSection {
+        /// The effect.
+        effect: String,
+        /// The section.
+        section: &'static str,
+    },
+    /// The number of values is not the number of parameters.
+    #[error("effect `{effect}` got {found} values, expected {expected}")]
+    ValueCount {
+        /// The effect.
+        effect: String,
+        /// How many were given.
+        found: usize,
+        /// How many it takes.
+        expected: usize,
+    },
+    /// A formula of the user that is not one.
+    #[error("formula `{formula}` of effect `{effect}`: {message}")]
+    Formula {
+        /// The effect.
+        effect: String,
+        /// The formula.
+        formula: String,
+        /// What is wrong.
+        message: String,
+    },
+}

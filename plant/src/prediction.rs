@@ -1,0 +1,209 @@
+//! What recorder, counter and finished screw show, in closed form.
+//!
+//! | entry | recorder, open | recorder, closed | counter, closed | thread, open | thread, closed |
+//! |---|---|---|---|---|---|
+//! | motion | −δ | 0 | −δ/step | +δ | 0 |
+//! | length reference | +δ | 0 | +δ/step | 0 | +δ |
+//! | angle reference | +δ | 0 | +δ/step | 0 | +δ |
+//! | workpiece | 0 | 0 | 0 | +δ | +δ |
+//! | electronics | +δ | 0 | +δ/step | 0 | +δ |
+//! | actuator | +δ | 0 | +δ/step | −δ | 0 |
+//!
+//! An actuator effect is a function of the steps; without steps its δ is 0, so an open loop shows
+//! nothing of it unless the record says that steps were taken by hand. Closed, the loop is taken
+//! to be perfect: what it leaves (hunting, lag, slew) is the cycle-accurate run's to say.
+//!
+//! Each pass has its own zero: everything is counted from its first sample.
+
+use crate::{Effect, EffectError, Entry, LowPass, Machine, Record, record::Covariate, term::Sum};
+
+/// Something that records an error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Sensor {
+    /// `error_um` (`error_arcsec` on a rotary chain): positive when the laser lags.
+    Recorder,
+    /// `steps`: net steps of the corrector, forward positive.
+    Counter,
+    /// `lead_error_um`: positive when the thread is too long.
+    Thread,
+}
+
+impl Sensor {
+    /// All sensors.
+    pub const ALL: [Self; 3] = [Self::Recorder, Self::Counter, Self::Thread];
+}
+
+/// How much of an effect of 1 µm a sensor shows, in its unit.
+#[must_use]
+pub fn gain(machine: &Machine, entry: Entry, sensor: Sensor) -> f64 {
+    let (open, closed) = match entry {
+        Entry::Motion => ([-1.0, 0.0, 1.0], [0.0, -1.0, 0.0]),
+        Entry::LengthReference | Entry::AngleReference | Entry::Electronics => {
+            ([1.0, 0.0, 0.0], [0.0, 1.0, 1.0])
+        }
+        Entry::Workpiece => ([0.0, 0.0, 1.0], [0.0, 0.0, 1.0]),
+        Entry::Actuator => ([1.0, 0.0, -1.0], [0.0, 1.0, 0.0]),
+    };
+    let [recorder, counter_um, thread] = if machine.loop_closed { closed } else { open };
+    match sensor {
+        Sensor::Recorder => recorder,
+        Sensor::Counter => counter_um / machine.drive.step_um,
+        Sensor::Thread => thread,
+    }
+}
+
+/// What each sensor shows for each sample of a record.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Prediction {
+    /// Recorder, µm (arcsec on a rotary chain), through its filter.
+    pub error_um: Vec<f64>,
+    /// Counter, in steps, not rounded.
+    pub steps: Vec<f64>,
+    /// Finished thread, µm.
+    pub lead_error_um: Vec<f64>,
+}
+
+impl Prediction {
+    /// The column of a sensor.
+    #[must_use]
+    pub fn of(&self, sensor: Sensor) -> &[f64] {
+        match sensor {
+            Sensor::Recorder => &self.error_um,
+            Sensor::Counter => &self.steps,
+            Sensor::Thread => &self.lead_error_um,
+        }
+    }
+}
+
+/// Predicts all sensors for a machine with the effects of its file.
+///
+/// # Errors
+///
+/// [`EffectError`] when an effect needs a column or section that is missing.
+pub fn predict(machine: &Machine, record: &Record) -> Result<Prediction, EffectError> {
+    let effects = machine
+        .effects
+        .iter()
+        .map(|term| Ok((term.entry, term.effect(machine, &record.columns)?)))
+        .collect::<Result<Vec<_>, EffectError>>()?;
+    let record = Record { error_um: meter_um(machine, record, &effects), ..record.clone() };
+    let mut shown = Sensor::ALL.map(|sensor| implied(machine, &record, sensor));
+    for (entry, effect) in &effects {
+        let deltas = effect.deltas_um(&record);
+        for (sensor, shown) in Sensor::ALL.into_iter().zip(&mut shown) {
+            let factor = gain(machine, *entry, sensor);
+            if factor != 0.0 {
+                shown.iter_mut().zip(&deltas).for_each(|(sum, delta)| *sum += factor * delta);
+            }
+        }
+    }
+    let [recorder, counter, thread] =
+        [(0, Sensor::Recorder), (1, Sensor::Counter), (2, Sensor::Thread)]
+            .map(|(index, sensor)| settle(machine, &record, sensor, &shown[index]));
+    Ok(Prediction { error_um: recorder, steps: counter, lead_error_um: thread })
+}
+
+/// A design column: what `sensor` shows of an effect whose δ is `deltas_um`.
+///
+/// It is linear in the deltas: gain of the entry, zero at the start of each pass, and for the
+/// recorder its filter. Zeros everywhere when the sensor does not see the entry.
+#[must_use]
+pub fn observe(
+    machine: &Machine,
+    record: &Record,
+    entry: Entry,
+    sensor: Sensor,
+    deltas_um: &[f64],
+) -> Vec<f64> {
+    let factor = gain(machine, entry, sensor);
+    if factor == 0.0 {
+        return vec![0.0; record.len()];
+    }
+    let scaled: Vec<_> = deltas_um.iter().map(|delta| factor * delta).collect();
+    settle(machine, record, sensor, &scaled)
+}
+
+/// Error at the meter without the effects that depend on it, each pass from its own zero, µm.
+///
+/// Put it into [`Record::error_um`] before a feedback effect is worked out on a record.
+#[must_use]
+pub fn meter_um(machine: &Machine, record: &Record, effects: &[(Entry, Sum)]) -> Vec<f64> {
+    if machine.loop_closed {
+        return vec![0.0; record.len()];
+    }
+    let mut error_um = implied(machine, record, Sensor::Recorder);
+    for (entry, effect) in effects.iter().filter(|(_, effect)| !effect.feeds_back()) {
+        let factor = gain(machine, *entry, Sensor::Recorder);
+        if factor != 0.0 {
+            let deltas = effect.deltas_um(record);
+            error_um.iter_mut().zip(&deltas).for_each(|(sum, delta)| *sum += factor * delta);
+        }
+    }
+    zeroed(record, &error_um)
+}
+
+/// What the machine file itself implies, before zero and filter: the slope that the dividers leave
+/// against the laser's own number of fringes, the compensation that is set, steps made by hand.
+#[must_use]
+pub fn implied(machine: &Machine, record: &Record, sensor: Sensor) -> Vec<f64> {
+    if machine.rotary {
+        return vec![0.0; record.len()];
+    }
+    let slope_um_per_mm = implied_um_per_m(machine) / 1000.0;
+    let slope = slope_um_per_mm * gain(machine, Entry::LengthReference, sensor);
+    let by_hand = if machine.loop_closed {
+        0.0
+    } else {
+        machine.drive.step_um * gain(machine, Entry::Motion, sensor)
+    };
+    record
+        .instants()
+        .map(|now| {
+            let steps = now.covariate(Covariate::Steps);
+            let moved = if by_hand == 0.0 || steps.is_nan() { 0.0 } else { by_hand * steps };
+            slope * now.position_mm + moved
+        })
+        .collect()
+}
+
+/// Slope of the recorder, µm/m, from rationalisation and compensation.
+///
+/// `M·B·λ/(2·S·A) − 1` of the travel; −0.846 µm/m for A 110, B 150 and the wavelength as printed
+/// in document 1. A compensation blocks (+) or inserts (−) one pulse in each cycle.
+#[must_use]
+pub fn implied_um_per_m(machine: &Machine) -> f64 {
+    let dividers = &machine.dividers;
+    let fringes_per_turn =
+        f64::from(machine.grating.lines) * f64::from(dividers.b) / f64::from(dividers.a);
+    let rational_mm = fringes_per_turn * machine.fringe_um() / 1000.0;
+    let lead_mm = machine.workpiece.lead.mm();
+    let rationalisation = (rational_mm - lead_mm) / lead_mm * 1e6;
+    let compensation = dividers.compensation_cycle().map_or(0.0, |cycle| {
+        libm::copysign(1e6 / f64::from(cycle), dividers.compensation_um_per_m)
+    });
+    rationalisation + compensation
+}
+
+/// Zero of each pass, and the recorder's filter.
+fn settle(machine: &Machine, record: &Record, sensor: Sensor, shown: &[f64]) -> Vec<f64> {
+    let zeroed = zeroed(record, shown);
+    let cutoff_hz = machine.filter_cutoff_hz.filter(|_| sensor == Sensor::Recorder);
+    let Some(cutoff_hz) = cutoff_hz else { return zeroed };
+    let mut filtered = Vec::with_capacity(zeroed.len());
+    for rows in record.passes() {
+        let filter = LowPass::with_cutoff(cutoff_hz);
+        filtered.extend(filter.pass(&record.time_s[rows.clone()], &zeroed[rows]));
+    }
+    filtered
+}
+
+/// Values counted from the first sample of each pass that has one.
+fn zeroed(record: &Record, values: &[f64]) -> Vec<f64> {
+    let mut zeroed = Vec::with_capacity(values.len());
+    for rows in record.passes() {
+        let pass = &values[rows];
+        let zero = pass.iter().copied().find(|value| value.is_finite()).unwrap_or_default();
+        zeroed.extend(pass.iter().map(|value| value - zero));
+    }
+    zeroed
+}

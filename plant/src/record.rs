@@ -1,0 +1,280 @@
+//! Where and when: one instant of a run, or a whole record of samples.
+
+use std::f64::consts::TAU;
+
+use crate::Machine;
+
+/// Logged quantities that effects know by name; the place in this list is the index of the column.
+pub const COVARIATES: &[&str] = &[
+    "air_temperature_c",
+    "air_pressure_hpa",
+    "humidity_pct",
+    "workpiece_temperature_c",
+    "bed_temperature_c",
+    "bed_pitch_arcsec",
+    "force_n",
+    "initial_phase",
+    "grating_index_deg",
+    "clamping_index_deg",
+    "steps",
+];
+
+/// Index of [`COVARIATES`], for effects to read `now.covariates`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(usize)]
+pub enum Covariate {
+    /// Air along the laser beam, °C.
+    AirTemperature,
+    /// Air pressure, hPa.
+    AirPressure,
+    /// Relative humidity, %.
+    Humidity,
+    /// Workpiece, °C.
+    WorkpieceTemperature,
+    /// Bed, °C.
+    BedTemperature,
+    /// Pitch of the carriage on the bed, seconds of arc.
+    BedPitch,
+    /// Normal grinding force, N.
+    Force,
+    /// Laser pulses of the initial phase selection.
+    InitialPhase,
+    /// How far the grating disc has been turned on its hub, °.
+    GratingIndex,
+    /// How far the workpiece has been turned in its clamping, °.
+    ClampingIndex,
+    /// Net steps the corrector was told to take.
+    Steps,
+}
+
+/// Names of the columns behind `covariates`, and which of them hold anything.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Columns {
+    names: Vec<String>,
+    present: Vec<bool>,
+}
+
+impl Default for Columns {
+    fn default() -> Self {
+        let names: Vec<_> = COVARIATES.iter().map(ToString::to_string).collect();
+        let present = vec![false; names.len()];
+        Self { names, present }
+    }
+}
+
+impl Columns {
+    /// All of [`COVARIATES`] in their order, then the others among `present` in theirs.
+    pub fn new<'a>(present: impl IntoIterator<Item = &'a str>) -> Self {
+        let mut columns = Self::default();
+        for name in present {
+            if let Some(index) = columns.index(name) {
+                columns.present[index] = true;
+            } else {
+                columns.names.push(name.into());
+                columns.present.push(true);
+            }
+        }
+        columns
+    }
+
+    /// Index of a column in `covariates`, present or not.
+    #[must_use]
+    pub fn index(&self, name: &str) -> Option<usize> {
+        self.names.iter().position(|known| known == name)
+    }
+
+    /// True when the column holds values.
+    #[must_use]
+    pub fn has(&self, name: &str) -> bool {
+        self.index(name).is_some_and(|index| self.present[index])
+    }
+
+    /// Number of columns, present or not.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.names.len()
+    }
+
+    /// True when there are no columns, which never happens.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.names.is_empty()
+    }
+
+    /// Names of the columns that hold values.
+    pub fn present(&self) -> impl Iterator<Item = &str> {
+        self.names.iter().zip(&self.present).filter(|(_, there)| **there).map(|(n, _)| n.as_str())
+    }
+}
+
+/// One moment of a run, as far as an effect may know it.
+#[derive(Clone, Copy, Debug)]
+pub struct Instant<'a> {
+    /// Time since the start of the record, s.
+    pub time_s: f64,
+    /// Nominal travel on the workpiece, mm; falls in a reverse pass.
+    pub position_mm: f64,
+    /// Spindle angle, rad, counted on over the turns.
+    pub spindle_rad: f64,
+    /// Spindle speed, turns a minute, without sign.
+    pub speed_rpm: f64,
+    /// +1 forward, −1 in reverse.
+    pub direction: f64,
+    /// Pass, from 0.
+    pub pass: usize,
+    /// Way since the start of the pass, mm, never falling.
+    pub travelled_mm: f64,
+    /// Way since the last reversal inside this pass, mm; infinite before the first.
+    pub since_reversal_mm: f64,
+    /// What the meter would show without the effects that depend on it, µm, laser lag positive.
+    pub error_um: f64,
+    /// Logged quantities, indexed by [`Covariate`], then by [`Columns`]; NaN where missing.
+    pub covariates: &'a [f64],
+}
+
+impl Instant<'_> {
+    /// A logged quantity, or NaN.
+    #[must_use]
+    pub fn covariate(&self, which: Covariate) -> f64 {
+        self.covariates.get(which as usize).copied().unwrap_or(f64::NAN)
+    }
+
+    /// Nominal travel, m.
+    #[must_use]
+    pub fn position_m(&self) -> f64 {
+        self.position_mm / 1000.0
+    }
+}
+
+/// Samples of one or more passes, as columns of equal length, ordered as they were taken.
+#[derive(Clone, Debug, Default)]
+pub struct Record {
+    /// Time since the start of the record, s.
+    pub time_s: Vec<f64>,
+    /// Nominal travel, mm.
+    pub position_mm: Vec<f64>,
+    /// Spindle angle, rad.
+    pub spindle_rad: Vec<f64>,
+    /// Spindle speed, turns a minute.
+    pub speed_rpm: Vec<f64>,
+    /// +1 or −1.
+    pub direction: Vec<f64>,
+    /// Pass, from 0, in blocks: a number never comes back.
+    pub pass: Vec<usize>,
+    /// Way since the start of the pass, mm.
+    pub travelled_mm: Vec<f64>,
+    /// Way since the last reversal inside the pass, mm; infinite before the first.
+    pub since_reversal_mm: Vec<f64>,
+    /// What the meter would show without the effects that depend on it, µm; zeros until set.
+    pub error_um: Vec<f64>,
+    /// Names behind the covariates.
+    pub columns: Columns,
+    pub(crate) covariates: Vec<f64>,
+}
+
+/// What is known of where each sample was taken; at least one of the first three is needed.
+#[derive(Clone, Debug, Default)]
+pub struct Samples {
+    /// Time, s, any zero.
+    pub time_s: Option<Vec<f64>>,
+    /// Travel, mm.
+    pub position_mm: Option<Vec<f64>>,
+    /// Spindle angle, turns.
+    pub angle_rev: Option<Vec<f64>>,
+    /// Spindle speed, turns a minute; the machine file's when absent.
+    pub speed_rpm: Option<Vec<f64>>,
+    /// +1 or −1; from the travel when absent.
+    pub direction: Option<Vec<f64>>,
+    /// Pass numbers as logged; one pass when absent.
+    pub pass: Option<Vec<f64>>,
+    /// Any other columns, with their names; all as long as the first ones.
+    pub covariates: Vec<(String, Vec<f64>)>,
+}
+
+impl Record {
+    /// Works out what the samples do not say, from the machine's lead and speed.
+    ///
+    /// Travel and angle follow from each other by the lead; time from the travel and the speed,
+    /// one pass after the other; travel from the time at the speed, backwards where `direction`
+    /// is −1. `None` when none of time, travel, and angle is there.
+    #[must_use]
+    pub fn new(machine: &Machine, samples: &Samples) -> Option<Self> {
+        crate::samples::complete(machine, samples)
+    }
+
+    /// Number of samples.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.time_s.len()
+    }
+
+    /// True when there is no sample.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.time_s.is_empty()
+    }
+
+    /// One sample as an instant.
+    ///
+    /// # Panics
+    ///
+    /// When `index` is not below [`Self::len`].
+    #[must_use]
+    pub fn instant(&self, index: usize) -> Instant<'_> {
+        let width = self.columns.len();
+        Instant {
+            time_s: self.time_s[index],
+            position_mm: self.position_mm[index],
+            spindle_rad: self.spindle_rad[index],
+            speed_rpm: self.speed_rpm[index],
+            direction: self.direction[index],
+            pass: self.pass[index],
+            travelled_mm: self.travelled_mm[index],
+            since_reversal_mm: self.since_reversal_mm[index],
+            error_um: self.error_um[index],
+            covariates: &self.covariates[index * width..(index + 1) * width],
+        }
+    }
+
+    /// All samples as instants.
+    pub fn instants(&self) -> impl Iterator<Item = Instant<'_>> {
+        (0..self.len()).map(|index| self.instant(index))
+    }
+
+    /// A logged column, or `None` when it is not there.
+    #[must_use]
+    pub fn column(&self, name: &str) -> Option<Vec<f64>> {
+        let index = self.columns.index(name).filter(|_| self.columns.has(name))?;
+        Some(self.instants().map(|now| now.covariates[index]).collect())
+    }
+
+    /// Sets logged columns; each is as long as the record.
+    #[must_use]
+    pub fn with_covariates(mut self, columns: &[(String, Vec<f64>)]) -> Self {
+        self.columns = Columns::new(columns.iter().map(|(name, _)| name.as_str()));
+        let width = self.columns.len();
+        self.covariates = vec![f64::NAN; width * self.len()];
+        for (name, values) in columns {
+            let Some(column) = self.columns.index(name) else { continue };
+            for (row, value) in self.covariates.chunks_exact_mut(width).zip(values) {
+                row[column] = *value;
+            }
+        }
+        self
+    }
+
+    /// Rows of each pass, in order.
+    #[must_use]
+    pub fn passes(&self) -> Vec<std::ops::Range<usize>> {
+        let mut starts: Vec<_> = (0..self.len())
+            .filter(|&row| row == 0 || self.pass[row] != self.pass[row - 1])
+            .collect();
+        starts.push(self.len());
+        starts.windows(2).map(|pair| pair[0]..pair[1]).filter(|rows| !rows.is_empty()).collect()
+    }
+
+    /// Turns of the spindle since its zero.
+    pub fn turns(&self) -> impl Iterator<Item = f64> {
+        self.spindle_rad.iter().map(|rad| rad / TAU)
+    }
+}
