@@ -1,25 +1,51 @@
 //! Cycle-accurate simulation of the device in closed loop with the machine.
 
+mod appraisal;
 mod circuit;
+mod closed_loop;
 mod compiled;
 mod device;
+mod device_pins;
 mod engine;
+mod error;
 mod interpreted_pieces;
 mod interpreter;
 mod leap;
+mod low_pass;
 mod moment;
+mod pass;
+mod pins;
+mod probe;
 #[cfg(test)]
 mod random_design;
+mod recorder;
 mod state;
+mod swing;
+mod vcd_file;
+mod wheels;
 #[allow(dead_code, reason = "a design may do without shifts")]
 mod words;
 
+pub use appraisal::{
+    Hunting, LeadAppraisal, appraise_lead, fastest_um_per_s, measure_hunting, peak_to_peak,
+};
 pub use circuit::Circuit;
+pub use closed_loop::{ClosedLoop, Place, Process, Sample};
 pub use compiled::{Compiled, DenseKernel};
 pub use device::{DeviceEngine, DeviceKernel, device, device_engine, stepped_device};
+pub use device_pins::DevicePins;
 pub use engine::{Engine, Stop};
+pub use error::Error;
 pub use interpreted_pieces::InterpretedPieces;
 pub use interpreter::Interpreter;
 pub use leap::Leap;
+pub use low_pass::filtered_um;
 pub use moment::{Coasting, Kernel, Moment};
+pub use pass::{Pass, PassPlan, Playback, Trace, run_pass};
+pub use pins::{PULSE_CLOCKS, PulsePin, clock_of, time_of};
+pub use probe::{Analogue, Change, Probe, Waveform, signals_of};
+pub use recorder::{Comparison, Recorder, unwrap_um};
 pub use state::{FlipFlops, Snapshot, SnapshotError, differences};
+pub use swing::{Progress, Swing};
+pub use vcd_file::{ANALOGUE, SHOWN_FIRST, write_vcd};
+pub use wheels::set_wheels;

@@ -89,6 +89,13 @@ impl<W: Write> VcdWriter<W> {
         Ok(Self { out: Dump(out), variables: written, time: 0, stamped: None })
     }
 
+    /// Puts the first values at this time instead of 0; has no effect once they are out.
+    pub fn begin_at(&mut self, ticks: u64) {
+        if self.stamped.is_none() {
+            self.time = ticks;
+        }
+    }
+
     /// Goes on to a later time, in ticks; what is set before the first call are first values.
     ///
     /// # Errors
@@ -157,8 +164,8 @@ impl<W: Write> VcdWriter<W> {
     }
 
     fn first_values(&mut self) -> io::Result<()> {
-        self.out.0.timestamp(0)?;
-        self.stamped = Some(0);
+        self.out.0.timestamp(self.time)?;
+        self.stamped = Some(self.time);
         self.out.0.begin(SimulationCommand::Dumpvars)?;
         for variable in 0..self.variables.len() {
             self.write(variable)?;

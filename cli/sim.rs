@@ -1,0 +1,100 @@
+//! `helixlock sim`: grinds a workpiece without and with the correction.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Args;
+use helixlock_plant::Machine;
+use helixlock_sim::{Course, Options, Simulation, simulate, write_vcd};
+use helixlock_traces::csv::write_csv;
+
+use crate::output::{folder, write_whole};
+use crate::pages;
+use crate::progress;
+use crate::sim_summary::Summary;
+use crate::sim_table;
+
+/// Grind a workpiece clock by clock, without and with the correction
+///
+/// Writes `trace.csv`, `wave.vcd`, `wave.gtkw`, `summary.json` and `report.html` into the folder.
+#[derive(Debug, Args)]
+pub(crate) struct Sim {
+    /// Machine file
+    #[arg(value_name = "MACHINE.toml")]
+    machine: PathBuf,
+    /// Folder for the results
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// What the waveform shows: `top`, `all`, an instance such as `phase_meter`, or a signal
+    #[arg(long = "scope", value_name = "SCOPE", default_value = "top")]
+    scopes: Vec<String>,
+    /// Begin of the waveform, s [default: begin of the pass]
+    #[arg(long, value_name = "SECONDS")]
+    from: Option<f64>,
+    /// End of the waveform, s [default: five comparisons later]
+    #[arg(long, value_name = "SECONDS")]
+    to: Option<f64>,
+    /// Grind only the first so many millimetres
+    #[arg(long, value_name = "MM", value_parser = length)]
+    length: Option<f64>,
+    /// Print the summary as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Sim {
+    /// Simulates, writes, and prints the summary.
+    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+        let machine = Machine::read(&self.machine)?;
+        let options = Options {
+            length_mm: self.length,
+            scopes: self.scopes.clone(),
+            from_s: self.from,
+            to_s: self.to,
+        };
+        let bar = progress::bar(Course::new(&machine, &options)?.clocks(), "clocks");
+        let simulation = simulate(&machine, &options, &mut |clocks| bar.set_position(clocks))?;
+        bar.finish_and_clear();
+        let summary = Summary::new(&self.machine, &machine, &simulation);
+        write_files(&self.output, &machine, &simulation, &summary)?;
+        if self.json {
+            writeln!(out, "{}", summary.json()?)?;
+        } else {
+            summary.print(out)?;
+            writeln!(out, "\n{}: report, trace, waveform", self.output.display())?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+fn write_files(
+    output: &Path,
+    machine: &Machine,
+    simulation: &Simulation,
+    summary: &Summary,
+) -> anyhow::Result<()> {
+    let page = pages::sim::page(machine, simulation, summary)?;
+    folder(output)?;
+    write_whole(&output.join("trace.csv"), |mut file| {
+        Ok(write_csv(&sim_table::table(machine, simulation), &mut file)?)
+    })?;
+    if let Some(waveform) = &simulation.closed.waveform {
+        let clock_hz = simulation.course.clock_hz;
+        write_whole(&output.join("wave.vcd"), |file| Ok(write_vcd(file, waveform, clock_hz)?))?;
+        let view = sim_table::gtkwave_view(waveform);
+        write_whole(&output.join("wave.gtkw"), |file| Ok(file.write_all(view.as_bytes())?))?;
+    }
+    let json = summary.json()?;
+    write_whole(&output.join("summary.json"), |file| Ok(writeln!(file, "{json}")?))?;
+    write_whole(&output.join("report.html"), |file| Ok(file.write_all(page.as_bytes())?))
+}
+
+/// A length on the command line.
+fn length(text: &str) -> Result<f64, String> {
+    let number: f64 = text.parse().map_err(|_| String::from("expected a number of millimetres"))?;
+    if 0.0 < number && number.is_finite() {
+        return Ok(number);
+    }
+    Err("expected more than 0 mm".into())
+}

@@ -1,0 +1,50 @@
+//! What can go wrong between a machine file and its run.
+
+use helixlock_rtl::settings::SettingsError as WheelError;
+use thiserror::Error;
+
+/// A machine that cannot be simulated, or a window that is not there.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A wheel cannot show its number.
+    #[error(transparent)]
+    Wheels(#[from] WheelError),
+    /// Lines or fringes come faster than the FPGA clock can sample them.
+    #[error(
+        "{input}: pulses at {time_s:.6} s come too fast for a clock of {clock_hz} Hz, \
+         expected at least four clocks from one to the next"
+    )]
+    PulsesTooFast {
+        /// Input pin.
+        input: &'static str,
+        /// When, s.
+        time_s: f64,
+        /// FPGA clock, Hz.
+        clock_hz: f64,
+    },
+    /// The design lacks a signal that the closed loop needs.
+    #[error("the design has no signal `{path}`")]
+    NoSignal {
+        /// Path of the signal.
+        path: String,
+    },
+    /// No scope or signal of that name.
+    #[error("scope `{scope}` is not in the design, expected one of: {}", .known.join(", "))]
+    NoScope {
+        /// What was asked for.
+        scope: String,
+        /// Scopes there are.
+        known: Vec<String>,
+    },
+    /// The window shows nothing of the run.
+    #[error("window from {from_s} s to {to_s} s: expected a part of 0 s to {end_s} s")]
+    Window {
+        /// Asked for, s.
+        from_s: f64,
+        /// Asked for, s.
+        to_s: f64,
+        /// End of the run, s.
+        end_s: f64,
+    },
+}

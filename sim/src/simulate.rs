@@ -1,0 +1,166 @@
+//! A machine file in, two passes out: without and with the correction.
+
+use helixlock_netlist::Netlist;
+use helixlock_plant::Machine;
+
+use crate::pass::{Pass, PassPlan, run_pass};
+use crate::probe::{Probe, signals_of};
+use crate::settings::{Dialled, settings_for};
+use crate::{DeviceEngine, Engine, Error, device_engine, grinder::Grinder, pins::clock_of};
+
+/// Comparisons that the waveform shows unless told otherwise, after the initial phase selection.
+const COMPARISONS_SHOWN: f64 = 5.0;
+
+/// Steps the counter can hold; playing back takes no longer than these.
+const MOST_STEPS: f64 = 4096.0;
+
+/// What to simulate beyond what the machine file says.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// Only this much of the workpiece, from its beginning, mm.
+    pub length_mm: Option<f64>,
+    /// Scopes of the waveform; none for no waveform.
+    pub scopes: Vec<String>,
+    /// Window of the waveform, s; by default the beginning of the pass.
+    pub from_s: Option<f64>,
+    /// Its end, s.
+    pub to_s: Option<f64>,
+}
+
+/// What is fixed before the first clock.
+#[derive(Clone, Copy, Debug)]
+pub struct Course {
+    /// Settings of the device.
+    pub dialled: Dialled,
+    /// FPGA clock, Hz.
+    pub clock_hz: u64,
+    /// Length ground, mm.
+    pub length_mm: f64,
+    /// How long a pass takes, s.
+    pub duration_s: f64,
+    /// Table travel of one turn of phase, µm.
+    pub full_scale_um: f64,
+    /// Comparisons a second, nominal.
+    pub comparison_hz: f64,
+    /// What the motor moves in one comparison, µm.
+    pub swing_um: f64,
+    /// The fastest error the motor follows, µm/s.
+    pub slew_limit_um_per_s: f64,
+    /// Travel in one turn of the machine's screw, mm.
+    pub turn_mm: f64,
+}
+
+/// Both passes.
+#[derive(Clone, Debug)]
+pub struct Simulation {
+    /// What was fixed before.
+    pub course: Course,
+    /// Loop open.
+    pub open: Pass,
+    /// Loop closed, played back at the end.
+    pub closed: Pass,
+}
+
+impl Course {
+    /// Works out a run of `machine`.
+    ///
+    /// # Errors
+    ///
+    /// [`Error`] when the device cannot serve the machine.
+    pub fn new(machine: &Machine, options: &Options) -> Result<Self, Error> {
+        let dialled = settings_for(machine)?;
+        let length_mm = match options.length_mm {
+            Some(asked) => asked.min(machine.workpiece.length_mm),
+            None => machine.workpiece.length_mm,
+        };
+        let slew_limit_um_per_s = dialled.step_frequency_hz * machine.drive.step_um;
+        Ok(Self {
+            dialled,
+            clock_hz: whole_hz(machine.fpga.clock_hz),
+            length_mm,
+            duration_s: length_mm / machine.travel_mm_per_s(),
+            full_scale_um: machine.full_scale_um(),
+            comparison_hz: machine.comparison_hz(),
+            swing_um: slew_limit_um_per_s / machine.comparison_hz(),
+            slew_limit_um_per_s,
+            turn_mm: machine.lead_screw.unwrap_or(machine.workpiece.lead).mm(),
+        })
+    }
+
+    /// Clocks of both passes, without the playback.
+    #[must_use]
+    pub fn clocks(&self) -> u64 {
+        2 * clock_of(self.duration_s, self.clock_hz())
+    }
+
+    /// FPGA clock, Hz, as a number to multiply by.
+    #[must_use]
+    #[expect(clippy::cast_precision_loss, reason = "clocks are far below 2⁵³ Hz")]
+    pub fn clock_hz(&self) -> f64 {
+        self.clock_hz as f64
+    }
+
+    fn plan<'a>(
+        &self,
+        machine: &Machine,
+        correct: bool,
+        probe: Option<&'a Probe>,
+    ) -> PassPlan<'a> {
+        let playback_s = MOST_STEPS / self.dialled.step_frequency_hz;
+        PassPlan {
+            clock_hz: self.clock_hz(),
+            end_s: self.duration_s,
+            full_scale_um: self.full_scale_um,
+            cutoff_hz: machine.filter_cutoff_hz,
+            correct,
+            playback_s: correct.then_some(playback_s),
+            probe,
+        }
+    }
+
+    /// What the waveform shows.
+    fn probe(
+        &self,
+        machine: &Machine,
+        netlist: &Netlist,
+        options: &Options,
+    ) -> Result<Option<Probe>, Error> {
+        if options.scopes.is_empty() {
+            return Ok(None);
+        }
+        let selecting_s = f64::from(machine.dividers.initial_phase) * machine.fringe_um()
+            / (1000.0 * machine.travel_mm_per_s());
+        let from_s = options.from_s.unwrap_or(0.0);
+        let shown_s = COMPARISONS_SHOWN / self.comparison_hz;
+        let selecting_s = if options.from_s.is_some() { 0.0 } else { selecting_s };
+        let to_s = options.to_s.unwrap_or(from_s + selecting_s + shown_s).min(self.duration_s);
+        if !(0.0 <= from_s && from_s < to_s) {
+            return Err(Error::Window { from_s, to_s, end_s: self.duration_s });
+        }
+        let window = clock_of(from_s, self.clock_hz())..clock_of(to_s, self.clock_hz());
+        Ok(Some(Probe { signals: signals_of(netlist, &options.scopes)?, window }))
+    }
+}
+
+/// Grinds the workpiece twice, without and with the correction, clock by clock.
+///
+/// The waveform is that of the closed loop. `progress` is told how many of [`Course::clocks`] are
+/// done.
+///
+/// # Errors
+///
+/// [`Error`] when the device cannot serve the machine, or lines and fringes come too fast for it.
+pub fn simulate(
+    machine: &Machine,
+    options: &Options,
+    progress: &mut dyn FnMut(u64),
+) -> Result<Simulation, Error> {
+    let course = Course::new(machine, options)?;
+    let open = simulate_pass(machine, &course, None, progress)?;
+    let done = open.clocks;
+    let engine = device_engine(&course.dialled.settings)?;
+    let probe = course.probe(machine, engine.netlist(), options)?;
+    let plan = course.plan(machine, true, probe.as_ref());
+    let closed = run_pass(engine, Grinder::new(machine)?, plan, &mut |now| progress(done + now))?;
+    Ok(Simulation { course, open, closed })
+}
