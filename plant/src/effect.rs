@@ -247,7 +247,7 @@ pub trait Effect: fmt::Debug + Send + Sync {
 pub enum Smoothness {
     /// A polynomial in time of degree 11 at most.
     Polynomial,
-    /// The twelfth derivative in time stays below `amplitude_um · rate¹²`.
+    /// From the second to the twelfth, derivative `k` in time stays below `amplitude_um · rate^k`.
     Band {
         /// Scale, µm.
         amplitude_um: f64,

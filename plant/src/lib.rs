@@ -1,7 +1,9 @@
 //! The machine and its physics; no flip-flops.
 
+mod actuator;
 mod custom;
 pub mod dividers;
+pub mod edges;
 mod effect;
 pub mod effects;
 mod error;
@@ -9,6 +11,8 @@ mod filter;
 mod lead;
 pub mod machine;
 mod measured_curve;
+pub mod motion;
+mod piece;
 pub mod prediction;
 mod record;
 mod samples;
@@ -16,6 +20,7 @@ mod smoothness;
 mod term;
 pub mod units;
 
+pub use actuator::{Actuator, Play};
 pub use custom::Custom;
 pub use effect::{Basis, Card, Context, Effect, Entry, Parameter, Role, Search, Smoothness};
 pub use effects::CATALOGUE;
@@ -25,5 +30,6 @@ pub use helixlock_traces::At;
 pub use lead::{Lead, LeadError, LeadUnit};
 pub use machine::{Machine, MachineFile, Range};
 pub use measured_curve::MeasuredCurve;
+pub use motion::Motion;
 pub use record::{COVARIATES, Columns, Covariate, Instant, Record, Samples};
 pub use term::{Estimate, Formula, Sum, Term};
