@@ -1,2 +1,22 @@
 //! What crosses crates; one module a subject.
+
+mod calibrator;
+mod cumulative_compensator;
+mod decade_counter;
+mod device;
+mod direction_discriminator;
+mod documented_waveforms;
 mod golden_verilog;
+mod initial_phase_selector;
+mod phase_meter;
+mod programmable_divider;
+mod properties;
+mod range_stage;
+mod reset_counter;
+mod ring_distributor;
+mod standard_wave;
+mod step_clock;
+mod step_driver;
+mod step_selector;
+mod support;
+mod synchronisers;

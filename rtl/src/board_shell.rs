@@ -28,14 +28,6 @@
 //! |-----------------------|--------------------------|-----------------|
 //! | device                | in reset, ring at A      | runs            |
 //!
-//! # Waveform
-//!
-//! ```text
-//! clocks     0               15
-//! phase_a    ▁▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔
-//! zero       ▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔▔
-//! ```
-//!
 //! # At the same time
 //!
 //! As in the [device](crate::device). Lamps and phases come from flip-flops; `t1` and `t2` pass

@@ -19,7 +19,7 @@
 //!
 //! # Waveform
 //!
-//! F = 1000, the last pulse of a thousand:
+//! `preset` = 0001, after 999 pulses on `pulse`:
 //!
 //! ```text
 //! pulse    ▁▔▁▁▔▁

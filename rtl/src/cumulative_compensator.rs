@@ -15,12 +15,19 @@
 //!
 //! # Waveform
 //!
-//! The thousandth pulse of F = 1000, then inserting, and the same blocking:
+//! `preset` = 0001, after 999 pulses on `laser`, with `insert` = 0 the pulse behind the thousandth
+//! is blocked:
 //!
 //! ```text
 //! laser    ▁▔▁▁▁▔▁▁▁▔▁▁
-//! inserted ▁▔▔▁▁▔▁▁▁▔▁▁
-//! blocked  ▁▔▁▁▁▁▁▁▁▔▁▁
+//! pulse    ▁▔▁▁▁▁▁▁▁▔▁▁
+//! ```
+//!
+//! `preset` = 0001, after 999 pulses on `laser`, with `insert` = 1 one is added to it:
+//!
+//! ```text
+//! laser    ▁▔▁▁▁▔▁▁▁▔▁▁
+//! pulse    ▁▔▔▁▁▔▁▁▁▔▁▁
 //! ```
 //!
 //! # At the same time

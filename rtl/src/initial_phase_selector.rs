@@ -16,7 +16,7 @@
 //!
 //! # Waveform
 //!
-//! m = 2:
+//! m = 2, so `preset` = 002:
 //!
 //! ```text
 //! clear    ▔▔▁▁▁▁▁▁▁▁▁▁▁▁
@@ -34,8 +34,9 @@
 //!
 //! # Inferred
 //!
-//! The laser leads, so the meter's T1 starts at 360° − φ0 and T2 at φ0, less what is left of
-//! a line: up to one, because the grating cannot be asked to wait. At 180° both are the same.
+//! The laser leads, so the meter's T2 starts at φ0 and T1 at 360° − φ0; at 180° both are the
+//! same. To within a line: the first to pass is counted as a whole one, however short the wait
+//! for it, and makes T1 that much wider.
 //! The pulses counted are the compensated ones, those divider B gets, so that a correction
 //! during the selection does not change the phase.
 

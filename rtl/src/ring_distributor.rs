@@ -23,6 +23,8 @@
 //!
 //! # Waveform
 //!
+//! `forward` = 1, from phase A on:
+//!
 //! ```text
 //! step     ▁▔▁▔▁▔▁▔▁▔▁▔▁▁
 //! phase_a  ▔▔▔▔▁▁▁▁▁▁▔▔▔▔

@@ -16,13 +16,15 @@
 //!
 //! # Waveform
 //!
-//! ×2, where the divided pulse between two starts is the middle; and ×1 with A = 4:
+//! `range_x2` = 1, where the divided pulse between two starts is the middle:
 //!
 //! ```text
 //! divided  ▁▔▁▁▁▔▁▁▁▔▁▁▁▔▁▁▁
 //! start    ▁▔▁▁▁▁▁▁▁▔▁▁▁▁▁▁▁
 //! standard ▁▁▔▔▔▔▁▁▁▁▔▔▔▔▁▁▁
 //! ```
+//!
+//! `range_x2` = 0, where the divider's `half` is:
 //!
 //! ```text
 //! half     ▁▁▁▔▁▁▁▔▁▁▁▔▁

@@ -12,7 +12,7 @@
 //!
 //! # Waveform
 //!
-//! `period` = 4:
+//! `period` = 4, in clocks:
 //!
 //! ```text
 //! clear    ▔▁▁▁▁▁▁▁▁▁▁▁▁▁

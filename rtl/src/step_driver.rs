@@ -21,17 +21,6 @@
 //!
 //! At 12 MHz that is 5.3 µs of set-up and 5.3 µs of pulse; common drivers ask for 2.5 µs.
 //!
-//! # Waveform
-//!
-//! Not to scale:
-//!
-//! ```text
-//! step          ▁▔▁▁▁▁▁▁▁▁▁▁▁
-//! forward       ▁▔▁▁▁▁▁▁▁▁▁▁▁
-//! direction_pin ▁▁▔▔▔▔▔▔▔▔▔▔▔
-//! step_pin      ▁▁▁▁▁▁▔▔▔▔▁▁▁
-//! ```
-//!
 //! # At the same time
 //!
 //! A step within 128 clocks of the last starts the sequence over and costs the pin a pulse;
@@ -88,7 +77,7 @@ impl Logic for StepDriver {
         if self.clear.val() | self.step.val() {
             self.pulse.d.next = false;
         } else {
-            self.pulse.d.next = !self.idle.val() & (self.left.q.val() <= 64);
+            self.pulse.d.next = (self.left.q.val() >= 2) & (self.left.q.val() <= 65);
         }
 
         self.step_pin.next = self.pulse.q.val();

@@ -31,7 +31,7 @@
 //!
 //! # Waveform
 //!
-//! A press between two ticks:
+//! A press between two ticks, `manual_enable` = 1:
 //!
 //! ```text
 //! tick         ▁▔▁▁▁▔▁▁▁▔▁

@@ -42,7 +42,7 @@ module step_driver (
         if (clear | step) begin
             pulse_d = 1'b0;
         end else begin
-            pulse_d = ~idle & (left_q <= 8'h40);
+            pulse_d = (8'h2 <= left_q) & (left_q <= 8'h41);
         end
     end
 

@@ -1,0 +1,3 @@
+//! Drives a block, runs the command, runs a tool.
+
+pub(crate) mod bench;
