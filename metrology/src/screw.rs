@@ -1,0 +1,25 @@
+//! Travel deviation of lead screws: mean line, variation in windows, grades.
+//!
+//! A curve of travel deviation (µm) against travel (mm) comes in; the characteristics of
+//! ISO 3408-3 (ball screws) or JB/T 2886 (trapezoidal screws), the places where they are
+//! reached, and grades with their probability come out.
+
+mod characteristic;
+mod curve;
+mod grade;
+mod helical;
+mod mean_line;
+mod pitch;
+mod tolerance;
+mod travel_variation;
+mod windows;
+
+pub use characteristic::{Characteristic, Reached};
+pub use curve::{Curve, Gap};
+pub use grade::{GradeVerdict, Grading, Judgement, grade};
+pub use helical::helical_characteristics;
+pub use mean_line::{MeanLine, Weighting, fit_mean_line};
+pub use pitch::pitch_characteristics;
+pub use tolerance::{Limit, Status, ToleranceTable, built_in_table};
+pub use travel_variation::{FAITHFUL_PER_TURN, TravelVariation, evaluate_travel};
+pub use windows::{WINDOW_SLACK_MM, Widest, widest_in_windows};

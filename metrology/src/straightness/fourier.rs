@@ -1,0 +1,142 @@
+//! Separation by Fourier series, as document 2 does it.
+//!
+//! Assumes that the bar's form repeats with the stroke. A real bar does not: the first places
+//! the second and third probe touch lie before the stroke, and the method puts there what it
+//! found at its end. `least_squares` does without.
+
+use rustfft::FftPlannerScalar;
+use rustfft::num_complex::Complex;
+
+use super::readings::Combined;
+use super::separated::Separated;
+use super::spacing::{Harmonic, highest_harmonic};
+use crate::Error;
+use crate::number::number;
+
+/// Divides every harmonic of `z` by its weight.
+///
+/// With `accept_lost`, harmonics that the spacings lose are left at zero.
+///
+/// # Errors
+///
+/// Without `accept_lost`, when the spacings lose harmonics; the error names them.
+pub fn separate_by_fourier(combined: &Combined, accept_lost: bool) -> Result<Separated, Error> {
+    let (samples, spacing) = (combined.z_um.len(), combined.spacing);
+    let lost = spacing.lost(samples);
+    if !accept_lost && !lost.is_empty() {
+        let (first, second) = (spacing.first, spacing.second);
+        return Err(Error::LostHarmonics { first, second, samples, lost });
+    }
+    let kept: Vec<Harmonic> = spacing.harmonics(samples);
+    let kept: Vec<Harmonic> = kept.into_iter().filter(|h| !lost.contains(&h.number)).collect();
+    let workpiece_um = divide(&combined.z_um, &kept);
+    let touched_um =
+        |sample: usize, back: usize| workpiece_um[(sample + samples - back % samples) % samples];
+    let uncertainty_um = uncertainty(combined, &kept);
+    Ok(Separated::with_carriage(combined, touched_um, uncertainty_um))
+}
+
+/// Forward transform, division by `A_k·e^(iψ_k)`, backward transform.
+fn divide(z_um: &[f64], kept: &[Harmonic]) -> Vec<f64> {
+    let samples = z_um.len();
+    // The scalar planner gives the same bits on every processor.
+    let mut planner = FftPlannerScalar::new();
+    let (forward, backward) =
+        (planner.plan_fft_forward(samples), planner.plan_fft_inverse(samples));
+    let mut spectrum: Vec<Complex<f64>> = z_um.iter().map(|&z| Complex::new(z, 0.0)).collect();
+    forward.process(&mut spectrum);
+    let mut divided = vec![Complex::new(0.0, 0.0); samples];
+    for harmonic in kept {
+        let (sin, cos) = libm::sincos(harmonic.phase_rad);
+        let weight = Complex::new(harmonic.gain * cos, harmonic.gain * sin);
+        let quotient = spectrum[harmonic.number] / weight;
+        divided[harmonic.number] = quotient;
+        divided[samples - harmonic.number] = quotient.conj();
+    }
+    backward.process(&mut divided);
+    divided.iter().map(|value| value.re / number(samples)).collect()
+}
+
+/// `σ/√m · √(2/N·Σ 1/A_k²)`, the same at every place.
+fn uncertainty(combined: &Combined, kept: &[Harmonic]) -> Option<Vec<f64>> {
+    let samples = combined.z_um.len();
+    debug_assert!(kept.len() <= highest_harmonic(samples));
+    let squares: f64 = kept.iter().map(|h| 1.0 / (h.gain * h.gain)).sum();
+    let fewest = combined.counts.iter().min()?;
+    let of_mean_um = combined.sigma_um? / number(*fewest).sqrt();
+    Some(vec![of_mean_um * (2.0 / number(samples) * squares).sqrt(); samples])
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::straightness::{Readings, Repeat, Spacing};
+
+    /// Readings of a periodic bar on a moving, tilting carriage.
+    fn readings(bar: &dyn Fn(f64) -> f64, shift_um: f64, slope: f64, spacing: Spacing) -> Readings {
+        let probe = |back: usize| -> Vec<f64> {
+            let reading = |sample: usize| {
+                let x = number(sample);
+                let place = x - number(back);
+                let (carriage, tilt) = (0.4 * libm::cos(x / 3.0), 0.01 * libm::sin(x / 2.0));
+                bar(place) + shift_um + slope * place + carriage + tilt * 5.0 * number(back)
+            };
+            (0..32).map(reading).collect()
+        };
+        let probes_um = [0, spacing.first, spacing.total()].map(probe);
+        Readings { start_mm: 0.0, step_mm: 5.0, repeats: vec![Repeat { probes_um }] }
+    }
+
+    fn bar(place: f64) -> f64 {
+        let turn = TAU * place / 32.0;
+        libm::sin(turn) + 0.5 * libm::cos(3.0 * turn + 1.0) + 0.1 * libm::sin(9.0 * turn)
+    }
+
+    #[test]
+    fn a_periodic_bar_and_the_carriage_come_apart() {
+        let spacing = Spacing { first: 5, second: 6 };
+        let combined = readings(&bar, 0.0, 0.0, spacing).combine(spacing).unwrap();
+        let found = separate_by_fourier(&combined, false).unwrap();
+        let expected =
+            super::super::separated::without_line((0..32).map(|k| bar(f64::from(k))).collect());
+        for (found, expected) in found.workpiece_um.iter().zip(&expected) {
+            assert!((found - expected).abs() < 1e-9, "{found} {expected}");
+        }
+        let tilt: Vec<f64> = (0..32).map(|k| 10.0 * libm::sin(f64::from(k) / 2.0)).collect();
+        let mean = tilt.iter().sum::<f64>() / 32.0;
+        for (found, expected) in found.tilt_urad.iter().zip(&tilt) {
+            assert!((found - (expected - mean)).abs() < 1e-6, "{found} {expected}");
+        }
+    }
+
+    #[test]
+    fn spacings_that_lose_harmonics_are_refused_by_name() {
+        let spacing = Spacing { first: 4, second: 4 };
+        let combined = readings(&bar, 0.0, 0.0, spacing).combine(spacing).unwrap();
+        let error = separate_by_fourier(&combined, false).unwrap_err().to_string();
+        assert!(error.contains("lose harmonics [8]"), "{error}");
+        assert!(separate_by_fourier(&combined, true).is_ok());
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(32))]
+        #[test]
+        fn shift_and_tilt_of_the_bar_change_nothing(
+            shift_um in -50.0..50.0f64,
+            slope in -2.0..2.0f64,
+        ) {
+            let spacing = Spacing { first: 3, second: 4 };
+            let still = readings(&bar, 0.0, 0.0, spacing).combine(spacing).unwrap();
+            let moved = readings(&bar, shift_um, slope, spacing).combine(spacing).unwrap();
+            let still = separate_by_fourier(&still, false).unwrap();
+            let moved = separate_by_fourier(&moved, false).unwrap();
+            for (a, b) in still.workpiece_um.iter().zip(&moved.workpiece_um) {
+                prop_assert!((a - b).abs() < 1e-9);
+            }
+        }
+    }
+}

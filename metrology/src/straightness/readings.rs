@@ -1,0 +1,257 @@
+//! Repeated readings of three probes, and their combination without the carriage.
+
+use super::chauvenet::is_outlier;
+use super::spacing::Spacing;
+use crate::Error;
+use crate::number::number;
+
+/// One run along the stroke.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Repeat {
+    /// Readings of each probe, µm; NaN where a reading is missing.
+    pub probes_um: [Vec<f64>; 3],
+}
+
+/// Repeated runs over the same places.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Readings {
+    /// Carriage position of the first sample, mm.
+    pub start_mm: f64,
+    /// Sampling step, mm.
+    pub step_mm: f64,
+    /// The runs, each with the same number of samples.
+    pub repeats: Vec<Repeat>,
+}
+
+/// A reading that was left out by Chauvenet's criterion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rejected {
+    /// Which run, from 0.
+    pub repeat: usize,
+    /// Which sample, from 0.
+    pub sample: usize,
+    /// How far it lay from the mean of the runs, µm of `z`.
+    pub distance_um: f64,
+}
+
+/// The combination `z` of all runs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Combined {
+    /// Carriage position of the first sample, mm.
+    pub start_mm: f64,
+    /// Sampling step, mm.
+    pub step_mm: f64,
+    /// Probe spacings.
+    pub spacing: Spacing,
+    /// Mean of the runs at each sample, its own mean over the stroke removed, µm.
+    pub z_um: Vec<f64>,
+    /// The mean that was removed, µm: probe zeros and the bar's parabola, inseparable.
+    pub offset_um: f64,
+    /// Standard deviation σ of one `z` about the mean of the runs (equation 12), µm; absent when
+    /// nothing was repeated. The document reports ±3σ.
+    pub sigma_um: Option<f64>,
+    /// Mean reading of each probe, µm.
+    pub mean_probes_um: [Vec<f64>; 3],
+    /// Runs that count, at each sample.
+    pub counts: Vec<usize>,
+    /// What Chauvenet's criterion took out.
+    pub rejected: Vec<Rejected>,
+}
+
+impl Readings {
+    /// Samples of a run.
+    #[must_use]
+    pub fn samples(&self) -> usize {
+        self.repeats.first().map_or(0, |repeat| repeat.probes_um[0].len())
+    }
+
+    /// Combines the probes, rejects outliers, averages the runs.
+    ///
+    /// # Errors
+    ///
+    /// When runs or probes differ in length, there are fewer than four samples, a reading is
+    /// infinite, or a sample has no complete reading in any run.
+    pub fn combine(&self, spacing: Spacing) -> Result<Combined, Error> {
+        self.check()?;
+        let mut z = self.z_of_runs(spacing);
+        // One spike moves the mean of its whole run, so outliers are sought about the median;
+        // what is left is then put on its mean, as equation 11 has it.
+        align(&mut z, median);
+        let rejected = reject(&mut z);
+        align(&mut z, mean);
+        let samples = self.samples();
+        let mut z_um = Vec::with_capacity(samples);
+        let mut counts = Vec::with_capacity(samples);
+        for sample in 0..samples {
+            let (mean, count) = mean_of(&z, sample);
+            if count == 0 {
+                return Err(Error::NotFinite { row: sample, column: "every reading of a sample" });
+            }
+            z_um.push(mean);
+            counts.push(count);
+        }
+        let sigma_um = sigma(&z, &z_um);
+        let offset_um = mean(&z_um);
+        for z in &mut z_um {
+            *z -= offset_um;
+        }
+        let mean_probes_um = [0, 1, 2].map(|probe| self.mean_probe(probe, &z));
+        let (start_mm, step_mm) = (self.start_mm, self.step_mm);
+        Ok(Combined {
+            start_mm,
+            step_mm,
+            spacing,
+            z_um,
+            offset_um,
+            sigma_um,
+            mean_probes_um,
+            counts,
+            rejected,
+        })
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        let expected = self.samples();
+        if expected < 4 {
+            return Err(Error::TooFewSamples { found: expected, expected: 4 });
+        }
+        for probe in self.repeats.iter().flat_map(|repeat| &repeat.probes_um) {
+            if probe.len() != expected {
+                return Err(Error::ColumnLengths { expected, found: probe.len() });
+            }
+            if let Some(row) = probe.iter().position(|value| value.is_infinite()) {
+                return Err(Error::NotFinite { row, column: "probe" });
+            }
+        }
+        Ok(())
+    }
+
+    /// `z` of every run.
+    fn z_of_runs(&self, spacing: Spacing) -> Vec<Vec<f64>> {
+        let r = spacing.ratio();
+        let combine = |repeat: &Repeat| {
+            let [first, second, third] = &repeat.probes_um;
+            let probes = first.iter().zip(second).zip(third);
+            probes.map(|((z1, z2), z3)| z1 - (1.0 + r) * z2 + r * z3).collect()
+        };
+        self.repeats.iter().map(combine).collect()
+    }
+
+    /// Mean of a probe over the runs whose `z` counts at each sample.
+    fn mean_probe(&self, probe: usize, z: &[Vec<f64>]) -> Vec<f64> {
+        let at = |sample: usize| {
+            let known = self.repeats.iter().zip(z).filter(|(_, z)| z[sample].is_finite());
+            mean(&known.map(|(repeat, _)| repeat.probes_um[probe][sample]).collect::<Vec<_>>())
+        };
+        (0..self.samples()).map(at).collect()
+    }
+}
+
+/// Shifts each run onto the mean of all runs, so that they agree although the carriage started
+/// each from another place; `centre` says what of a run's differences has to vanish.
+fn align(z: &mut [Vec<f64>], centre: impl Fn(&[f64]) -> f64) {
+    let samples = z.first().map_or(0, Vec::len);
+    let means: Vec<f64> = (0..samples).map(|sample| mean_of(z, sample).0).collect();
+    for run in z {
+        let differences = run.iter().zip(&means).map(|(z, mean)| z - mean);
+        let known: Vec<f64> = differences.filter(|difference| difference.is_finite()).collect();
+        if !known.is_empty() {
+            let shift = centre(&known);
+            for z in run {
+                *z -= shift;
+            }
+        }
+    }
+}
+
+fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    f64::midpoint(sorted[(sorted.len() - 1) / 2], sorted[sorted.len() / 2])
+}
+
+/// Takes outliers out (as NaN), once at each sample, and says which.
+fn reject(z: &mut [Vec<f64>]) -> Vec<Rejected> {
+    let samples = z.first().map_or(0, Vec::len);
+    let mut rejected = Vec::new();
+    for sample in 0..samples {
+        let (mean, count) = mean_of(z, sample);
+        let squares =
+            z.iter().map(|run| run[sample] - mean).filter(|d| d.is_finite()).map(|d| d * d);
+        let sigma = standard_deviation(squares.sum(), count);
+        for (repeat, run) in z.iter_mut().enumerate() {
+            let distance_um = run[sample] - mean;
+            if is_outlier(distance_um, sigma, count) {
+                rejected.push(Rejected { repeat, sample, distance_um });
+                run[sample] = f64::NAN;
+            }
+        }
+    }
+    rejected
+}
+
+/// Equation 12, with the degrees of freedom that rejection leaves.
+fn sigma(z: &[Vec<f64>], mean_um: &[f64]) -> Option<f64> {
+    let (mut squares, mut known) = (0.0, 0_usize);
+    for run in z {
+        for distance in run.iter().zip(mean_um).map(|(z, mean)| z - mean).filter(|d| d.is_finite())
+        {
+            squares += distance * distance;
+            known += 1;
+        }
+    }
+    let freedom = known.saturating_sub(mean_um.len());
+    (0 < freedom).then(|| (squares / number(freedom)).sqrt())
+}
+
+fn standard_deviation(squares: f64, count: usize) -> f64 {
+    if count < 2 { 0.0 } else { (squares / number(count - 1)).sqrt() }
+}
+
+/// Mean of the runs at one sample, and how many runs count.
+fn mean_of(z: &[Vec<f64>], sample: usize) -> (f64, usize) {
+    let known: Vec<f64> = z.iter().map(|run| run[sample]).filter(|v| v.is_finite()).collect();
+    (mean(&known), known.len())
+}
+
+pub(super) fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / number(values.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn readings(spike_um: f64) -> Readings {
+        let probe = |repeat: usize, probe: usize| -> Vec<f64> {
+            let reading = |sample: usize| {
+                // A fixed pattern stands in for noise: its sum over the runs is zero.
+                let noise = if (repeat + sample).is_multiple_of(2) { 0.01 } else { -0.01 };
+                let spike = if (repeat, probe, sample) == (3, 0, 5) { spike_um } else { 0.0 };
+                noise * (number(probe) + 1.0) + spike
+            };
+            (0..16).map(reading).collect()
+        };
+        let repeat = |index| Repeat { probes_um: [0, 1, 2].map(|p| probe(index, p)) };
+        Readings { start_mm: 0.0, step_mm: 5.0, repeats: (0..10).map(repeat).collect() }
+    }
+
+    #[test]
+    fn a_spike_is_rejected_and_named() {
+        let combined = readings(1.0).combine(Spacing { first: 1, second: 1 }).unwrap();
+        assert_eq!(combined.rejected.len(), 1, "{:?}", combined.rejected);
+        assert_eq!((combined.rejected[0].repeat, combined.rejected[0].sample), (3, 5));
+        assert_eq!(combined.counts[5], 9);
+    }
+
+    #[test]
+    fn steps_of_the_carriage_between_runs_do_not_count() {
+        let still = readings(0.0).combine(Spacing { first: 1, second: 1 }).unwrap();
+        let mut moved = readings(0.0);
+        for (index, repeat) in moved.repeats.iter_mut().enumerate() {
+            repeat.probes_um[0].iter_mut().for_each(|z| *z += number(index));
+        }
+        let moved = moved.combine(Spacing { first: 1, second: 1 }).unwrap();
+        assert!((still.sigma_um.unwrap() - moved.sigma_um.unwrap()).abs() < 1e-12);
+    }
+}
