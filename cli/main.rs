@@ -1,7 +1,11 @@
 //! The `helixlock` command: reads files, calls the libraries, prints and writes what they say.
 
 mod output;
+mod pages;
 mod progress;
+mod sim;
+mod sim_summary;
+mod sim_table;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -11,7 +15,9 @@ use clap::Parser;
 /// Laser correction of a lead-screw grinder: simulate it, build it, compare it with measurements
 #[derive(Debug, Parser)]
 #[command(name = "helixlock", version, arg_required_else_help = true)]
-enum Command {}
+enum Command {
+    Sim(sim::Sim),
+}
 
 /// Exit status: 0 done, 1 the answer is no, 2 the input or the words are wrong.
 fn main() -> ExitCode {
@@ -26,8 +32,10 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(command: Command, _out: &mut impl Write) -> anyhow::Result<ExitCode> {
-    match command {}
+fn run(command: Command, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+    match command {
+        Command::Sim(sim) => sim.run(out),
+    }
 }
 
 /// True when the reader of our output has gone, as in `helixlock effects | head -1`.

@@ -54,9 +54,9 @@ pub(crate) struct PassSummary {
     pub(crate) periodic_error_um: f64,
     pub(crate) cumulative_error_um: f64,
     pub(crate) lead_error_peak_to_peak_um: f64,
-    recorder_peak_to_peak_um: f64,
+    pub(crate) recorder_peak_to_peak_um: f64,
     filtered_recorder_peak_to_peak_um: f64,
-    recorder_jumps: usize,
+    pub(crate) recorder_jumps: usize,
     pub(crate) steps_taken: u64,
     pub(crate) steps_net: i64,
     pub(crate) counter_fault: bool,
@@ -217,6 +217,11 @@ fn notes(machine: &Machine, simulation: &Simulation, findings: &Findings) -> Vec
     if (asked - given).abs() > 0.0005 {
         notes.push(format!(
             "compensation {asked} um/m is set as {given:.4} um/m: four digits of F can be dialled"
+        ));
+    }
+    for effect in &simulation.left_out {
+        notes.push(format!(
+            "effect `{effect}` did nothing: `[environment]` does not say what drives it"
         ));
     }
     if findings.slew_limited {

@@ -1,7 +1,6 @@
 //! The machine and its physics; no flip-flops.
 
 mod actuator;
-pub mod air;
 mod custom;
 pub mod dividers;
 pub mod edges;

@@ -1,12 +1,21 @@
 //! What can go wrong between a machine file and its run.
 
+use helixlock_plant::EffectError;
 use helixlock_rtl::settings::SettingsError as WheelError;
 use thiserror::Error;
+
+use crate::SettingsError;
 
 /// A machine that cannot be simulated, or a window that is not there.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Error {
+    /// The device cannot serve the machine.
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
+    /// An effect lacks something.
+    #[error(transparent)]
+    Effect(#[from] EffectError),
     /// A wheel cannot show its number.
     #[error(transparent)]
     Wheels(#[from] WheelError),

@@ -17,7 +17,7 @@ pub struct Findings {
     pub closed: PassFindings,
     /// How the closed loop hunts; `None` when the pass is too short to say.
     pub hunting: Option<Hunting>,
-    /// Fastest change of the uncorrected error, µm/s.
+    /// Fastest change of the uncorrected lead error, over two comparisons, µm/s.
     pub needed_um_per_s: f64,
     /// True when the motor was too slow for it.
     pub slew_limited: bool,
@@ -46,7 +46,7 @@ impl Simulation {
         );
         let open = &self.open.trace;
         let over_s = 2.0 / course.comparison_hz;
-        let needed_um_per_s = fastest_um_per_s(&open.time_s, &open.error_um, over_s);
+        let needed_um_per_s = fastest_um_per_s(&open.time_s, &open.lead_error_um, over_s);
         let too_slow = course.slew_limit_um_per_s < needed_um_per_s;
         Findings {
             open: appraise(&self.open, course.turn_mm),

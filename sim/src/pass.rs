@@ -1,10 +1,12 @@
 //! One grinding pass, from power-up to the last line, and what it leaves behind.
 
+use helixlock_plant::LowPass;
+
 use crate::closed_loop::{ClosedLoop, Process};
 use crate::pins::{clock_of, time_of};
 use crate::probe::{Probe, Waveform};
 use crate::recorder::unwrap_um;
-use crate::{Engine, Error, filtered_um};
+use crate::{Engine, Error};
 
 /// Clocks for which the master reset is held, longer than any synchroniser.
 const RESET_CLOCKS: u64 = 16;
@@ -113,7 +115,7 @@ pub fn run_pass<E: Engine>(
 }
 
 /// Clears the device and lets the initial phase selection wait for its first laser pulse.
-fn reset<E: Engine, P: Process>(device: &mut ClosedLoop<E, P>) -> Result<(), Error> {
+pub(crate) fn reset<E: Engine, P: Process>(device: &mut ClosedLoop<E, P>) -> Result<(), Error> {
     let pins = device.pins();
     device.engine().set_input(pins.master_reset, 1);
     device.run_until(RESET_CLOCKS, |_| false)?;
@@ -208,6 +210,9 @@ fn read_out<E: Engine, P: Process>(device: &ClosedLoop<E, P>, plan: &PassPlan) -
         lead_error_um: samples.iter().map(|sample| sample.place.lead_error_um).collect(),
     };
     let jumps = unwrap_um(&mut trace.error_um, plan.full_scale_um);
-    trace.filtered_error_um = filtered_um(&trace.time_s, &trace.error_um, plan.cutoff_hz);
+    trace.filtered_error_um = match plan.cutoff_hz {
+        Some(cutoff_hz) => LowPass::with_cutoff(cutoff_hz).pass(&trace.time_s, &trace.error_um),
+        None => trace.error_um.clone(),
+    };
     (trace, jumps)
 }

@@ -4,9 +4,10 @@ use helixlock_netlist::Netlist;
 use helixlock_plant::Machine;
 
 use crate::pass::{Pass, PassPlan, run_pass};
+use crate::pins::clock_of;
 use crate::probe::{Probe, signals_of};
 use crate::settings::{Dialled, settings_for};
-use crate::{DeviceEngine, Engine, Error, device_engine, grinder::Grinder, pins::clock_of};
+use crate::{DeviceEngine, Engine, Error, Grinder, device_engine, set_wheels};
 
 /// Comparisons that the waveform shows unless told otherwise, after the initial phase selection.
 const COMPARISONS_SHOWN: f64 = 5.0;
@@ -59,6 +60,8 @@ pub struct Simulation {
     pub open: Pass,
     /// Loop closed, played back at the end.
     pub closed: Pass,
+    /// Effects that did nothing because the machine file does not say what drives them.
+    pub left_out: Vec<String>,
 }
 
 impl Course {
@@ -100,12 +103,7 @@ impl Course {
         self.clock_hz as f64
     }
 
-    fn plan<'a>(
-        &self,
-        machine: &Machine,
-        correct: bool,
-        probe: Option<&'a Probe>,
-    ) -> PassPlan<'a> {
+    fn plan<'a>(&self, machine: &Machine, correct: bool, probe: Option<&'a Probe>) -> PassPlan<'a> {
         let playback_s = MOST_STEPS / self.dialled.step_frequency_hz;
         PassPlan {
             clock_hz: self.clock_hz(),
@@ -156,11 +154,31 @@ pub fn simulate(
     progress: &mut dyn FnMut(u64),
 ) -> Result<Simulation, Error> {
     let course = Course::new(machine, options)?;
-    let open = simulate_pass(machine, &course, None, progress)?;
+    let plan = course.plan(machine, false, None);
+    let grinder = Grinder::new(machine, course.length_mm)?;
+    let left_out = grinder.left_out().to_vec();
+    let open = run_pass(ready(&course)?, grinder, plan, progress)?;
     let done = open.clocks;
-    let engine = device_engine(&course.dialled.settings)?;
+    let engine = ready(&course)?;
     let probe = course.probe(machine, engine.netlist(), options)?;
     let plan = course.plan(machine, true, probe.as_ref());
-    let closed = run_pass(engine, Grinder::new(machine)?, plan, &mut |now| progress(done + now))?;
-    Ok(Simulation { course, open, closed })
+    let grinder = Grinder::new(machine, course.length_mm)?;
+    let closed = run_pass(engine, grinder, plan, &mut |now| progress(done + now))?;
+    Ok(Simulation { course, open, closed, left_out })
+}
+
+/// A device at power-up with its wheels set.
+pub(crate) fn ready(course: &Course) -> Result<DeviceEngine, Error> {
+    let mut engine = device_engine();
+    set_wheels(&mut engine, &course.dialled.settings)?;
+    Ok(engine)
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the machine file holds clocks between 1 Hz and some GHz"
+)]
+fn whole_hz(clock_hz: f64) -> u64 {
+    libm::round(clock_hz) as u64
 }

@@ -1,0 +1,4 @@
+//! Reports as pages: pictures first.
+
+pub(crate) mod sim;
+mod waveforms;
