@@ -7,7 +7,7 @@
 
 use std::fmt::Write;
 
-use helixlock_rtl::BLOCKS;
+use helixlock_rtl::{APART, BLOCKS};
 
 use crate::support::bench::Bench;
 
@@ -23,7 +23,7 @@ const WITHOUT: &[&str] = &["step_driver", "board_shell"];
 #[test]
 fn waveforms_are_true() {
     let mut wrong = String::new();
-    for card in BLOCKS.iter().filter(|card| !WITHOUT.contains(&card.name)) {
+    for card in BLOCKS.iter().chain(APART).filter(|card| !WITHOUT.contains(&card.name)) {
         let waveforms = read(&page(card.name));
         assert!(!waveforms.is_empty(), "{} has no waveform", card.name);
         for waveform in waveforms {
@@ -40,7 +40,7 @@ fn waveforms_are_true() {
 /// Every page has the same sections, in the same order.
 #[test]
 fn pages_are_complete() {
-    for card in BLOCKS {
+    for card in BLOCKS.iter().chain(APART) {
         let page = page(card.name);
         let mut sections = vec!["| port", "# At the same time", "# Inferred", "use rust_hdl"];
         if card.name == "board_shell" {
@@ -85,17 +85,17 @@ fn prepare(bench: &mut Bench, sentence: &str) {
             bench.set(&[(name, u64::from_str_radix(digits, 16).expect("a hexadecimal number"))]);
         }
     }
-    for window in words.windows(3).filter(|window| window[0] == "after") {
-        if window[2].starts_with("clocks") {
-            bench.clocks(window[1].parse().expect("a number of clocks"));
-        }
-    }
     for window in words.windows(5).filter(|window| window[0] == "after" && window[3] == "on") {
         let pulses: u32 = window[1].parse().expect("a number of pulses");
         let input = window[4].trim_matches(['`', ',', ':']);
         for _ in 0..pulses {
             bench.pulse(&[input]);
             bench.clock();
+        }
+    }
+    for window in words.windows(3).filter(|window| window[0] == "after") {
+        if window[2].starts_with("clocks") {
+            bench.clocks(window[1].parse().expect("a number of clocks"));
         }
     }
 }

@@ -1,9 +1,11 @@
 //! What crosses crates; one module a subject.
 
+mod blocks_apart;
 mod calibrator;
 mod cumulative_compensator;
 mod decade_counter;
 mod device;
+mod digital_comparison;
 mod direction_discriminator;
 mod documented_waveforms;
 mod golden_verilog;
@@ -14,9 +16,11 @@ mod properties;
 mod range_stage;
 mod reset_counter;
 mod ring_distributor;
+mod scale_lookup;
 mod standard_wave;
 mod step_clock;
 mod step_driver;
 mod step_selector;
+mod subdivided_comparison;
 mod support;
 mod synchronisers;

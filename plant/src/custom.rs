@@ -4,12 +4,30 @@ mod operators;
 
 use exmex::{Express, FlatEx};
 
-use crate::{Basis, Columns, Effect, EffectError, Instant, Parameter, Role};
+use crate::{Basis, Card, Columns, Effect, EffectError, Entry, Instant, Parameter, Role};
 use operators::Operators;
 
 type Expression = FlatEx<f64, Operators>;
 
 type Reading = fn(&Instant<'_>) -> f64;
+
+/// The user's own formula, in the catalogue.
+pub(crate) const CARD: Card = Card {
+    kind: "custom",
+    entry: Entry::Motion,
+    summary: "an expression of the user over the columns, with named parameters",
+    formula: "as written: + - * / ^, functions, pi, parameters, and columns such as time_s, position_mm, angle_rev, speed_rpm, direction, or any logged one",
+    example: "formula = 'a*sin(2*pi*time_s/period)', entry = 'motion', parameters = { a = 1.5, period = 12.0 }",
+    parameters: &[],
+    needs: &[],
+    signature: "what the formula says",
+    confused_with: &[],
+    separated_by: "what the user knows of it",
+    source: "the user",
+    random: false,
+    candidate: false,
+    basis: |_, _| Ok(Basis::default()),
+};
 
 /// Quantities every instant carries, by the names a formula uses.
 const ALWAYS_THERE: &[(&str, Reading)] = &[

@@ -295,6 +295,8 @@ pub struct Card {
     pub summary: &'static str,
     /// δ in µm; the symbols are those of the effect's page.
     pub formula: &'static str,
+    /// A worked number.
+    pub example: &'static str,
     /// Its numbers, in the order of `values`.
     pub parameters: &'static [Parameter],
     /// Logged columns it cannot do without.

@@ -1,6 +1,7 @@
 //! The machine and its physics; no flip-flops.
 
 mod actuator;
+pub mod air;
 mod custom;
 pub mod dividers;
 pub mod edges;

@@ -263,6 +263,13 @@ impl Machine {
         }
     }
 
+    /// Time constants of the recorder's own lags, s; the loop does not go through it.
+    #[must_use]
+    pub fn recorder_lags_s(&self) -> Vec<f64> {
+        let lags = self.effects.iter().filter(|term| term.kind() == "recorder-lag");
+        lags.filter_map(|term| term.values.first().copied()).collect()
+    }
+
     /// Turns of the machine's screw per mm of table travel.
     #[must_use]
     pub fn screw_turns_per_mm(&self) -> Option<f64> {

@@ -3,7 +3,25 @@
 use std::path::Path;
 
 use crate::units::NUMBER;
-use crate::{Basis, Effect, Instant, Machine, Parameter};
+use crate::{Basis, Card, Effect, Entry, Instant, Machine, Parameter};
+
+/// A measured curve, in the catalogue.
+pub(crate) const CARD: Card = Card {
+    kind: "measured-curve",
+    entry: Entry::Motion,
+    summary: "an error curve that was measured is the machine's motion error",
+    formula: "straight between the points of a table of position_mm and lead_error_um or error_um, level beyond its ends",
+    example: "file = 'curve.csv', scale = 1.0",
+    parameters: &[],
+    needs: &[],
+    signature: "the curve itself, in every pass",
+    confused_with: &[],
+    separated_by: "what the measurement says of its own conditions",
+    source: "the user",
+    random: false,
+    candidate: false,
+    basis: |_, _| Ok(Basis::default()),
+};
 
 /// Table motion error over travel, straight between the points and level beyond the ends.
 #[derive(Clone, Debug, PartialEq)]

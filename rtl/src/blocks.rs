@@ -32,7 +32,7 @@ macro_rules! card {
     };
 }
 
-/// Every block, each after those it is made of.
+/// Every block of the device on its board, each after those it is made of, the board shell last.
 pub const BLOCKS: &[BlockCard] = &[
     card!(level_synchroniser::LevelSynchroniser(clock, pin)
         "Two flip-flops between a panel switch and the logic"),
@@ -81,6 +81,17 @@ pub const BLOCKS: &[BlockCard] = &[
             Err(error) => unreachable!("the example can be dialled: {error}"),
         },
     },
+];
+
+/// The blocks of documents 3 and 4, which stand on their own.
+pub const APART: &[BlockCard] = &[
+    card!(scale_lookup::ScaleLookup(clock, clear, origin, place_pulse, forward, machining, places,
+            two_ways, scale, tick, data)
+        "Finds the correction of a place in the EEPROM and steps the corrector to it (document 3)"),
+    card!(digital_comparison::DigitalComparison(clock, clear, opening, shutting)
+        "Clocks between two pulses and from period to period (document 4)"),
+    card!(subdivided_comparison::SubdividedComparison(clock, clear, fast, slow)
+        "Where between two input pulses an output pulse falls, as a fraction (document 4)"),
 ];
 
 /// The 6 mm screw of document 1, 160 steps per second at 12 MHz.

@@ -1,6 +1,6 @@
 //! The logic of the correction device, one block a file.
 //!
-//! [`BLOCKS`] lists them in signal order; [`device::Device`] joins them, and [`settings`] says
+//! [`BLOCKS`] lists those of the device in signal order, [`APART`] those of documents 3 and 4; [`device::Device`] joins them, and [`settings`] says
 //! what its wheels mean. Each block's page names its figure, ports, sequence and waveform, what
 //! happens when two things come at once, and what was inferred where the print is silent.
 
@@ -10,6 +10,7 @@ pub mod compensation_divider;
 pub mod cumulative_compensator;
 pub mod decade_counter;
 pub mod device;
+pub mod digital_comparison;
 pub mod direction_discriminator;
 pub mod initial_phase_selector;
 pub mod input_synchroniser;
@@ -19,12 +20,14 @@ pub mod programmable_divider;
 pub mod range_stage;
 pub mod reset_counter;
 pub mod ring_distributor;
+pub mod scale_lookup;
 pub mod settings;
 pub mod standard_wave;
 pub mod step_clock;
 pub mod step_driver;
 pub mod step_selector;
+pub mod subdivided_comparison;
 
 mod blocks;
 
-pub use blocks::{BLOCKS, BlockCard};
+pub use blocks::{APART, BLOCKS, BlockCard};

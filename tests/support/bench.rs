@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use bitvec::field::BitField;
 use helixlock_netlist::{Library, Netlist, SignalId, elaborate};
-use helixlock_rtl::BLOCKS;
+use helixlock_rtl::{APART, BLOCKS};
 use helixlock_sim::{Engine, Interpreter};
 
 /// A block with its clock, as the reference engine runs it.
@@ -15,7 +15,7 @@ pub(crate) struct Bench {
 }
 
 impl Bench {
-    /// The block of that name in [`BLOCKS`], all inputs low, just powered up.
+    /// The block of that name in [`BLOCKS`] or [`APART`], all inputs low, just powered up.
     pub(crate) fn new(block: &str) -> Self {
         let netlist = netlist(block);
         let names = (0..).zip(&netlist.signals).map(|(id, signal)| (&*signal.path, SignalId(id)));
@@ -107,7 +107,11 @@ pub(crate) fn netlist(block: &str) -> &'static Netlist {
     static NETLISTS: Mutex<BTreeMap<String, &'static Netlist>> = Mutex::new(BTreeMap::new());
     let mut netlists = NETLISTS.lock().unwrap_or_else(PoisonError::into_inner);
     netlists.entry(block.to_owned()).or_insert_with(|| {
-        let card = BLOCKS.iter().find(|card| card.name == block).expect("a block of the list");
+        let card = BLOCKS
+            .iter()
+            .chain(APART)
+            .find(|card| card.name == block)
+            .expect("a block of the list");
         let design = elaborate(card.name, &*(card.build)(), &Library::new()).expect("elaborates");
         Box::leak(Box::new(Netlist::new(&design).expect("flattens")))
     })

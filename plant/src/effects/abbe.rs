@@ -19,6 +19,7 @@ pub(super) const CARD: Card = Card {
     entry: Entry::LengthReference,
     summary: "the laser beam runs beside the point that grinds, and the carriage pitches",
     formula: "4.848e-3·h·β″",
+    example: "h = 50 mm, 2″: 0.485 µm",
     parameters: &[Parameter::linear("offset", MM, "height of the beam over the grinding point")
         .within(-500.0..=500.0)],
     needs: &["bed_pitch_arcsec"],

@@ -17,6 +17,7 @@ pub(super) const CARD: Card = Card {
     entry: Entry::Motion,
     summary: "a wheel of the gear train runs out, or its teeth do not mesh evenly",
     formula: "a·sin(o·θ + φ), o order of the shaft, or order × teeth",
+    example: "48 teeth on a shaft of order 2.5: lines at 2.5 and 120",
     parameters: &[
         Parameter::amplitude("amplitude", UM, "half the swing").within(0.0..=1000.0),
         Parameter::phase("phase", "phase at spindle angle 0"),

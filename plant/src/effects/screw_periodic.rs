@@ -17,6 +17,7 @@ pub(super) const CARD: Card = Card {
     entry: Entry::Motion,
     summary: "the machine's screw wobbles once a turn of its own, or k times",
     formula: "a·sin(2π·k·x/P + φ), P lead of the machine's screw",
+    example: "a = 1.5 µm, P = 12 mm: 3 µm from peak to peak every 12 mm",
     parameters: &[
         Parameter::amplitude("amplitude", UM, "half the wobble").within(0.0..=100.0),
         Parameter::phase("phase", "phase at x = 0"),

@@ -16,6 +16,7 @@ pub(super) const CARD: Card = Card {
     entry: Entry::Motion,
     summary: "the machine's screw is too long or too short, more and more along its length",
     formula: "c1·x + c2·x² + c3·x³, x in m",
+    example: "c1 = 35 µm/m: 35 µm after 1 m",
     parameters: &[
         Parameter::linear("linear", UM_PER_M, "slope").within(-500.0..=500.0).or(0.0),
         Parameter::linear("quadratic", UM_PER_M2, "bend").within(-1000.0..=1000.0).or(0.0),

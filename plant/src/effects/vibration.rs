@@ -18,6 +18,7 @@ pub(super) const CARD: Card = Card {
     entry: Entry::Motion,
     summary: "something near the machine shakes the table",
     formula: "a·sin(2π·f·t + φ)",
+    example: "25 Hz sampled at 12.64 Hz shows at 0.28 Hz",
     parameters: &[
         Parameter::amplitude("amplitude", UM, "half the swing").within(0.0..=100.0),
         Parameter::phase("phase", "phase at the start of the record"),

@@ -33,7 +33,7 @@ fn effect(section: &Section<'_>, machine: &Machine) -> Result<Term> {
 /// Every kind there is, as a list for a message.
 fn kinds() -> String {
     let kinds: Vec<_> = CATALOGUE.iter().map(|card| card.kind).collect();
-    format!("one of {}, custom, measured-curve", kinds.join(", "))
+    format!("one of {}", kinds.join(", "))
 }
 
 fn from_card(section: &Section<'_>, machine: &Machine, card: &'static Card) -> Result<Term> {

@@ -1,0 +1,37 @@
+//! Moist air is a little thinner: the laser counts too few fringes.
+//!
+//! ```text
+//! δ = x·10⁶·(1 − n/n_ref) ≈ +0.0085·x·Δ%RH
+//!
+//! δ in µm    x travel in m    n refractive index after Ciddor, n_ref that of the reference air
+//! ```
+//!
+//! 1 m and 10 % are 0.085 µm. Physics fixes the coefficient; only 2 % are left to a fit.
+
+use super::air_index::slope;
+use super::shape::polynomial;
+use crate::{Basis, Card, Covariate, Entry, Parameter};
+
+pub(super) const CARD: Card = Card {
+    kind: "air-humidity",
+    entry: Entry::LengthReference,
+    summary: "moist air is a little thinner, so the laser counts too few fringes",
+    formula: "x·10⁶·(1 − n/n_ref) ≈ +0.0085·x·Δ%RH, n after Ciddor",
+    example: "1 m and 10 % are 0.085 µm",
+    parameters: &[Parameter::known(0.02, "factor on the physics")],
+    needs: &["humidity_pct"],
+    signature: "follows x times the logged humidity",
+    confused_with: &["air-temperature", "air-pressure", "cosine"],
+    separated_by: "log it",
+    source: "Ciddor, Applied Optics 35 (1996) 1566",
+    random: false,
+    candidate: true,
+    basis: |context, _| {
+        let laser = context.machine.laser.clone();
+        Ok(Basis::one(polynomial(move |now| {
+            let mut air = laser.reference;
+            air.humidity_pct = now.covariate(Covariate::Humidity);
+            now.position_m() * slope(&laser, &air)
+        })))
+    },
+};

@@ -1,0 +1,43 @@
+//! High pressure makes dense air: the wavelength shrinks, and the laser counts too many fringes.
+//!
+//! ```text
+//! δ = x·10⁶·(1 − n/n_ref) ≈ −0.268·x·Δp[hPa]
+//!
+//! δ in µm    x travel in m    n refractive index after Ciddor, n_ref that of the reference air
+//! ```
+//!
+//! 1 m and 1 hPa are −0.268 µm. Physics fixes the coefficient; only 2 % are left to a fit.
+
+use super::air_index::slope;
+use super::shape::polynomial;
+use crate::{Basis, Card, Covariate, Entry, Parameter};
+
+pub(super) const CARD: Card = Card {
+    kind: "air-pressure",
+    entry: Entry::LengthReference,
+    summary: "high pressure makes dense air, so the laser counts too many fringes",
+    formula: "x·10⁶·(1 − n/n_ref) ≈ −0.268·x·Δp[hPa], n after Ciddor",
+    example: "1 m and 1 hPa are −0.268 µm",
+    parameters: &[Parameter::known(0.02, "factor on the physics")],
+    needs: &["air_pressure_hpa"],
+    signature: "follows x times the logged air pressure",
+    confused_with: &[
+        "air-temperature",
+        "air-humidity",
+        "cosine",
+        "workpiece-expansion",
+        "screw-progressive",
+    ],
+    separated_by: "log the barometer over a change of the weather",
+    source: "Ciddor, Applied Optics 35 (1996) 1566",
+    random: false,
+    candidate: true,
+    basis: |context, _| {
+        let laser = context.machine.laser.clone();
+        Ok(Basis::one(polynomial(move |now| {
+            let mut air = laser.reference;
+            air.pressure_hpa = now.covariate(Covariate::AirPressure);
+            now.position_m() * slope(&laser, &air)
+        })))
+    },
+};

@@ -1,0 +1,40 @@
+//! The beam runs through air before it reaches the table, whatever the travel.
+//!
+//! ```text
+//! δ = D₀·10⁶·(1 − n/n_ref) ≈ D₀·(0.93·ΔT − 0.268·Δp)
+//!
+//! δ in µm    D₀ dead path in m    ΔT in K, Δp in hPa against the reference air
+//! ```
+//!
+//! 0.3 m and 2 K are 0.57 µm, at the start of the travel as at its end. Pressure counts when it is logged.
+
+use super::air_index::{logged, slope};
+use super::shape::polynomial;
+use crate::units::M;
+use crate::{Basis, Card, Covariate, Entry, Parameter};
+
+pub(super) const CARD: Card = Card {
+    kind: "dead-path",
+    entry: Entry::LengthReference,
+    summary: "the beam runs through air before it reaches the table",
+    formula: "D₀·10⁶·(1 − n/n_ref) ≈ D₀·(0.93·ΔT − 0.268·Δp)",
+    example: "D₀ = 0.3 m, 2 K: 0.57 µm",
+    parameters: &[Parameter::linear("path", M, "beam between interferometer and start of travel")
+        .within(-5.0..=5.0)],
+    needs: &["air_temperature_c"],
+    signature: "follows the logged air, whatever the travel",
+    confused_with: &["headstock-growth", "phase-drift"],
+    separated_by: "dwell with the table locked, and log the air",
+    source: "Ciddor, Applied Optics 35 (1996) 1566",
+    random: false,
+    candidate: true,
+    basis: |context, _| {
+        let laser = context.machine.laser.clone();
+        Ok(Basis::one(polynomial(move |now| {
+            let temperature_c = now.covariate(Covariate::AirTemperature);
+            let pressure_hpa = now.covariate(Covariate::AirPressure);
+            let air = logged(&laser.reference, temperature_c, pressure_hpa);
+            if temperature_c.is_nan() { f64::NAN } else { slope(&laser, &air) }
+        })))
+    },
+};

@@ -1,0 +1,40 @@
+//! Polarisations mix in the interferometer, so that the fringes are not evenly spaced.
+//!
+//! ```text
+//! δ = λ/4π·ε·sin(4π·e/λ)
+//!
+//! δ, e error at the meter, λ wavelength, in µm    ε mixing ratio
+//! ```
+//!
+//! ε = 0.1 is at most 0.005 µm: it matters where everything else has gone.
+
+use std::f64::consts::PI;
+
+use super::shape::feedback;
+use crate::units::NUMBER;
+use crate::{Basis, Card, Entry, Parameter};
+
+pub(super) const CARD: Card = Card {
+    kind: "fringe-nonlinearity",
+    entry: Entry::LengthReference,
+    summary: "polarisations mix, so that fringes are not evenly spaced",
+    formula: "λ/4π·ε·sin(4π·e/λ), e error at the meter",
+    example: "ε = 0.1, e = λ/8: 0.0050 µm",
+    parameters: &[
+        Parameter::linear("mixing", NUMBER, "ratio of the wrong polarisation").within(-1.0..=1.0)
+    ],
+    needs: &[],
+    signature: "a ripple over the error itself, every λ/2 of it",
+    confused_with: &["meter-dead-zone"],
+    separated_by: "sweep the initial phase",
+    source: "periodic nonlinearity of homodyne interferometers, first order",
+    random: false,
+    candidate: true,
+    basis: |context, _| {
+        let wavelength_um = context.machine.laser.wavelength_um;
+        Ok(Basis::one(feedback(move |now| {
+            let wave_rad = 4.0 * PI * now.error_um / wavelength_um;
+            wavelength_um / (4.0 * PI) * libm::sin(wave_rad)
+        })))
+    },
+};

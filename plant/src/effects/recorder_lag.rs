@@ -1,0 +1,57 @@
+//! The recorder follows the error only after a while.
+//!
+//! ```text
+//! τ·dy/dt + y = e,   δ = y − e
+//!
+//! δ, y what is recorded, e error at the meter, in µm    τ time constant in s
+//! ```
+//!
+//! A ramp of 0.1 µm/s through τ = 2 s reads 0.2 µm behind. The loop does not go through the recorder,
+//! so it leaves table and counter alone: in a run it is [`crate::Machine::recorder_lags_s`].
+
+use crate::units::S;
+use crate::{Basis, Card, Effect, Entry, Instant, LowPass, Parameter, Record, Search};
+
+pub(super) const CARD: Card = Card {
+    kind: "recorder-lag",
+    entry: Entry::Electronics,
+    summary: "the recorder follows the error only after a while",
+    formula: "τ·dy/dt + y = e, δ = y − e",
+    example: "τ = 2 s, ramp 0.1 µm/s: −0.2 µm",
+    parameters: &[Parameter::nonlinear("time_constant", S, Search::Logarithmic, "of the recorder")
+        .within(0.01..=1000.0)],
+    needs: &[],
+    signature: "waves come smaller and later the faster the spindle turns",
+    confused_with: &["screw-periodic"],
+    separated_by: "repeat at a second speed",
+    source: "first-order lag",
+    random: false,
+    candidate: true,
+    basis: |_, nonlinear| Ok(Basis::fixed(Lag { time_constant_s: nonlinear[0] })),
+};
+
+#[derive(Debug)]
+struct Lag {
+    time_constant_s: f64,
+}
+
+impl Effect for Lag {
+    /// Nothing: a recorder has a memory, and it is not part of the machine.
+    fn delta_um(&self, _: &Instant<'_>) -> f64 {
+        0.0
+    }
+
+    fn deltas_um(&self, record: &Record) -> Vec<f64> {
+        let mut deltas = Vec::with_capacity(record.len());
+        for rows in record.passes() {
+            let error_um = &record.error_um[rows.clone()];
+            let recorded = LowPass::new(self.time_constant_s).pass(&record.time_s[rows], error_um);
+            deltas.extend(recorded.iter().zip(error_um).map(|(shown, error)| shown - error));
+        }
+        deltas
+    }
+
+    fn feeds_back(&self) -> bool {
+        true
+    }
+}
