@@ -2,6 +2,7 @@
 //! read from any producer.
 
 mod header;
+mod plain;
 mod reader;
 mod tick;
 mod writer;

@@ -8,6 +8,7 @@ use ::vcd::{Command, IdCode, Parser, VarType};
 
 use crate::error::{At, TraceError};
 use crate::vcd::Tick;
+use crate::vcd::plain::{plain, with_blanks};
 use crate::vcd::reader::{Signal, dump_error, line_number};
 
 /// What stands before `$enddefinitions`.
@@ -51,6 +52,7 @@ pub(super) fn read_header(reader: &mut impl BufRead, path: &Path) -> Result<Head
                 let next = header.channels.len();
                 let channel = *header.channels.entry(code).or_insert(next);
                 let path = scopes.iter().chain([&name]).cloned().collect::<Vec<_>>().join(".");
+                let path = with_blanks(&path);
                 header.signals.push(Signal { path, width, real: kind == VarType::Real, channel });
             }
             _ => {}
@@ -122,46 +124,4 @@ fn header_text(reader: &mut impl BufRead, path: &Path) -> Result<HeaderText, Tra
 
 fn find(text: &[u8], word: &[u8]) -> Option<usize> {
     text.windows(word.len()).position(|window| window == word)
-}
-
-/// The header in the words of IEEE 1364, line by line.
-///
-/// Producers of SystemVerilog and VHDL write other kinds of scopes and variables, and commands
-/// of their own; the kind matters little here, and the lines stay where they are.
-fn plain(text: &[u8]) -> Vec<u8> {
-    const SCOPES: &[&[u8]] = &[b"module", b"task", b"function", b"begin", b"fork"];
-    const REAL: &[&[u8]] = &[b"shortreal", b"realtime", b"real_parameter"];
-    const COMMANDS: &[&[u8]] = &[
-        b"$comment",
-        b"$date",
-        b"$version",
-        b"$timescale",
-        b"$scope",
-        b"$upscope",
-        b"$var",
-        b"$enddefinitions",
-        b"$end",
-    ];
-    let mut plain = Vec::with_capacity(text.len());
-    let mut before: &[u8] = b"";
-    for word in text.split_inclusive(u8::is_ascii_whitespace) {
-        let (bare, space) = word.split_at(word.trim_ascii_end().len());
-        let standard: &[u8] = match before {
-            b"$scope" if !SCOPES.contains(&bare) => b"module",
-            b"$var" if REAL.contains(&bare) => b"real",
-            b"$var" if !is_standard_variable(bare) => b"wire",
-            _ if bare.starts_with(b"$") && !COMMANDS.contains(&bare) => b"$comment",
-            _ => bare,
-        };
-        plain.extend_from_slice(if bare.is_empty() { bare } else { standard });
-        plain.extend_from_slice(space);
-        if !bare.is_empty() {
-            before = bare;
-        }
-    }
-    plain
-}
-
-fn is_standard_variable(kind: &[u8]) -> bool {
-    std::str::from_utf8(kind).is_ok_and(|kind| kind.parse::<VarType>().is_ok())
 }
