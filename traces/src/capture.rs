@@ -80,6 +80,21 @@ impl Capture {
     }
 }
 
+impl CapturedSignal {
+    /// The last known level at an instant; an edge at that very instant counts.
+    #[must_use]
+    pub fn high_at(&self, ticks: u64) -> Option<bool> {
+        let last = |edges: &[u64]| {
+            let passed = edges.partition_point(|edge| *edge <= ticks);
+            passed.checked_sub(1).map(|index| edges[index])
+        };
+        match (last(&self.rising_ticks), last(&self.falling_ticks)) {
+            (None, None) => self.first_high,
+            (rise, fall) => Some(fall < rise),
+        }
+    }
+}
+
 /// Reads the edges of all one-bit signals of a dump.
 ///
 /// The first value of a signal is no edge, nor is a change from or to an unknown level. A pulse
@@ -188,6 +203,8 @@ mod tests {
             (&[3][..], &[7][..])
         );
         assert_eq!(capture.end_ticks, 9);
+        let levels = [0, 1, 2, 6, 7, 9].map(|ticks| laser.high_at(ticks));
+        assert_eq!(levels, [true, true, false, false, true, true].map(Some));
     }
 
     #[test]

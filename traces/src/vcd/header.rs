@@ -94,6 +94,10 @@ fn header_text(reader: &mut impl BufRead, path: &Path) -> Result<HeaderText, Tra
             .read_until(b'\n', &mut text)
             .map_err(|source| TraceError::Read { path: path.to_owned(), source })?;
         lines += 1;
+        if lines == 1 && text.starts_with(b"META ") {
+            // sigrok-cli puts this before a dump that it made from another one.
+            text = b"\n".to_vec();
+        }
         let first = text.trim_ascii_start().first();
         if first.is_some_and(|first| *first != b'$') {
             return Err(TraceError::Dump {
