@@ -8,6 +8,7 @@ mod device;
 mod digital_comparison;
 mod direction_discriminator;
 mod documented_waveforms;
+mod example_data;
 mod golden_verilog;
 mod initial_phase_selector;
 mod linuxcnc;
