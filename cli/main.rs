@@ -2,10 +2,20 @@
 
 mod output;
 mod pages;
+mod probe_readings;
 mod progress;
+mod quantity;
+mod scale;
+mod scale_model;
+mod scale_samples;
+mod scale_summary;
+mod screw;
+mod series;
 mod sim;
 mod sim_summary;
 mod sim_table;
+mod straightness;
+mod straightness_summary;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -16,7 +26,10 @@ use clap::Parser;
 #[derive(Debug, Parser)]
 #[command(name = "helixlock", version, arg_required_else_help = true)]
 enum Command {
+    Scale(Box<scale::ScaleCommand>),
+    Screw(screw::Screw),
     Sim(sim::Sim),
+    Straightness(Box<straightness::StraightnessCommand>),
 }
 
 /// Exit status: 0 done, 1 the answer is no, 2 the input or the words are wrong.
@@ -34,7 +47,10 @@ fn main() -> ExitCode {
 
 fn run(command: Command, out: &mut impl Write) -> anyhow::Result<ExitCode> {
     match command {
+        Command::Scale(scale) => scale.run(out),
+        Command::Screw(screw) => screw.run(out),
         Command::Sim(sim) => sim.run(out),
+        Command::Straightness(straightness) => straightness.run(out),
     }
 }
 

@@ -1,4 +1,7 @@
 //! Reports as pages: pictures first.
 
+pub(crate) mod scale;
+pub(crate) mod screw;
 pub(crate) mod sim;
+pub(crate) mod straightness;
 mod waveforms;

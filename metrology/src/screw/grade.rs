@@ -45,9 +45,10 @@ pub struct GradeVerdict {
 pub struct Grading {
     /// The best grade that holds; absent when none does.
     pub grade: Option<String>,
-    /// The least trusted limit that this answer rests on: those of the grade given and of the
-    /// better ones refused.
+    /// The least trusted limit of the grade given; of all when none holds.
     pub status: Status,
+    /// The least trusted limit by which a better grade is refused; absent when none is.
+    pub refused_by: Option<Status>,
     /// Every grade, the best first.
     pub verdicts: Vec<GradeVerdict>,
     /// Symbols that have a limit in the table but no value: they were not judged.
@@ -72,13 +73,17 @@ pub fn grade(
     let mut verdicts: Vec<GradeVerdict> = table.grades.iter().map(verdict).collect();
     make_cumulative(&mut verdicts);
     let best = verdicts.iter().position(|verdict| verdict.holds);
-    let rests_on = &verdicts[..best.map_or(verdicts.len(), |index| index + 1)];
-    let status = rests_on.iter().map(|verdict| verdict.status).max();
+    let given = best.map(|index| verdicts[index].status);
+    let worst = || verdicts.iter().map(|verdict| verdict.status).max();
+    let status = given.or_else(worst);
+    let refused = verdicts[..best.unwrap_or(0)].iter().flat_map(|verdict| &verdict.judgements);
+    let refused_by = refused.filter(|one| !one.holds).map(|one| one.status).max();
     let limited = |one: &&Characteristic| table.limits.iter().any(|l| l.quantity == one.limit);
     let missing = characteristics.iter().filter(|one| one.reached.is_err()).filter(limited);
     Grading {
         grade: best.map(|index| verdicts[index].grade.clone()),
         status: status.unwrap_or(Status::Unverified),
+        refused_by,
         not_judged: missing.map(|one| one.symbol).collect(),
         verdicts,
     }

@@ -1,6 +1,7 @@
 //! Repeated readings of three probes, and their combination without the carriage.
 
 use super::chauvenet::is_outlier;
+use super::separated::without_line;
 use super::spacing::Spacing;
 use crate::Error;
 use crate::number::number;
@@ -110,6 +111,21 @@ impl Readings {
         })
     }
 
+    /// What of the carriage's motion does not repeat: standard deviation of the first probe over
+    /// the runs, each run's straight line and the probe's own noise taken off, µm.
+    ///
+    /// The bar is the same in every run, so it does not count. `None` when nothing was repeated
+    /// or readings are missing.
+    #[must_use]
+    pub fn unrepeatable_um(&self, combined: &Combined) -> Option<f64> {
+        let runs: Vec<Vec<f64>> =
+            self.repeats.iter().map(|repeat| without_line(repeat.probes_um[0].clone())).collect();
+        let means: Vec<f64> = (0..self.samples()).map(|sample| mean_of(&runs, sample).0).collect();
+        let scatter = sigma(&runs, &means).filter(|scatter| scatter.is_finite())?;
+        let probe = combined.sigma_um? / combined.spacing.combination_noise();
+        Some((scatter * scatter - probe * probe).max(0.0).sqrt())
+    }
+
     fn check(&self) -> Result<(), Error> {
         let expected = self.samples();
         if expected < 4 {
@@ -170,24 +186,38 @@ fn median(values: &[f64]) -> f64 {
     f64::midpoint(sorted[(sorted.len() - 1) / 2], sorted[sorted.len() / 2])
 }
 
-/// Takes outliers out (as NaN), once at each sample, and says which.
+/// Takes outliers out (as NaN) and says which.
+///
+/// The scatter is that of the whole record (equation 12), so the criterion counts all its
+/// readings, and a reading is not judged by the few beside it. Of each sample only the farthest
+/// reading goes at a time: it has moved the mean that the others are judged by.
 fn reject(z: &mut [Vec<f64>]) -> Vec<Rejected> {
     let samples = z.first().map_or(0, Vec::len);
     let mut rejected = Vec::new();
-    for sample in 0..samples {
-        let (mean, count) = mean_of(z, sample);
-        let squares =
-            z.iter().map(|run| run[sample] - mean).filter(|d| d.is_finite()).map(|d| d * d);
-        let sigma = standard_deviation(squares.sum(), count);
-        for (repeat, run) in z.iter_mut().enumerate() {
-            let distance_um = run[sample] - mean;
-            if is_outlier(distance_um, sigma, count) {
-                rejected.push(Rejected { repeat, sample, distance_um });
-                run[sample] = f64::NAN;
-            }
+    for _ in 0..z.len() {
+        let means: Vec<f64> = (0..samples).map(|sample| mean_of(z, sample).0).collect();
+        let Some(sigma) = sigma(z, &means) else { break };
+        let known = z.iter().flatten().filter(|value| value.is_finite()).count();
+        let farthest = (0..samples).filter_map(|sample| farthest(z, sample, means[sample]));
+        let outlying = farthest.filter(|one| is_outlier(one.distance_um, sigma, known));
+        let outlying: Vec<Rejected> = outlying.collect();
+        for one in &outlying {
+            z[one.repeat][one.sample] = f64::NAN;
         }
+        if outlying.is_empty() {
+            break;
+        }
+        rejected.extend(outlying);
     }
     rejected
+}
+
+/// The reading of a sample that is farthest from the mean of the runs.
+fn farthest(z: &[Vec<f64>], sample: usize, mean_um: f64) -> Option<Rejected> {
+    let distances = z.iter().enumerate().map(|(repeat, run)| (repeat, run[sample] - mean_um));
+    let known = distances.filter(|(_, distance)| distance.is_finite());
+    let (repeat, distance_um) = known.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+    Some(Rejected { repeat, sample, distance_um })
 }
 
 /// Equation 12, with the degrees of freedom that rejection leaves.
@@ -202,10 +232,6 @@ fn sigma(z: &[Vec<f64>], mean_um: &[f64]) -> Option<f64> {
     }
     let freedom = known.saturating_sub(mean_um.len());
     (0 < freedom).then(|| (squares / number(freedom)).sqrt())
-}
-
-fn standard_deviation(squares: f64, count: usize) -> f64 {
-    if count < 2 { 0.0 } else { (squares / number(count - 1)).sqrt() }
 }
 
 /// Mean of the runs at one sample, and how many runs count.

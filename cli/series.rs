@@ -1,0 +1,101 @@
+//! Columns of a file for the metrology commands, and the places of what they refuse.
+
+use std::path::Path;
+
+use anyhow::{Context, anyhow, bail};
+use helixlock_metrology::Error;
+use helixlock_traces::{Table, read_table};
+
+/// A table and the rows of it that count.
+pub(crate) struct Series {
+    table: Table,
+    rows: Vec<usize>,
+}
+
+impl Series {
+    /// Reads a file; with `pass`, the rows of that pass only.
+    ///
+    /// Several passes without a choice are refused: each has its own zero.
+    pub(crate) fn read(path: &Path, pass: Option<f64>) -> anyhow::Result<Self> {
+        let table = read_table(path)?;
+        let rows = rows_of_pass(&table, pass)?;
+        Ok(Self { table, rows })
+    }
+
+    /// Reads a file with all its rows.
+    pub(crate) fn read_all(path: &Path) -> anyhow::Result<Self> {
+        let table = read_table(path)?;
+        let rows = (0..table.rows()).collect();
+        Ok(Self { table, rows })
+    }
+
+    /// A column that has to be there.
+    pub(crate) fn column(&self, name: &str) -> anyhow::Result<Vec<f64>> {
+        let values = self.table.require(name)?;
+        Ok(self.rows.iter().map(|row| values[*row]).collect())
+    }
+
+    /// A column that may be there.
+    pub(crate) fn optional(&self, name: &str) -> Option<Vec<f64>> {
+        let values = self.table.column(name)?;
+        Some(self.rows.iter().map(|row| values[*row]).collect())
+    }
+
+    /// Names of all columns.
+    pub(crate) fn names(&self) -> String {
+        self.table.names().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The file and line of a row, for a message.
+    pub(crate) fn place(&self, row: usize) -> String {
+        self.rows.get(row).map_or_else(
+            || self.table.path.display().to_string(),
+            |row| self.table.at(*row).to_string(),
+        )
+    }
+
+    /// What a library refused, with the file and the line it means.
+    pub(crate) fn refused(&self, error: &Error) -> anyhow::Error {
+        let row = match error {
+            Error::NotFinite { row, .. } | Error::TravelTurns { row, .. } => *row,
+            _ => usize::MAX,
+        };
+        anyhow!("{}: {error}", self.place(row))
+    }
+}
+
+fn rows_of_pass(table: &Table, pass: Option<f64>) -> anyhow::Result<Vec<usize>> {
+    let place = table.path.display();
+    let Some(passes) = table.column("pass") else {
+        return match pass {
+            None => Ok((0..table.rows()).collect()),
+            Some(_) => bail!("{place}: no column `pass`, expected one to choose a pass from"),
+        };
+    };
+    let mut known: Vec<f64> = passes.iter().copied().filter(|pass| !pass.is_nan()).collect();
+    known.sort_by(f64::total_cmp);
+    known.dedup();
+    let list = || known.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
+    let wanted = match (pass, known.as_slice()) {
+        (Some(pass), _) if known.contains(&pass) => pass,
+        (Some(pass), _) => bail!("{place}: no pass {pass}, expected one of {}", list()),
+        (None, [only]) => *only,
+        (None, _) => bail!(
+            "{place}: {} passes, each with its own zero, expected a choice\nhint: `--pass` with one of {}",
+            known.len(),
+            list()
+        ),
+    };
+    let chosen = passes.iter().enumerate().filter(|(_, pass)| **pass <= wanted && wanted <= **pass);
+    Ok(chosen.map(|(row, _)| row).collect())
+}
+
+/// Prints a result as JSON.
+pub(crate) fn print_json(
+    out: &mut impl std::io::Write,
+    value: &serde_json::Value,
+) -> anyhow::Result<()> {
+    let text = serde_json::to_string_pretty(value).context("the result is no JSON")?;
+    writeln!(out, "{text}")?;
+    Ok(())
+}
