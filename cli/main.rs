@@ -1,5 +1,7 @@
 //! The `helixlock` command: reads files, calls the libraries, prints and writes what they say.
 
+mod dividers;
+mod effects;
 mod output;
 mod pages;
 mod probe_readings;
@@ -26,6 +28,8 @@ use clap::Parser;
 #[derive(Debug, Parser)]
 #[command(name = "helixlock", version, arg_required_else_help = true)]
 enum Command {
+    Dividers(dividers::Dividers),
+    Effects(effects::Effects),
     Scale(Box<scale::ScaleCommand>),
     Screw(screw::Screw),
     Sim(sim::Sim),
@@ -47,6 +51,8 @@ fn main() -> ExitCode {
 
 fn run(command: Command, out: &mut impl Write) -> anyhow::Result<ExitCode> {
     match command {
+        Command::Dividers(command) => command.run(out),
+        Command::Effects(command) => command.run(out),
         Command::Scale(scale) => scale.run(out),
         Command::Screw(screw) => screw.run(out),
         Command::Sim(sim) => sim.run(out),
