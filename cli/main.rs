@@ -6,6 +6,7 @@ mod output;
 mod pages;
 mod probe_readings;
 mod progress;
+mod pulse_capture;
 mod quantity;
 mod scale;
 mod scale_model;
@@ -18,6 +19,8 @@ mod sim_summary;
 mod sim_table;
 mod straightness;
 mod straightness_summary;
+mod transmission;
+mod transmission_summary;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -34,6 +37,7 @@ enum Command {
     Screw(screw::Screw),
     Sim(sim::Sim),
     Straightness(Box<straightness::StraightnessCommand>),
+    Transmission(Box<transmission::TransmissionCommand>),
 }
 
 /// Exit status: 0 done, 1 the answer is no, 2 the input or the words are wrong.
@@ -57,6 +61,7 @@ fn run(command: Command, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         Command::Screw(screw) => screw.run(out),
         Command::Sim(sim) => sim.run(out),
         Command::Straightness(straightness) => straightness.run(out),
+        Command::Transmission(transmission) => transmission.run(out),
     }
 }
 

@@ -4,4 +4,5 @@ pub(crate) mod scale;
 pub(crate) mod screw;
 pub(crate) mod sim;
 pub(crate) mod straightness;
+pub(crate) mod transmission;
 mod waveforms;
