@@ -4,6 +4,7 @@
 //! holds straight-line code on 64-bit words, one word a signal, without a branch in the logic.
 
 mod dense;
+mod lanes;
 mod pieces;
 mod words;
 
@@ -23,5 +24,6 @@ pub fn generate(netlist: &Netlist, name: &str) -> String {
     );
     source += &dense::source(netlist, name);
     source += &pieces::source(netlist, name);
+    source += &lanes::source(netlist, name);
     source
 }

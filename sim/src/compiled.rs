@@ -17,8 +17,8 @@ pub trait DenseKernel {
     /// Power-up.
     const REGISTERS: Self::Registers;
 
-    /// Takes one rising edge.
-    fn step(inputs: &Self::Inputs, registers: &mut Self::Registers);
+    /// Takes one rising edge, from `registers` to `next`.
+    fn step(inputs: &Self::Inputs, registers: &Self::Registers, next: &mut Self::Registers);
 
     /// Writes the outputs, in port order.
     fn outputs(inputs: &Self::Inputs, registers: &Self::Registers, values: &mut [u64]);
@@ -31,6 +31,8 @@ pub struct Compiled<'a, K: DenseKernel> {
     clock: u64,
     inputs: K::Inputs,
     registers: K::Registers,
+    /// Written by the next edge, then exchanged with `registers`.
+    next: K::Registers,
     watched: Vec<SignalId>,
     /// Indices of the watched signals among the outputs, if they all are.
     watched_outputs: Option<Vec<usize>>,
@@ -49,6 +51,7 @@ impl<'a, K: DenseKernel> Compiled<'a, K> {
             clock: 0,
             inputs: K::INPUTS,
             registers: K::REGISTERS,
+            next: K::REGISTERS,
             watched: Vec::new(),
             watched_outputs: Some(Vec::new()),
             outputs: vec![0; netlist.outputs.len()],
@@ -96,7 +99,8 @@ impl<K: DenseKernel> Engine for Compiled<'_, K> {
     }
 
     fn step(&mut self) {
-        K::step(&self.inputs, &mut self.registers);
+        K::step(&self.inputs, &self.registers, &mut self.next);
+        std::mem::swap(&mut self.registers, &mut self.next);
         self.clock += 1;
         self.evaluated = None;
     }
@@ -110,10 +114,16 @@ impl<K: DenseKernel> Engine for Compiled<'_, K> {
 
     fn run_until(&mut self, clock: u64) -> Stop {
         if self.watched.is_empty() {
-            for _ in self.clock..clock {
-                K::step(&self.inputs, &mut self.registers);
+            let clocks = clock.saturating_sub(self.clock);
+            // To and fro, so that nothing is copied.
+            for _ in 0..clocks / 2 {
+                K::step(&self.inputs, &self.registers, &mut self.next);
+                K::step(&self.inputs, &self.next, &mut self.registers);
             }
-            self.clock = self.clock.max(clock);
+            self.clock += clocks / 2 * 2;
+            if clocks % 2 == 1 {
+                self.step();
+            }
             self.evaluated = None;
             return Stop::Reached;
         }

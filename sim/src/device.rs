@@ -6,13 +6,17 @@ use helixlock_netlist::{Library, Netlist, elaborate};
 
 use crate::circuit::Circuit;
 use crate::compiled::Compiled;
+use crate::lanes::Lanes;
 use crate::leap::Leap;
 
 #[allow(clippy::all, clippy::pedantic, reason = "generated: written for the compiler alone")]
 #[allow(unused_imports, reason = "a design may do without shifts")]
+#[allow(unused_variables, reason = "bits that nobody takes: the compiler drops them")]
 mod generated {
     use crate::compiled::DenseKernel;
+    use crate::lanes::{LANE_WORDS, Lane, LaneKernel};
     use crate::moment::{Coasting, Kernel, Moment};
+    use crate::vector::Vector;
     use crate::words::{choose, shift_down, shift_up};
 
     include!(concat!(env!("OUT_DIR"), "/device.rs"));
@@ -46,6 +50,12 @@ pub fn stepped_device() -> Compiled<'static, DeviceKernel> {
     Compiled::new(device())
 }
 
+/// 512 devices at power-up, with all inputs low.
+#[must_use]
+pub fn device_lanes() -> Lanes<'static, DeviceKernel> {
+    Lanes::new(device())
+}
+
 fn elaborated() -> Netlist {
     let card = helixlock_rtl::BLOCKS.iter().find(|card| card.name == "device");
     let card = card.expect("the build script has found it");
@@ -56,11 +66,49 @@ fn elaborated() -> Netlist {
 
 #[cfg(test)]
 mod tests {
-    use helixlock_netlist::SignalId;
+    use helixlock_netlist::{SignalId, mask};
 
     use super::*;
     use crate::random_design::{Dice, compare};
-    use crate::{Engine, Interpreter};
+    use crate::{Engine, Interpreter, LANES};
+
+    /// Each lane gets inputs of its own; a few of them are held to the reference engine.
+    #[test]
+    fn every_lane_is_a_device_of_its_own() {
+        let netlist = device().netlist();
+        let mut dice = Dice(42);
+        let mut lanes = device_lanes();
+        let mut singles: Vec<_> =
+            [0, 63, 64, 300, 511].map(|lane| (lane, Interpreter::new(netlist))).into();
+        for _ in 0..400 {
+            for input in &netlist.inputs {
+                for lane in 0..LANES {
+                    if dice.below(4) == 0 {
+                        let value = dice.roll() & mask(netlist.signal(*input).width);
+                        lanes.set_input_of(lane, *input, value);
+                        let single = singles.iter_mut().find(|(number, _)| *number == lane);
+                        if let Some((_, engine)) = single {
+                            engine.set_input(*input, value);
+                        }
+                    }
+                }
+            }
+            lanes.step();
+            for (lane, engine) in &mut singles {
+                engine.step();
+                assert_eq!(lanes.flip_flops(*lane), engine.flip_flops(), "lane {lane}");
+            }
+        }
+    }
+
+    #[test]
+    fn only_the_flipped_lane_is_unlike() {
+        let mut lanes = device_lanes();
+        lanes.flip(77, 5);
+        let mut expected = [0; crate::LANE_WORDS];
+        expected[1] = 1 << 13;
+        assert_eq!(lanes.unlike(0), expected);
+    }
 
     #[test]
     fn both_compiled_engines_agree_with_the_reference_on_noise() {

@@ -13,6 +13,8 @@ mod grinder;
 mod illustrate;
 mod interpreted_pieces;
 mod interpreter;
+#[allow(unsafe_code, reason = "vector instructions, after asking the processor for them")]
+mod lanes;
 mod leap;
 mod moment;
 mod pass;
@@ -26,6 +28,9 @@ mod simulate;
 mod state;
 mod swing;
 mod vcd_file;
+#[allow(unsafe_code, reason = "vector instructions have no other way in")]
+#[allow(clippy::inline_always, reason = "in a function of its own it would lack the instructions")]
+mod vector;
 mod wheels;
 #[allow(dead_code, reason = "a design may do without shifts")]
 mod words;
@@ -36,7 +41,7 @@ pub use appraisal::{
 pub use circuit::Circuit;
 pub use closed_loop::{ClosedLoop, Place, Process, Sample};
 pub use compiled::{Compiled, DenseKernel};
-pub use device::{DeviceEngine, DeviceKernel, device, device_engine, stepped_device};
+pub use device::{DeviceEngine, DeviceKernel, device, device_engine, device_lanes, stepped_device};
 pub use device_pins::DevicePins;
 pub use engine::{Engine, Stop};
 pub use error::Error;
@@ -45,6 +50,7 @@ pub use grinder::Grinder;
 pub use illustrate::{Illustrations, illustrate};
 pub use interpreted_pieces::InterpretedPieces;
 pub use interpreter::Interpreter;
+pub use lanes::{LANE_WORDS, LANES, Lane, LaneKernel, Lanes};
 pub use leap::Leap;
 pub use moment::{Coasting, Kernel, Moment};
 pub use pass::{Pass, PassPlan, Playback, Trace, run_pass};
@@ -56,4 +62,5 @@ pub use simulate::{Course, Options, Simulation, simulate};
 pub use state::{FlipFlops, Snapshot, SnapshotError, differences};
 pub use swing::{Progress, Swing};
 pub use vcd_file::{ANALOGUE, SHOWN_FIRST, write_vcd};
+pub use vector::Vector;
 pub use wheels::set_wheels;

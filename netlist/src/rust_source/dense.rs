@@ -20,7 +20,7 @@ pub(super) fn source(netlist: &Netlist, name: &str) -> String {
     const REGISTERS: Self::Registers = {initial:?};
 
     #[inline(always)]
-    fn step(inputs: &Self::Inputs, registers: &mut Self::Registers) {{
+    fn step(inputs: &Self::Inputs, registers: &Self::Registers, next: &mut Self::Registers) {{
 {step}    }}
 
     #[inline(always)]
@@ -36,16 +36,15 @@ pub(super) fn source(netlist: &Netlist, name: &str) -> String {
     source
 }
 
-/// Reads everything, computes everything, writes everything.
+/// Each register is written as soon as its next value is known: that value need not be kept.
 fn step(netlist: &Netlist) -> Vec<String> {
     let mut words = Words::new(netlist);
     place_sources(&mut words, netlist, netlist.registers.iter().map(|register| register.input));
-    let next: Vec<String> =
-        netlist.registers.iter().map(|register| words.signal(register.input)).collect();
-    let mut lines = words.lines;
-    let stores = next.iter().enumerate();
-    lines.extend(stores.map(|(index, word)| format!("registers[{index}] = {word};")));
-    lines
+    for (index, register) in netlist.registers.iter().enumerate() {
+        let word = words.signal(register.input);
+        words.lines.push(format!("next[{index}] = {word};"));
+    }
+    words.lines
 }
 
 fn outputs(netlist: &Netlist) -> Vec<String> {
