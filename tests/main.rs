@@ -1,5 +1,6 @@
 //! What crosses crates; one module a subject.
 
+mod bad_data;
 mod blocks_apart;
 mod calibrator;
 mod cumulative_compensator;
@@ -12,6 +13,7 @@ mod example_data;
 mod golden_verilog;
 mod initial_phase_selector;
 mod linuxcnc;
+mod parquet_readers;
 mod phase_meter;
 mod programmable_divider;
 mod properties;

@@ -96,6 +96,11 @@ impl<W: Write> RowWriter<W> {
     ///
     /// Those of `out`.
     pub fn row(&mut self, cells: &[f64]) -> io::Result<()> {
+        if let [cell] = cells
+            && cell.is_nan()
+        {
+            return self.out.write_all(b"\"\"\n"); // an empty line would be no row
+        }
         for (index, cell) in cells.iter().enumerate() {
             if index > 0 {
                 self.out.write_all(b",")?;
@@ -107,6 +112,9 @@ impl<W: Write> RowWriter<W> {
         self.out.write_all(b"\n")
     }
 }
+
+const CUT_OFF: &str = "\n\nhint: the file ends here, it may have been cut off";
+const DECIMAL_COMMA: &str = "\n\nhint: write the decimal sign as a point";
 
 /// Names of the columns, from the first record.
 fn header(record: &ByteRecord, line: &Line) -> Result<Vec<String>, TraceError> {
@@ -146,13 +154,16 @@ fn empty_table(names: Vec<String>, path: &Path) -> Table {
 fn push_row(table: &mut Table, record: &ByteRecord, line: &Line) -> Result<(), TraceError> {
     let (found, expected) = (record.len(), table.columns.len());
     if found != expected {
-        let hint = ragged_hint(found, expected, line);
+        let hint = ragged_hint(record, expected, line);
         return Err(TraceError::Ragged { at: line.whole(), found, expected, hint });
+    }
+    if line.last && line.is_open() {
+        return Err(TraceError::OpenQuote { at: line.whole() });
     }
     for (index, (cell, column)) in record.iter().zip(&mut table.columns).enumerate() {
         match number(cell) {
             Some(value) => column.values.push(value),
-            None => return Err(bad_cell(cell, &column.name, line.at(index))),
+            None => return Err(bad_cell(cell, &column.name, line, index)),
         }
     }
     Ok(())
@@ -160,18 +171,22 @@ fn push_row(table: &mut Table, record: &ByteRecord, line: &Line) -> Result<(), T
 
 /// The cell as a number, NaN when it is empty; `None` when it is anything but finite.
 fn number(cell: &[u8]) -> Option<f64> {
-    let cell = cell.trim_ascii();
-    if cell.is_empty() {
+    let bare = cell.trim_ascii();
+    if bare.len() < cell.len() && cell.contains(&b'\n') {
+        return None; // a quote was not closed on its line
+    }
+    if bare.is_empty() {
         return Some(f64::NAN);
     }
-    let value: f64 = std::str::from_utf8(cell).ok()?.parse().ok()?;
+    let value: f64 = std::str::from_utf8(bare).ok()?.parse().ok()?;
     value.is_finite().then_some(value)
 }
 
-fn bad_cell(cell: &[u8], name: &str, at: At) -> TraceError {
+fn bad_cell(cell: &[u8], name: &str, line: &Line, index: usize) -> TraceError {
     let found = String::from_utf8_lossy(cell.trim_ascii());
-    let hint = cell_hint(&found);
-    TraceError::Cell { at, name: name.into(), found: shortened(&found), hint }
+    let unfinished = found.ends_with(['-', '+', 'e', 'E', '.']);
+    let hint = if line.last && unfinished { CUT_OFF } else { cell_hint(&found) };
+    TraceError::Cell { at: line.at(index), name: name.into(), found: shortened(&found), hint }
 }
 
 /// At most forty characters, so that a message stays a line.
@@ -183,11 +198,18 @@ fn shortened(text: &str) -> String {
     }
 }
 
+/// Numbers with blanks between them.
+fn is_row(text: &str) -> bool {
+    text.split_whitespace().all(|word| word.parse::<f64>().is_ok())
+}
+
 fn cell_hint(found: &str) -> &'static str {
     let word = found.trim_start_matches(['+', '-']).to_ascii_lowercase();
-    let decimal_comma = found.replacen(',', ".", 1).parse::<f64>().is_ok();
-    if decimal_comma {
-        "\n\nhint: write the decimal sign as a point"
+    let decimal_comma = found.contains(',') && found.replacen(',', ".", 1).parse::<f64>().is_ok();
+    if found.split_whitespace().nth(1).is_some() && is_row(found) {
+        "\n\nhint: put commas between cells"
+    } else if decimal_comma {
+        DECIMAL_COMMA
     } else if matches!(word.as_str(), "nan" | "na" | "n/a" | "null" | "none" | "-" | "") {
         "\n\nhint: leave the cell empty where a value is missing"
     } else if found.starts_with('\u{2212}') {
@@ -199,11 +221,12 @@ fn cell_hint(found: &str) -> &'static str {
     }
 }
 
-fn ragged_hint(found: usize, expected: usize, line: &Line) -> &'static str {
-    if line.last && found < expected {
-        "\n\nhint: the file ends here, it may have been cut off"
-    } else if found == 2 * expected {
-        "\n\nhint: write the decimal sign as a point"
+fn ragged_hint(record: &ByteRecord, expected: usize, line: &Line) -> &'static str {
+    let digits = |cell: &[u8]| cell.trim_ascii().last().is_some_and(u8::is_ascii_digit);
+    if line.last && record.len() < expected {
+        CUT_OFF
+    } else if record.len() == 2 * expected && record.iter().all(digits) {
+        DECIMAL_COMMA
     } else {
         ""
     }

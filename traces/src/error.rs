@@ -94,7 +94,7 @@ pub enum TraceError {
         name: String,
     },
     /// A row that is longer or shorter than the header.
-    #[error("{at}: found {found} cells, expected {expected} as in the header{hint}")]
+    #[error("{at}: found {}, expected {expected} as in the header{hint}", cells(*found))]
     Ragged {
         /// The row.
         at: At,
@@ -104,6 +104,12 @@ pub enum TraceError {
         expected: usize,
         /// What the likely reason is; empty, or a line of its own.
         hint: &'static str,
+    },
+    /// The text ends inside quotes.
+    #[error("{at}: found the end of the file inside quotes, expected a closing quote")]
+    OpenQuote {
+        /// The last line.
+        at: At,
     },
     /// A cell that is not a finite number.
     #[error("{at}: column `{name}`: found `{found}`, expected a number or an empty cell{hint}")]
@@ -126,6 +132,19 @@ pub enum TraceError {
         name: String,
         /// Its type.
         found: String,
+    },
+    /// A column of a binary file that is packed in a way we do not read.
+    #[error(
+        "{}: column `{name}`: found compression {found}, expected none, snappy, gzip, zstd or lz4",
+        path.display()
+    )]
+    Compression {
+        /// The file.
+        path: PathBuf,
+        /// The column.
+        name: String,
+        /// The compression.
+        found: &'static str,
     },
     /// A binary file that contradicts itself.
     #[error("{}: cannot be read as Parquet: {message}", path.display())]
@@ -167,4 +186,8 @@ pub enum TraceError {
         /// The signals there are, or those meant.
         found: String,
     },
+}
+
+fn cells(count: usize) -> String {
+    if count == 1 { "1 cell".into() } else { format!("{count} cells") }
 }

@@ -45,6 +45,7 @@ pub fn read_parquet(bytes: Vec<u8>, path: &Path) -> Result<Table, TraceError> {
             continue;
         }
         check_type(descriptor, &name, path)?;
+        check_compression(&reader, index, &name, path)?;
         let values = read_column(&reader, index, descriptor).map_err(broken)?;
         columns.push(Column { name, values });
     }
@@ -117,6 +118,25 @@ fn check_type(column: &ColumnDescriptor, name: &str, path: &Path) -> Result<(), 
     Err(TraceError::ColumnType { path: path.to_owned(), name: name.to_owned(), found })
 }
 
+/// Refuses what would need yet another library to unpack.
+fn check_compression(
+    file: &SerializedFileReader<Bytes>,
+    index: usize,
+    name: &str,
+    path: &Path,
+) -> Result<(), TraceError> {
+    for column in file.metadata().row_groups().iter().filter_map(|group| group.columns().get(index))
+    {
+        let found = match column.compression() {
+            Compression::BROTLI(_) => "brotli",
+            Compression::LZO => "lzo",
+            _ => continue,
+        };
+        return Err(TraceError::Compression { path: path.into(), name: name.into(), found });
+    }
+    Ok(())
+}
+
 fn is_plain(logical: Option<&LogicalType>) -> bool {
     matches!(logical, None | Some(LogicalType::Integer(_)))
 }
@@ -129,7 +149,11 @@ fn check_rows(table: &Table) -> Result<(), TraceError> {
             return Err(broken(format!("column `{name}` has {} rows of {rows}", values.len())));
         }
         if let Some(row) = values.iter().position(|value| value.is_infinite()) {
-            return Err(broken(format!("column `{name}`, row {}: found infinity", row + 1)));
+            return Err(TraceError::ColumnType {
+                path: table.path.clone(),
+                name: name.clone(),
+                found: format!("infinity in row {}", row + 1),
+            });
         }
     }
     if rows == 0 {

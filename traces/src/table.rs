@@ -109,6 +109,8 @@ fn foreign_kind(bytes: &[u8]) -> Option<&'static str> {
         (b"ARROW1", "an Arrow file"),
         (b"\xFF\xFE", "UTF-16 text"),
         (b"\xFE\xFF", "UTF-16 text"),
+        (b"{", "JSON"),
+        (b"<", "HTML or XML"),
         (b"$date", "a value change dump"),
         (b"$version", "a value change dump"),
         (b"$timescale", "a value change dump"),

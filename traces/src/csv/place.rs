@@ -25,7 +25,9 @@ impl<'a> Source<'a> {
                 path: self.path.to_owned(),
                 source: io::Error::other(error),
             })?;
-            let blank = record.len() == 1 && record[0].trim_ascii().is_empty();
+            // A quoted empty cell is a row; a line of blanks is none.
+            let blank =
+                record.len() == 1 && !record[0].is_empty() && record[0].trim_ascii().is_empty();
             if !more || !blank {
                 return Ok(more);
             }
@@ -62,6 +64,12 @@ pub(super) struct Line<'a> {
 }
 
 impl Line<'_> {
+    /// A quote in it is not closed.
+    pub(super) fn is_open(&self) -> bool {
+        let line = self.before_end.rsplit(|byte| matches!(byte, b'\n' | b'\r')).next();
+        line.is_some_and(|line| line.split(|byte| *byte == b'"').count() % 2 == 0)
+    }
+
     /// The line as a whole.
     pub(super) fn whole(&self) -> At {
         At::file(self.path).on_line(self.number)

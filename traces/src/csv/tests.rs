@@ -30,7 +30,7 @@ fn a_bad_cell_is_named_by_line_and_column() {
 fn a_short_last_line_is_taken_for_a_cut() {
     assert_eq!(
         refusal("a,b\n1,2\n3"),
-        "data.csv:3: found 1 cells, expected 2 as in the header\n\n\
+        "data.csv:3: found 1 cell, expected 2 as in the header\n\n\
          hint: the file ends here, it may have been cut off"
     );
 }

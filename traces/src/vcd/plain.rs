@@ -102,7 +102,7 @@ impl<'a> Rewriting<'a> {
 
     /// Ties a word to the one before.
     fn join(&mut self, word: &[u8], blank: bool) {
-        self.lines_owed += self.space.iter().filter(|byte| **byte == b'\n').count();
+        self.lines_owed += self.space.split(|byte| *byte == b'\n').count() - 1;
         self.space.clear();
         if blank {
             self.plain.extend_from_slice(BLANK.encode_utf8(&mut [0; 4]).as_bytes());

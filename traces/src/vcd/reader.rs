@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::io::{self, BufRead, Cursor, Read};
 use std::path::{Path, PathBuf};
 
-use ::vcd::{Command, IdCode, ParseError, Parser};
+use ::vcd::{Command, IdCode, ParseError, ParseErrorKind, Parser};
 
 use crate::error::{At, TraceError};
 use crate::vcd::header::{Header, read_header};
@@ -183,22 +183,42 @@ fn declaration(command: &Command) -> String {
 
 /// What the parser said, as an error of ours.
 pub(super) fn dump_error(error: &io::Error, path: &Path, line: usize) -> TraceError {
-    let at = At::file(path).on_line(line);
     match error.get_ref().and_then(|inner| inner.downcast_ref::<ParseError>()) {
-        Some(parse) => TraceError::Dump {
-            at,
-            found: parse.kind().to_string(),
-            expected: "a value change dump as in IEEE 1364",
-        },
+        Some(parse) => {
+            let (found, expected) = broken(parse.kind());
+            TraceError::Dump { at: At::file(path).on_line(line), found: found.into(), expected }
+        }
         None if error.kind() == io::ErrorKind::UnexpectedEof => TraceError::Dump {
-            at,
+            at: At::file(path),
             found: "the end of the file".into(),
-            expected: "the rest of this line",
+            expected: "the rest of its last line",
         },
         None => TraceError::Read {
             path: path.to_owned(),
             source: io::Error::new(error.kind(), error.to_string()),
         },
+    }
+}
+
+/// What the parser found, and what belongs there.
+fn broken(kind: &ParseErrorKind) -> (&'static str, &'static str) {
+    use ParseErrorKind as Kind;
+    match kind {
+        Kind::InvalidUtf8 => ("bytes that are no text", "UTF-8"),
+        Kind::TokenTooLong => ("a word that is too long", "a word of IEEE 1364"),
+        Kind::ExpectedEndCommand => ("a word too many", "`$end`"),
+        Kind::UnmatchedEnd => ("`$end`", "a command before it"),
+        Kind::UnknownCommand => ("an unknown command", "a command of IEEE 1364"),
+        Kind::UnexpectedHeaderCommand => ("a change", "declarations"),
+        Kind::ParseIntError(_) => ("something else", "a whole number of at most 64 bits"),
+        Kind::ParseFloatError(_) => ("something else", "a real number after `r`"),
+        Kind::InvalidTimescaleUnit(_) => ("an unknown unit of time", "s, ms, us, ns, ps or fs"),
+        Kind::InvalidScopeType(_) => ("something else", "a kind of scope such as `module`"),
+        Kind::InvalidVarType(_) => ("something else", "a kind of variable such as `wire`"),
+        Kind::InvalidReferenceIndex(_) => ("a broken range", "a range such as `[7:0]`"),
+        Kind::InvalidValueChar(_) => ("an unknown level", "0, 1, x or z"),
+        Kind::InvalidIdCode(_) => ("a broken code", "a code of a few printable characters"),
+        _ => ("an unexpected character", "a time, a change, or a command"),
     }
 }
 

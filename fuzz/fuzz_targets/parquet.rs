@@ -1,0 +1,13 @@
+//! A file is a table or an error.
+#![no_main]
+
+use std::path::Path;
+
+use helixlock_traces::parquet::read_parquet;
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| {
+    if let Err(error) = read_parquet(bytes.to_vec(), Path::new("data.parquet")) {
+        assert!(error.to_string().starts_with("data.parquet"));
+    }
+});
