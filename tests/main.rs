@@ -3,6 +3,7 @@
 mod bad_data;
 mod blocks_apart;
 mod calibrator;
+mod command_line;
 mod cumulative_compensator;
 mod decade_counter;
 mod device;
