@@ -199,7 +199,8 @@ fn pass(pass: &Pass, findings: &PassFindings) -> PassSummary {
 }
 
 fn hunting(findings: &Findings, expected_swing_um: f64) -> Option<HuntingSummary> {
-    findings.hunting.map(|hunting| HuntingSummary {
+    // A motor that never catches up does not hunt.
+    findings.hunting.filter(|_| !findings.slew_limited).map(|hunting| HuntingSummary {
         frequency_hz: hunting.frequency_hz,
         comparison_hz: hunting.comparison_hz,
         ratio: hunting.frequency_hz / hunting.comparison_hz,

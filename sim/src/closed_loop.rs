@@ -179,14 +179,14 @@ impl<E: Engine, P: Process> ClosedLoop<E, P> {
     ///
     /// # Errors
     ///
-    /// [`Error::PulsesTooFast`].
+    /// [`Error::PulsesTooFast`], or [`Error::WaveformFull`].
     pub fn run_until(
         &mut self,
         clock: u64,
         mut enough: impl FnMut(&mut E) -> bool,
     ) -> Result<(), Error> {
         while self.engine.clock() < clock {
-            self.sample();
+            self.sample()?;
             let mut next = self.next_input_change().map_or(clock, |change| change.min(clock));
             if self.meter.stepping {
                 next = next.min(self.engine.clock() + 1);
@@ -288,10 +288,11 @@ impl<E: Engine, P: Process> ClosedLoop<E, P> {
         }
     }
 
-    fn sample(&mut self) {
-        let Some(recording) = &mut self.recording else { return };
+    fn sample(&mut self) -> Result<(), Error> {
+        let Some(recording) = &mut self.recording else { return Ok(()) };
         let clock = self.engine.clock();
-        let place = self.process.place(time_of(clock, self.clock_hz));
+        let time_s = time_of(clock, self.clock_hz);
+        let place = self.process.place(time_s);
         let analogue = Analogue {
             clock,
             position_mm: place.position_mm,
@@ -299,7 +300,10 @@ impl<E: Engine, P: Process> ClosedLoop<E, P> {
             correction_um: place.correction_um,
             error_um: self.meter.reading_um,
         };
-        recording.sample(&mut self.engine, analogue);
+        if recording.sample(&mut self.engine, analogue) {
+            return Ok(());
+        }
+        Err(Error::WaveformFull { changes: recording.waveform.changes.len(), time_s })
     }
 }
 

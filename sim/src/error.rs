@@ -46,6 +46,16 @@ pub enum Error {
         /// Scopes there are.
         known: Vec<String>,
     },
+    /// More changes than memory should hold.
+    #[error(
+        "waveform: {changes} changes up to {time_s:.6} s, expected a shorter window or fewer scopes"
+    )]
+    WaveformFull {
+        /// How many.
+        changes: usize,
+        /// How far they reach, s.
+        time_s: f64,
+    },
     /// The window shows nothing of the run.
     #[error("window from {from_s} s to {to_s} s: expected a part of 0 s to {end_s} s")]
     Window {

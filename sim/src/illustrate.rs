@@ -15,6 +15,9 @@ const COMPARISONS: f64 = 5.0;
 /// Swing of the table: this part of the range either way, an eighth of a turn of phase.
 const SWING: f64 = 0.125;
 
+/// Comparisons from the end of the selection to the picture.
+const BEFORE: f64 = 1.4;
+
 /// Calibration periods of eight lines shown, for each of its two phases.
 const CALIBRATIONS: f64 = 3.0;
 
@@ -47,8 +50,8 @@ fn comparison(machine: &Machine, course: &Course) -> Result<Waveform, Error> {
     let period_s = 1.0 / course.comparison_hz;
     let selecting_s = f64::from(machine.dividers.initial_phase) * machine.fringe_um()
         / (1000.0 * machine.travel_mm_per_s());
-    // One comparison passes before the lag begins and the picture with it.
-    let begin_s = selecting_s + 1.5 * period_s;
+    // The comparison after the selection is still even; the picture begins just before the next.
+    let begin_s = selecting_s + BEFORE * period_s;
     let swing = Swing {
         amplitude_um: SWING * course.full_scale_um,
         period_s: COMPARISONS * period_s,

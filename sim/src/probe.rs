@@ -16,6 +16,9 @@ pub struct Probe {
     pub window: Range<u64>,
 }
 
+/// Most changes a waveform holds: about half a gigabyte.
+const MOST_CHANGES: usize = 20_000_000;
+
 /// A change of one signal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Change {
@@ -117,8 +120,9 @@ impl Recording {
         Self { probe, waveform, last }
     }
 
-    /// Notes what has changed, at most once a clock, when inputs and flip-flops are settled.
-    pub(crate) fn sample(&mut self, engine: &mut impl Engine, analogue: Analogue) {
+    /// Notes what has changed, at most once a clock, when inputs and flip-flops are settled; false
+    /// when the waveform is full.
+    pub(crate) fn sample(&mut self, engine: &mut impl Engine, analogue: Analogue) -> bool {
         let clock = engine.clock();
         for (signal, (&id, last)) in self.probe.signals.iter().zip(&mut self.last).enumerate() {
             let value = engine.value(id);
@@ -130,5 +134,6 @@ impl Recording {
         if self.waveform.analogue.last().is_none_or(differs) {
             self.waveform.analogue.push(analogue);
         }
+        self.waveform.changes.len() < MOST_CHANGES
     }
 }

@@ -1,0 +1,145 @@
+//! `helixlock sim` as a user meets it: files, windows, words that are wrong.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use helixlock_sim::device;
+use serde_json::Value;
+use vcd::{Command, Parser, ScopeItem};
+
+use crate::support::command::{Run, helixlock, scratch, word};
+
+const MACHINE: &str = "examples/sg7430-6mm/machine.toml";
+
+fn sim(out: &str, words: &[&str]) -> Run {
+    helixlock(&[&["sim", MACHINE, "-o", out, "--length", "2"], words].concat())
+}
+
+fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let entries = fs::read_dir(folder).unwrap().map(Result::unwrap);
+    entries
+        .map(|e| (e.file_name().into_string().unwrap(), fs::read(e.path()).unwrap()))
+        .collect()
+}
+
+#[test]
+fn the_same_machine_gives_the_same_bytes() {
+    let folder = scratch();
+    let [first, second] = ["first", "second"].map(|name| {
+        let (path, path_word) = word(&folder, name);
+        assert_eq!(sim(&path_word, &[]).status, 0);
+        files(&path)
+    });
+    let names: Vec<_> = first.keys().map(String::as_str).collect();
+    assert_eq!(names, ["report.html", "summary.json", "trace.csv", "wave.gtkw", "wave.vcd"]);
+    for (name, bytes) in &first {
+        assert!(bytes == &second[name], "{name} differs");
+    }
+}
+
+#[test]
+fn the_page_needs_no_network() {
+    let folder = scratch();
+    let (out, out_word) = word(&folder, "out");
+    assert_eq!(sim(&out_word, &[]).status, 0);
+    let page = fs::read_to_string(out.join("report.html")).unwrap();
+    let page = page.replace("http://www.w3.org/2000/svg", "");
+    for outside in ["http:", "https:", "<script", "@import", "url("] {
+        assert!(!page.contains(outside), "{outside}");
+    }
+    assert_eq!(page.matches("<svg").count(), 5);
+}
+
+/// Paths of all variables in a dump, read by the `vcd` crate.
+fn variables(items: &[ScopeItem], above: &str, found: &mut Vec<String>) {
+    for item in items {
+        match item {
+            ScopeItem::Var(var) => found.push(format!("{above}{}", var.reference)),
+            ScopeItem::Scope(scope) => {
+                variables(&scope.items, &format!("{above}{}.", scope.identifier), found);
+            }
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn every_signal_of_the_device_is_in_the_dump() {
+    let folder = scratch();
+    let (out, out_word) = word(&folder, "out");
+    let run = sim(&out_word, &["--scope", "all", "--from", "0.5", "--to", "0.5005"]);
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let bytes = fs::read(out.join("wave.vcd")).unwrap();
+    let mut dump = Parser::new(&bytes[..]);
+    let header = dump.parse_header().unwrap();
+    let mut found = Vec::new();
+    variables(&header.items, "", &mut found);
+    for signal in &device().netlist().signals {
+        let path = format!("device.{}", signal.path);
+        assert!(found.contains(&path), "{path}");
+    }
+    for path in ["machine.recorder_error_um", "machine.lead_error_um", "machine.correction_um"] {
+        assert!(found.iter().any(|known| known == path), "{path}");
+    }
+    // 500 µs in picoseconds, of which the step clock alone fills 6000 clocks.
+    let times: Vec<u64> = dump
+        .map(Result::unwrap)
+        .filter_map(|command| match command {
+            Command::Timestamp(time) => Some(time),
+            _ => None,
+        })
+        .collect();
+    assert_eq!((times.first(), times.last()), (Some(&500_000_000_000), Some(&500_500_000_000)));
+    assert!((6_000..6_003).contains(&times.len()), "{}", times.len());
+}
+
+#[test]
+fn an_error_beyond_the_range_is_drawn_on_and_said_so() {
+    let folder = scratch();
+    let text = fs::read_to_string(MACHINE).unwrap();
+    let text = text.replace("range = 2 ", "range = 1 ");
+    let text = text.replace("initial_phase = 150", "initial_phase = 75");
+    let text = text.replace("linear = \"50 um/m\"", "linear = \"500 um/m\"");
+    let (machine, machine_word) = word(&folder, "machine.toml");
+    crate::support::command::put(&machine, &text);
+    let (out, out_word) = word(&folder, "out");
+    let run = helixlock(&["sim", &machine_word, "-o", &out_word, "--length", "100"]);
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    assert!(run.stdout.contains("note: without correction the error leaves the range of ±23.7 um"));
+    let text = fs::read_to_string(out.join("summary.json")).unwrap();
+    let summary: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(summary["without_correction"]["recorder_jumps"], 1);
+    let recorder_um = summary["without_correction"]["recorder_peak_to_peak_um"].as_f64().unwrap();
+    assert!((50.0..53.0).contains(&recorder_um), "{recorder_um}");
+}
+
+#[test]
+fn wrong_words_are_refused_and_leave_nothing() {
+    let cases: [(&[&str], &str); 5] = [
+        (&["--scope", "no_such_block"], "scope `no_such_block` is not in the design, expected"),
+        (&["--from", "2", "--to", "1"], "window from 2 s to 1 s: expected a part of 0 s to 1666.6"),
+        (&["--from", "2000"], "window from 2000 s to"),
+        (&["--length", "-1"], "--length"),
+        (&["--from", "soon"], "invalid value 'soon' for '--from"),
+    ];
+    for (words, expected) in cases {
+        let folder = scratch();
+        let (out, out_word) = word(&folder, "out");
+        let run = helixlock(&[&["sim", MACHINE, "-o", &out_word], words].concat());
+        assert_eq!(run.status, 2, "{words:?}");
+        assert!(run.stderr.contains(expected), "{words:?}: {}", run.stderr);
+        assert!(!out.exists(), "{words:?}");
+    }
+}
+
+#[test]
+fn a_file_in_the_way_of_the_folder_is_named() {
+    let folder = scratch();
+    let (out, out_word) = word(&folder, "out");
+    crate::support::command::put(&out, "in the way");
+    let run = sim(&out_word, &[]);
+    assert_eq!(run.status, 2);
+    assert!(run.stderr.contains("the folder cannot be made"), "{}", run.stderr);
+    assert_eq!(fs::read_to_string(&out).unwrap(), "in the way");
+}
