@@ -12,6 +12,7 @@ use helixlock_traces::csv::write_csv;
 use crate::output::{folder, write_whole};
 use crate::pages;
 use crate::progress;
+use crate::quantity::length_mm;
 use crate::sim_summary::Summary;
 use crate::sim_table;
 
@@ -30,13 +31,13 @@ pub(crate) struct Sim {
     #[arg(long = "scope", value_name = "SCOPE", default_value = "top")]
     scopes: Vec<String>,
     /// Begin of the waveform, s [default: begin of the pass]
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
     from: Option<f64>,
     /// End of the waveform, s [default: five comparisons later]
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
     to: Option<f64>,
     /// Grind only the first so many millimetres
-    #[arg(long, value_name = "MM", value_parser = length)]
+    #[arg(long, value_name = "MM", value_parser = length_mm, allow_hyphen_values = true)]
     length: Option<f64>,
     /// Print the summary as JSON
     #[arg(long)]
@@ -88,13 +89,4 @@ fn write_files(
     let json = summary.json()?;
     write_whole(&output.join("summary.json"), |file| Ok(writeln!(file, "{json}")?))?;
     write_whole(&output.join("report.html"), |file| Ok(file.write_all(page.as_bytes())?))
-}
-
-/// A length on the command line.
-fn length(text: &str) -> Result<f64, String> {
-    let number: f64 = text.parse().map_err(|_| String::from("expected a number of millimetres"))?;
-    if 0.0 < number && number.is_finite() {
-        return Ok(number);
-    }
-    Err("expected more than 0 mm".into())
 }

@@ -9,7 +9,7 @@ use helixlock_traces::{Column, Table};
 /// Digits behind the point: a nanosecond, a picometre of position, a picometre of error.
 const DIGITS: f64 = 1e9;
 
-/// One row a comparison; the run as the machine file has it, then the other one with a prefix.
+/// One row a comparison; `error_um` is what the recorder draws, so behind its filter. The run as the machine file has it, then the other one with a prefix.
 pub(crate) fn table(machine: &Machine, simulation: &Simulation) -> Table {
     let (open, closed) = (&simulation.open.trace, &simulation.closed.trace);
     let (main, other, prefix) =
@@ -30,8 +30,8 @@ fn columns_of(trace: &Trace, prefix: &str, rows: usize) -> Vec<Column> {
     vec![
         column("time_s", &trace.time_s),
         column("position_mm", &trace.position_mm),
-        column("error_um", &trace.error_um),
-        column("filtered_error_um", &trace.filtered_error_um),
+        column("error_um", &trace.filtered_error_um),
+        column("raw_error_um", &trace.error_um),
         column("steps", &steps),
         column("lead_error_um", &trace.lead_error_um),
     ]

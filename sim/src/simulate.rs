@@ -135,7 +135,9 @@ impl Course {
         if !(0.0 <= from_s && from_s < to_s) {
             return Err(Error::Window { from_s, to_s, end_s: self.duration_s });
         }
-        let window = clock_of(from_s, self.clock_hz())..clock_of(to_s, self.clock_hz());
+        // The nearest clock: half a clock more, rounded down.
+        let nearest = |time_s: f64| clock_of(time_s + 0.5 / self.clock_hz(), self.clock_hz());
+        let window = nearest(from_s)..nearest(to_s);
         Ok(Some(Probe { signals: signals_of(netlist, &options.scopes)?, window }))
     }
 }

@@ -3,8 +3,9 @@
 use helixlock_rtl::settings::{Range, Settings};
 
 use crate::pass::{Pass, PassPlan, run_pass};
+use crate::probe::{Probe, signals_of};
 use crate::swing::{Progress, Swing};
-use crate::{device_engine, measure_hunting, set_wheels};
+use crate::{Engine, device, device_engine, measure_hunting, set_wheels, stepped_device};
 
 const CLOCK_HZ: f64 = 12e6;
 
@@ -23,7 +24,16 @@ const MACHINE: Swing = Swing {
 const FULL_SCALE_UM: f64 = 300.0 * 22.0 / 69.53;
 
 fn run(machine: Swing, correct: bool, end_s: f64) -> Pass {
-    let mut engine = device_engine();
+    run_on(device_engine(), machine, correct, end_s, None)
+}
+
+fn run_on(
+    mut engine: impl Engine,
+    machine: Swing,
+    correct: bool,
+    end_s: f64,
+    probe: Option<&Probe>,
+) -> Pass {
     let settings = Settings {
         a: 110,
         b: 150,
@@ -41,7 +51,7 @@ fn run(machine: Swing, correct: bool, end_s: f64) -> Pass {
         cutoff_hz: None,
         correct,
         playback_s: correct.then_some(30.0),
-        probe: None,
+        probe,
     };
     run_pass(engine, machine, plan, &mut |_| {}).unwrap()
 }
@@ -89,4 +99,62 @@ fn the_closed_loop_follows_and_goes_home() {
     let playback = pass.playback.unwrap();
     assert_eq!(playback.left, 0);
     assert_eq!(playback.steps, pass.steps_net.unsigned_abs());
+}
+
+/// Every signal of the device, from the end of the initial phase selection on.
+#[test]
+fn the_leaping_waveform_is_the_stepped_one() {
+    let machine = Swing { amplitude_um: 3.0, period_s: 1.0, ..MACHINE };
+    let signals = signals_of(device().netlist(), &["all".into()]).unwrap();
+    let probe = Probe { signals, window: 945_000..970_000 };
+    let leap = run_on(device_engine(), machine, true, 0.5, Some(&probe));
+    let stepped = run_on(stepped_device(), machine, true, 0.5, Some(&probe));
+    assert_eq!(leap.trace, stepped.trace);
+    let (leap, stepped) = (leap.waveform.unwrap(), stepped.waveform.unwrap());
+    assert_eq!(leap.changes, stepped.changes);
+    assert_eq!(leap.analogue, stepped.analogue);
+    assert!(25_000 < leap.changes.len(), "the step clock counts at every clock");
+}
+
+/// What the dump says at each clock is what the waveform holds.
+#[test]
+fn the_dump_reads_back_as_the_waveform() {
+    use helixlock_traces::Tick;
+    use vcd::{Command, Parser, Value};
+
+    let signals = signals_of(device().netlist(), &["top".into(), "divider_a".into()]).unwrap();
+    let probe = Probe { signals, window: 940_000..4_000_000 };
+    let waveform =
+        run_on(device_engine(), MACHINE, true, 0.4, Some(&probe)).waveform.expect("a window");
+    let mut text = Vec::new();
+    crate::write_vcd(&mut text, &waveform, 12_000_000).unwrap();
+
+    let mut dump = Parser::new(&text[..]);
+    let header = dump.parse_header().unwrap();
+    let code = |path: &str| {
+        let names: Vec<&str> = ["device"].into_iter().chain(path.split('.')).collect();
+        header.find_var(&names).unwrap_or_else(|| panic!("{path}")).code
+    };
+    let codes: Vec<_> = waveform.signals.iter().map(|(path, _)| code(path)).collect();
+    let mut found = std::collections::BTreeSet::new();
+    let mut time = 0;
+    for command in dump {
+        match command.unwrap() {
+            Command::Timestamp(now) => time = now,
+            Command::ChangeScalar(code, value) => {
+                found.insert((time, code, u64::from(value == Value::V1)));
+            }
+            Command::ChangeVector(code, bits) => {
+                let value = bits.iter().fold(0, |v, bit| 2 * v + u64::from(bit == Value::V1));
+                found.insert((time, code, value));
+            }
+            _ => {}
+        }
+    }
+    let due: std::collections::BTreeSet<_> = waveform
+        .changes
+        .iter()
+        .map(|c| (Tick::PICOSECOND.of_clock(c.clock, 12_000_000), codes[c.signal], c.value))
+        .collect();
+    assert_eq!(found, due);
 }
