@@ -9,7 +9,9 @@ use helixlock_traces::{Column, Table};
 /// Digits behind the point: a nanosecond, a picometre of position, a picometre of error.
 const DIGITS: f64 = 1e9;
 
-/// One row a comparison; `error_um` is what the recorder draws, so behind its filter. The run as the machine file has it, then the other one with a prefix.
+/// One row a comparison: the run as the machine file has it, then the other one with a prefix.
+///
+/// `error_um` is what the recorder draws, so behind its filter.
 pub(crate) fn table(machine: &Machine, simulation: &Simulation) -> Table {
     let (open, closed) = (&simulation.open.trace, &simulation.closed.trace);
     let (main, other, prefix) =

@@ -88,11 +88,11 @@ const TOO_FAST_FOR_THE_LOOP: &[&str] = &["vibration", "stick-slip", "turbulence"
 /// Open, the motor takes no step that could be lost; the closed form speaks of a motor in use.
 const CLOSED_ONLY: &[&str] = &["lost-steps"];
 
-/// Open: a clock is 0.05 nm; the rest is the meter's pulse against the period next to it.
-const OPEN_TOLERANCE_UM: f64 = 0.01;
+/// Open: a clock is 0.05 nm, and what the spindle travels in [`JUMP_S`] is 12 nm.
+const OPEN_TOLERANCE_UM: f64 = 0.015;
 
 /// Closed: the swing of 0.32 µm either way, and what the error moves in one comparison.
-const CLOSED_TOLERANCE_UM: f64 = 0.6;
+const CLOSED_TOLERANCE_UM: f64 = 0.5;
 
 /// 6 rpm of 6 mm.
 const TRAVEL_MM_S: f64 = 0.6;
@@ -140,20 +140,16 @@ fn steps(trace: &Trace) -> Vec<f64> {
     trace.steps.iter().map(|steps| *steps as f64).collect()
 }
 
-/// Largest distance of what was shown from what was predicted, apart from a constant: the grating
-/// starts up to one line late.
+/// Largest distance of what was shown from what was predicted, apart from the constant that suits
+/// best: the grating starts up to one line late.
 fn worst(machine: &Machine, trace: &Trace, sensor: Sensor, shown: &[f64]) -> f64 {
     let [early, late] = [-JUMP_S, JUMP_S].map(|shift_s| predicted(machine, trace, sensor, shift_s));
-    let mut differences: Vec<f64> =
-        shown.iter().zip(&early).map(|(shown, early)| shown - early).collect();
-    differences.sort_by(f64::total_cmp);
-    let constant = differences[differences.len() / 2];
-    let rows = shown.iter().zip(early.iter().zip(&late));
-    rows.map(|(shown, (early, late))| {
-        let shown = shown - constant;
-        (early.min(*late) - shown).max(shown - early.max(*late)).max(0.0)
-    })
-    .fold(0.0, f64::max)
+    let (mut above, mut below) = (f64::NEG_INFINITY, f64::INFINITY);
+    for (shown, (early, late)) in shown.iter().zip(early.iter().zip(&late)) {
+        above = above.max(shown - early.max(*late));
+        below = below.min(shown - early.min(*late));
+    }
+    ((above - below) / 2.0).max(0.0)
 }
 
 #[test]
@@ -170,7 +166,11 @@ fn open_loop_shows_what_the_closed_form_says() {
     let mut wrong = Vec::new();
     for (kind, values) in EFFECTS.iter().filter(|(kind, _)| !CLOSED_ONLY.contains(kind)) {
         let machine = machine(kind, values);
-        let trace = run(&machine).open.trace;
+        let mut trace = run(&machine).open.trace;
+        if *kind == "grating-slip" {
+            // The comparison in which it slips is shorter, and a mean over it larger.
+            trace = rows(&trace, |row| !(20.0..20.3).contains(&trace.time_s[row]));
+        }
         assert!(trace.time_s.len() > 300, "{kind}: {} rows", trace.time_s.len());
         let recorder = worst(&machine, &trace, Sensor::Recorder, &trace.error_um);
         let thread = worst(&machine, &trace, Sensor::Thread, &trace.lead_error_um);
@@ -200,8 +200,11 @@ fn closed_loop_grinds_and_counts_what_the_closed_form_says() {
 
 /// The rows after the first pull to the middle of the meter, without those of the way after a jump.
 fn settled(trace: &Trace) -> Trace {
-    let kept: Vec<usize> =
-        (10..trace.time_s.len()).filter(|&row| !UNDER_WAY_S.contains(&trace.time_s[row])).collect();
+    rows(trace, |row| 10 <= row && !UNDER_WAY_S.contains(&trace.time_s[row]))
+}
+
+fn rows(trace: &Trace, keep: impl Fn(usize) -> bool) -> Trace {
+    let kept: Vec<usize> = (0..trace.time_s.len()).filter(|&row| keep(row)).collect();
     let column = |values: &[f64]| kept.iter().map(|&row| values[row]).collect();
     Trace {
         time_s: column(&trace.time_s),

@@ -16,7 +16,7 @@ const LONGEST_STEP_PERIOD: f64 = 16_777_215.0;
 pub enum SettingsError {
     /// Steps come faster, or slower, than the step clock can be set.
     #[error(
-        "drive.frequency: {found_hz} Hz, expected {low_hz} Hz to {high_hz} Hz with an FPGA clock \
+        "drive.frequency: {found_hz} Hz, expected {low_hz:.3} Hz to {high_hz} Hz with an FPGA clock \
          of {clock_hz} Hz"
     )]
     StepFrequency {
@@ -151,7 +151,7 @@ mod tests {
         let message = step_period(12e6, 12e6).unwrap_err().to_string();
         assert_eq!(
             message,
-            "drive.frequency: 12000000 Hz, expected 0.7152558155928549 Hz to 6000000 Hz with an \
+            "drive.frequency: 12000000 Hz, expected 0.715 Hz to 6000000 Hz with an \
              FPGA clock of 12000000 Hz"
         );
         assert!(step_period(0.1, 12e6).is_err());
