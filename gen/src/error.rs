@@ -1,5 +1,8 @@
 //! Why no files can be made.
 
+use std::io;
+use std::path::PathBuf;
+
 use thiserror::Error;
 
 /// A design or board that cannot be written down.
@@ -25,5 +28,69 @@ pub enum GenError {
         module: String,
         /// Signal assigned.
         signal: String,
+    },
+    /// A board nobody has described.
+    #[error("board `{found}` is not known; expected one of {}", known.join(", "))]
+    UnknownBoard {
+        /// As given.
+        found: String,
+        /// The boards there are.
+        known: Vec<String>,
+    },
+    /// A constraint file without something every board has.
+    #[error("{file}: `{what}` is missing")]
+    Constraints {
+        /// File name.
+        file: String,
+        /// What is missing.
+        what: &'static str,
+    },
+    /// Ports and pins that do not match.
+    #[error(
+        "{file}: found no pin for [{}] and no port for [{}], expected one for each",
+        without_pin.join(", "),
+        without_port.join(", ")
+    )]
+    Pins {
+        /// File name.
+        file: String,
+        /// Ports, or bits of them, that have no pin.
+        without_pin: Vec<String>,
+        /// Pins whose port the design does not have.
+        without_port: Vec<String>,
+    },
+    /// A tool that is not installed.
+    #[error("`{tool}` is not installed\nhint: on Debian it is in the package `{package}`")]
+    MissingTool {
+        /// Command.
+        tool: &'static str,
+        /// Debian package.
+        package: &'static str,
+    },
+    /// A tool that failed.
+    #[error("`{tool}` failed ({status}):\n{output}")]
+    ToolFailed {
+        /// Command.
+        tool: &'static str,
+        /// Exit status.
+        status: String,
+        /// The last lines it wrote.
+        output: String,
+    },
+    /// A report without the figure looked for.
+    #[error("`{tool}` reported no {figure}; its version may be unknown to us")]
+    Report {
+        /// Command.
+        tool: &'static str,
+        /// What is missing.
+        figure: &'static str,
+    },
+    /// A folder or file of the build that cannot be used.
+    #[error("{}: {source}", path.display())]
+    Folder {
+        /// The folder or file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
     },
 }

@@ -1,11 +1,24 @@
 //! Files for a real FPGA, from a netlist; knows no grinder.
+//!
+//! [`verilog`] writes one module a block; [`project`] adds constraints, test bench and Makefile
+//! for a [`Board`]; [`synthesise`] runs the tools on them.
 
+mod board;
 mod error;
+mod flow;
 mod groups;
 mod lines;
+mod makefile;
 mod names;
+mod project;
+mod synthesis;
+mod test_bench;
 mod unused;
 mod verilog;
 
+pub use board::{Board, Pin};
 pub use error::GenError;
+pub use project::{Project, project};
+pub use synthesis::{Synthesis, synthesise};
+pub use test_bench::Vector;
 pub use verilog::verilog;

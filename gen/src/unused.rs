@@ -54,9 +54,9 @@ pub(crate) fn unused(module: &Module) -> Vec<String> {
             texts.push(signal.name.clone());
             continue;
         }
-        texts.extend(runs(left).map(|(high, low)| match high == low {
-            true => format!("{}[{low}]", signal.name),
-            false => format!("{}[{high}:{low}]", signal.name),
+        texts.extend(runs(left).map(|(high, low)| {
+            let bits = if high == low { high.to_string() } else { format!("{high}:{low}") };
+            format!("{}[{bits}]", signal.name)
         }));
     }
     texts

@@ -107,12 +107,11 @@ impl<'a> Writer<'a> {
             let id = SignalId(u32::try_from(index).unwrap_or(u32::MAX));
             let (range, name) = (range(signal.width), &signal.name);
             match signal.role {
-                Role::Input | Role::Output => {}
                 Role::Constant(value) if self.read[index] != 0 => {
                     let value = literal(signal.width, value);
                     self.lines.push(&spaced(&["localparam", &range, name, "=", &value, ";"]));
                 }
-                Role::Constant(_) => {}
+                Role::Input | Role::Output | Role::Constant(_) => {}
                 Role::InstanceInput if self.connection(id).is_some() => {}
                 _ => self.lines.push(&spaced(&[self.sort(id), &range, name, ";"])),
             }
