@@ -10,8 +10,8 @@ use crate::{Design, Library, Module, NetlistError};
 
 /// The design whose top is `block`, called `name`.
 ///
-/// Blocks of equal structure share a module. Its name is that of the equal block in `library`, or
-/// else that of its first instance.
+/// Blocks of equal structure share a module. Below the top its name is that of the equal block in
+/// `library`, or else that of its first instance.
 ///
 /// ```
 /// use helixlock_netlist::{Library, elaborate};
@@ -52,9 +52,7 @@ pub fn elaborate(name: &str, block: &dyn Block, library: &Library) -> Result<Des
         }
     }
     let top = shelf.add(&Source::of(name, block), name)?;
-    if shelf.modules[top].name.is_empty() {
-        name.clone_into(&mut shelf.modules[top].name);
-    }
+    name.clone_into(&mut shelf.modules[top].name);
     Ok(shelf.take(top))
 }
 
