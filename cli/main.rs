@@ -2,6 +2,9 @@
 
 mod dividers;
 mod effects;
+mod r#gen;
+mod gen_summary;
+mod gen_vectors;
 mod output;
 mod pages;
 mod probe_readings;
@@ -33,6 +36,7 @@ use clap::Parser;
 enum Command {
     Dividers(dividers::Dividers),
     Effects(effects::Effects),
+    Gen(r#gen::Gen),
     Scale(Box<scale::ScaleCommand>),
     Screw(screw::Screw),
     Sim(sim::Sim),
@@ -57,6 +61,7 @@ fn run(command: Command, out: &mut impl Write) -> anyhow::Result<ExitCode> {
     match command {
         Command::Dividers(command) => command.run(out),
         Command::Effects(command) => command.run(out),
+        Command::Gen(command) => command.run(out),
         Command::Scale(scale) => scale.run(out),
         Command::Screw(screw) => screw.run(out),
         Command::Sim(sim) => sim.run(out),

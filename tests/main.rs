@@ -2,6 +2,7 @@
 
 mod bad_data;
 mod blocks_apart;
+mod boards;
 mod calibrator;
 mod command_line;
 mod cumulative_compensator;
@@ -16,6 +17,7 @@ mod examples;
 mod golden_verilog;
 mod initial_phase_selector;
 mod linuxcnc;
+mod lockstep;
 mod parquet_readers;
 mod phase_meter;
 mod programmable_divider;

@@ -86,8 +86,8 @@ impl Board {
         };
         let mut notes = text.lines().map_while(|line| line.strip_prefix("# ")).map(str::to_owned);
         let clock_mhz = text.lines().find_map(|line| line.strip_prefix("set_frequency clock "));
-        let clock_source =
-            text.split("\n\n").nth(1).and_then(|part| part.lines().next()?.strip_prefix("# "));
+        let pins: Vec<Pin> = text.lines().filter_map(pin).collect();
+        let clock_source = pins.iter().find(|pin| pin.port == "clock").map(|pin| &pin.note);
         Ok(Self {
             name: tag("board:")?,
             title: notes.next().ok_or_else(|| missing("a title"))?,
@@ -98,8 +98,8 @@ impl Board {
             clock_mhz: clock_mhz
                 .and_then(|mhz| mhz.trim().parse().ok())
                 .ok_or_else(|| missing("set_frequency clock"))?,
-            clock_source: clock_source.ok_or_else(|| missing("a clock source"))?.to_owned(),
-            pins: text.lines().filter_map(pin).collect(),
+            clock_source: clock_source.ok_or_else(|| missing("set_io clock"))?.clone(),
+            pins,
             file: file.to_owned(),
             constraints: text.to_owned(),
         })

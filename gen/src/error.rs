@@ -67,6 +67,12 @@ pub enum GenError {
         /// Debian package.
         package: &'static str,
     },
+    /// icetime without the chip's timing, which Debian packs apart.
+    #[error(
+        "`icetime` finds no chip database\nhint: on Debian it is in the package \
+         `fpga-icestorm-chipdb`"
+    )]
+    MissingChipDatabase,
     /// A tool that failed.
     #[error("`{tool}` failed ({status}):\n{output}")]
     ToolFailed {

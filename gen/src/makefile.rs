@@ -11,7 +11,8 @@ pub(crate) fn makefile(top: &str, sources: &[String], board: &Board) -> String {
     let mut text = format!(
         "# {title}: make, make prog, make sim, make lint\n\
          #\n\
-         # Debian packages: yosys nextpnr-ice40 fpga-icestorm; iverilog for sim, verilator for lint\n\n\
+         # Debian packages: yosys nextpnr-ice40 fpga-icestorm fpga-icestorm-chipdb;\n\
+         # iverilog for sim, verilator for lint\n\n\
          SOURCES := {sources}\n\n\
          .PHONY: all prog sim lint clean\n\n\
          all: build/{top}.bin build/{top}.timing\n",
@@ -27,7 +28,7 @@ pub(crate) fn makefile(top: &str, sources: &[String], board: &Board) -> String {
         "\nprog: build/{top}.bin\n\t{program} $<\n\n\
          sim: test/{top}_tb.sv test/vectors.txt $(SOURCES)\n\
          \t@mkdir -p build\n\
-         \tiverilog -g2012 -Wall -s {top}_tb -o build/{top}_tb test/{top}_tb.sv $(SOURCES)\n\
+         \tiverilog -g2012 -Wall -Wno-timescale -s {top}_tb -o build/{top}_tb test/{top}_tb.sv $(SOURCES)\n\
          \tvvp -n build/{top}_tb\n\n\
          lint: $(SOURCES)\n\
          \tverilator --lint-only -Wall --top-module {top} $(SOURCES)\n\n\

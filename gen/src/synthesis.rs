@@ -69,8 +69,11 @@ fn run(step: &Step, folder: &Path) -> Result<(), GenError> {
     if output.status.success() {
         return Ok(());
     }
-    let status = output.status.to_string();
-    Err(GenError::ToolFailed { tool, status, output: last_lines(&output) })
+    let said = last_lines(&output);
+    if said.contains("Can't find chipdb") {
+        return Err(GenError::MissingChipDatabase);
+    }
+    Err(GenError::ToolFailed { tool, status: output.status.to_string(), output: said })
 }
 
 /// The end of what a tool said, where the reason stands.

@@ -44,8 +44,8 @@ pub(crate) fn test_bench(top: &Module, clock_mhz: u32) -> String {
     let outputs: Vec<&Port> = ports(top, |kind| matches!(kind, PortKind::Output(_)));
     let mut text = format!(
         "// Runs {name} on recorded inputs and checks every output after every rising edge.\n//\n\
-         //     make sim\n\n`timescale 1ns / 1ps\n`default_nettype none\n\n\
-         module {name}_tb;\n    reg {clock} = 1'b0;\n",
+         //     make sim\n\n`default_nettype none\n\n\
+         module {name}_tb;\n    timeunit 1ns;\n    timeprecision 1ps;\n\n    reg {clock} = 1'b0;\n",
         name = top.name,
     );
     for port in &inputs {

@@ -67,16 +67,18 @@ fn bench(design: &Design, netlist: &Netlist, layout: &Layout) -> String {
     for (index, &(id, width)) in layout.answers().iter().enumerate() {
         let (path, high) = (&netlist.signal(id).path, low + width - 1);
         if index < netlist.registers.len() {
-            writeln!(text, "  assign out[{high}:{low}] = dut.{path};").expect(TEXT);
+            writeln!(text, "  assign out[{high}:{low}] = dut.{path};")
+                .expect("a string takes everything");
         } else {
             connections.push(format!(".{path}(out[{high}:{low}])"));
         }
         low += width;
     }
     if (low as usize) < out_bits {
-        writeln!(text, "  assign out[{}:{low}] = 0;", out_bits - 1).expect(TEXT);
+        writeln!(text, "  assign out[{}:{low}] = 0;", out_bits - 1)
+            .expect("a string takes everything");
     }
-    writeln!(text, "  {top} dut({});", connections.join(", ")).expect(TEXT);
+    writeln!(text, "  {top} dut({});", connections.join(", ")).expect("a string takes everything");
     text + "  initial begin
     file = $fopen(\"inputs.hex\", \"r\");
     got = $fscanf(file, \"%h\", in);

@@ -11,9 +11,6 @@ use tempfile::TempDir;
 use super::BATCH;
 use super::records::Layout;
 
-/// Why a `write!` cannot fail.
-const TEXT: &str = "a string takes everything";
-
 /// A compiled simulator, to be started as often as needed.
 pub(crate) struct Program {
     /// Keeps the program while it may be started.
@@ -100,7 +97,7 @@ fn public(design: &Design) -> String {
         for register in &module.registers {
             let name = &module.signal(register.output).name;
             writeln!(text, "public_flat_rd -module \"{}\" -var \"{name}\"", module.name)
-                .expect(TEXT);
+                .expect("a string takes everything");
         }
     }
     text
@@ -124,7 +121,7 @@ pub(crate) fn harness(top: &str, netlist: &Netlist, flip_flops: bool) -> String 
     );
     let path = |id: SignalId| netlist.signal(id).path.as_str();
     for (&id, width) in netlist.inputs.iter().zip(layout.input_widths()) {
-        writeln!(text, "    top.{} = get({width});", path(id)).expect(TEXT);
+        writeln!(text, "    top.{} = get({width});", path(id)).expect("a string takes everything");
     }
     text += "    top.eval();\n    top.clock = 1;\n    top.eval();\n    at = 0;\n    \
              for (unsigned i = 0; i < sizeof out; i++) out[i] = 0;\n";
@@ -135,7 +132,7 @@ pub(crate) fn harness(top: &str, netlist: &Netlist, flip_flops: bool) -> String 
             (true, true) => format!("top.rootp->{top}__DOT__{}", path(id).replace('.', "__DOT__")),
             (true, false) => "0".to_owned(),
         };
-        writeln!(text, "    put({width}, {value});").expect(TEXT);
+        writeln!(text, "    put({width}, {value});").expect("a string takes everything");
     }
     text + &format!(
         "    fwrite(out, sizeof out, 1, stdout);\n    \
