@@ -1,6 +1,7 @@
 //! What crosses crates; one module a subject.
 
 mod bad_data;
+mod bad_input;
 mod blocks_apart;
 mod boards;
 mod calibrator;
@@ -16,6 +17,7 @@ mod example_data;
 mod examples;
 mod golden_verilog;
 mod initial_phase_selector;
+mod layers;
 mod linuxcnc;
 mod lockstep;
 mod parquet_readers;

@@ -88,4 +88,6 @@ pub const CATALOGUE: &[&Card] = &[
 ];
 
 #[cfg(test)]
+mod numbers;
+#[cfg(test)]
 mod tests;

@@ -88,12 +88,12 @@ pub enum MachineError {
         conflict: Box<str>,
     },
     /// An effect that the machine or its surroundings cannot carry.
-    #[error("{at}: {source}")]
+    #[error("{at}: {reason}")]
     Effect {
         /// The `[[effect]]`.
         at: At,
         /// Why.
-        source: Box<EffectError>,
+        reason: Box<EffectError>,
     },
     /// A file the machine file names.
     #[error("{at}: `{key}` names `{found}`: {message}")]

@@ -212,6 +212,9 @@ pub enum QuantityError {
         /// The unit found.
         found: String,
     },
+    /// A comma where the decimal point belongs.
+    #[error("a comma in the number")]
+    Comma,
     /// Infinite or too large for the arithmetic.
     #[error("no finite number")]
     NotFinite,
@@ -250,6 +253,7 @@ pub fn read_quantity(text: &str, wanted: &Unit) -> Result<f64, QuantityError> {
         .find(|unit| unit.symbol == symbol && unit.dimension == wanted.dimension)
         .ok_or_else(|| match symbol {
             "" => QuantityError::NoUnit,
+            found if found.starts_with(',') => QuantityError::Comma,
             found => QuantityError::Unit { found: found.into() },
         })?;
     let factor = (unit.size.0 * wanted.size.1) / (unit.size.1 * wanted.size.0);

@@ -10,7 +10,7 @@ use crate::error::{EffectError, MachineError};
 use crate::measured_curve::MeasuredCurve;
 use crate::term::{Formula, Term};
 use crate::units::{ARCSEC, Dimension, NUMBER, UM, Unit};
-use crate::{CATALOGUE, Card, Entry, Parameter, Search};
+use crate::{CATALOGUE, Card, Columns, Context, Entry, Parameter, Search};
 
 type Result<T> = std::result::Result<T, MachineError>;
 
@@ -53,7 +53,14 @@ fn from_card(section: &Section<'_>, machine: &Machine, card: &'static Card) -> R
             value_of(section, parameter)?
         };
     }
+    let columns = Columns::new(card.needs.iter().copied());
+    term.basis(&Context { machine, columns: &columns })
+        .map_err(|reason| refused(section, "kind", reason))?;
     Ok(term)
+}
+
+fn refused(section: &Section<'_>, key: &str, reason: EffectError) -> MachineError {
+    MachineError::Effect { at: section.value_at(key), reason: Box::new(reason) }
 }
 
 /// δ of a rotary chain is in seconds of arc.
@@ -115,13 +122,10 @@ fn custom(section: &Section<'_>) -> Result<Term> {
     let name = section.text("name")?.unwrap_or("custom");
     let formula = section.text("formula")?;
     let formula = formula
-        .ok_or_else(|| section.missing("formula", "formula = \"a*sin(2*PI*time_s/period)\""))?;
+        .ok_or_else(|| section.missing("formula", "formula = \"a*sin(2*pi*time_s/period)\""))?;
     let (parameters, values) = custom_parameters(section)?;
     let names: Vec<_> = parameters.iter().map(|parameter| parameter.name.to_string()).collect();
-    let refuse = |source: EffectError| MachineError::Effect {
-        at: section.value_at("formula"),
-        source: Box::new(source),
-    };
+    let refuse = |reason| refused(section, "formula", reason);
     let custom = Custom::new(name, formula, &names).map_err(refuse)?;
     let parameters = custom.with_roles(parameters);
     Ok(Term {

@@ -117,6 +117,7 @@ impl<'a> Section<'a> {
             let reason = match error {
                 QuantityError::NoNumber => format!("a number and one of the units {units}"),
                 QuantityError::NotFinite => "a finite number".into(),
+                QuantityError::Comma => "a decimal point, not a comma".into(),
                 _ => format!("one of the units {units}"),
             };
             self.value_error(key, item, &reason)

@@ -1,0 +1,58 @@
+//! The dependency arrows of ARCHITECTURE.md.
+
+/// Each crate and what it may use of ours, in the order of the levels.
+const LAYERS: &[(&str, &[&str])] = &[
+    ("rtl", &[]),
+    ("netlist", &[]),
+    ("traces", &[]),
+    ("metrology", &[]),
+    ("report", &[]),
+    ("plant", &["traces"]),
+    ("gen", &["netlist"]),
+    ("sim", &["rtl", "netlist", "plant", "traces"]),
+    ("lab", &["sim", "plant", "traces"]),
+];
+
+fn read(path: &str) -> String {
+    let path = format!("{}/{path}", env!("CARGO_MANIFEST_DIR"));
+    std::fs::read_to_string(&path).expect(&path)
+}
+
+/// Dependencies of a manifest, those for building included and those for its tests left out.
+fn dependencies(manifest: &str) -> String {
+    let sections = manifest.split("\n[");
+    sections.filter(|section| !section.starts_with("dev-dependencies")).collect()
+}
+
+#[test]
+fn arrows_point_downwards() {
+    for (folder, may_use) in LAYERS {
+        let dependencies = dependencies(&read(&format!("{folder}/Cargo.toml")));
+        for (other, _) in LAYERS.iter().filter(|(other, _)| !may_use.contains(other)) {
+            let forbidden = format!("helixlock-{other}.workspace");
+            assert!(!dependencies.contains(&forbidden), "{folder} must not use {other}");
+        }
+    }
+}
+
+#[test]
+fn every_crate_has_its_level() {
+    let manifest = read("Cargo.toml");
+    let listed = manifest.lines().find_map(|line| line.strip_prefix("members = "));
+    let folders: Vec<_> = listed.expect("members").split('"').skip(1).step_by(2).collect();
+    assert_eq!(folders.len(), LAYERS.len() + 1, "{folders:?}");
+    for folder in folders.into_iter().filter(|folder| *folder != "xtask") {
+        assert!(LAYERS.iter().any(|(known, _)| *known == folder), "{folder} has no level");
+    }
+}
+
+/// Only the command may print, create files, or speak JSON.
+#[test]
+fn libraries_leave_json_to_the_command() {
+    for (folder, _) in LAYERS {
+        let dependencies = dependencies(&read(&format!("{folder}/Cargo.toml")));
+        for forbidden in ["serde_json", "clap", "anyhow", "indicatif"] {
+            assert!(!dependencies.contains(forbidden), "{folder} must not use {forbidden}");
+        }
+    }
+}
