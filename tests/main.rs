@@ -11,6 +11,7 @@ mod decade_counter;
 mod device;
 mod digital_comparison;
 mod direction_discriminator;
+mod documentation;
 mod documented_waveforms;
 mod effects_in_the_loop;
 mod example_data;
