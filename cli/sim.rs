@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 use helixlock_plant::Machine;
-use helixlock_sim::{Course, Options, Simulation, simulate, write_vcd};
+use helixlock_sim::{Course, Error, Options, Simulation, simulate, write_vcd};
 use helixlock_traces::csv::write_csv;
 
 use crate::output::{folder, write_whole};
@@ -54,8 +54,11 @@ impl Sim {
             from_s: self.from,
             to_s: self.to,
         };
-        let bar = progress::bar(Course::new(&machine, &options)?.clocks(), "clocks");
-        let simulation = simulate(&machine, &options, &mut |clocks| bar.set_position(clocks))?;
+        let place = |error| in_file(&self.machine, error);
+        let course = Course::new(&machine, &options).map_err(place)?;
+        let bar = progress::bar(course.clocks(), "clocks");
+        let mut progress = |clocks| bar.set_position(clocks);
+        let simulation = simulate(&machine, &options, &mut progress).map_err(place)?;
         bar.finish_and_clear();
         let summary = Summary::new(&self.machine, &machine, &simulation);
         write_files(&self.output, &machine, &simulation, &summary)?;
@@ -66,6 +69,14 @@ impl Sim {
             writeln!(out, "\n{}: report, trace, waveform", self.output.display())?;
         }
         Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// Names the machine file where the fault is in it, and not in the words of the command.
+fn in_file(file: &Path, error: Error) -> anyhow::Error {
+    match error {
+        Error::NoScope { .. } | Error::Window { .. } | Error::WaveformFull { .. } => error.into(),
+        _ => anyhow::Error::new(error).context(file.display().to_string()),
     }
 }
 

@@ -108,7 +108,7 @@ impl Summary {
             settings: dials(simulation),
             without_correction: pass(&simulation.open, &findings.open),
             with_correction: pass(closed, &findings.closed),
-            hunting: hunting(&findings, course.swing_um),
+            hunting: hunting(simulation, &findings),
             slew: Slew {
                 limit_um_per_s: course.slew_limit_um_per_s,
                 needed_um_per_s: findings.needed_um_per_s,
@@ -198,9 +198,11 @@ fn pass(pass: &Pass, findings: &PassFindings) -> PassSummary {
     }
 }
 
-fn hunting(findings: &Findings, expected_swing_um: f64) -> Option<HuntingSummary> {
+fn hunting(simulation: &Simulation, findings: &Findings) -> Option<HuntingSummary> {
+    let expected_swing_um = simulation.course.swing_um;
+    let hunts = !findings.slew_limited && !simulation.closed.fault;
     // A motor that never catches up does not hunt.
-    findings.hunting.filter(|_| !findings.slew_limited).map(|hunting| HuntingSummary {
+    findings.hunting.filter(|_| hunts).map(|hunting| HuntingSummary {
         frequency_hz: hunting.frequency_hz,
         comparison_hz: hunting.comparison_hz,
         ratio: hunting.frequency_hz / hunting.comparison_hz,
@@ -241,7 +243,11 @@ fn notes(machine: &Machine, simulation: &Simulation, findings: &Findings) -> Vec
         ));
     }
     if closed.fault {
-        notes.push("the step counter stood at 4095 and refused further steps".into());
+        notes.push(
+            "the step counter stood at 4095 and refused further steps: the error is beyond the \
+             stroke of the corrector"
+                .into(),
+        );
     }
     if let Some(left) = closed.playback.map(|playback| playback.left).filter(|left| *left != 0) {
         notes.push(format!("playback stopped {left} steps short of zero"));

@@ -8,7 +8,7 @@ use helixlock_sim::device;
 use serde_json::Value;
 use vcd::{Command, Parser, ScopeItem};
 
-use crate::support::command::{Run, helixlock, scratch, word};
+use crate::support::command::{Run, helixlock, put, scratch, word};
 
 const MACHINE: &str = "examples/sg7430-6mm/machine.toml";
 
@@ -101,7 +101,7 @@ fn an_error_beyond_the_range_is_drawn_on_and_said_so() {
     let text = text.replace("initial_phase = 150", "initial_phase = 75");
     let text = text.replace("linear = \"50 um/m\"", "linear = \"500 um/m\"");
     let (machine, machine_word) = word(&folder, "machine.toml");
-    crate::support::command::put(&machine, &text);
+    put(&machine, &text);
     let (out, out_word) = word(&folder, "out");
     let run = helixlock(&["sim", &machine_word, "-o", &out_word, "--length", "100"]);
     assert_eq!(run.status, 0, "{}", run.stderr);
@@ -136,9 +136,56 @@ fn wrong_words_are_refused_and_leave_nothing() {
 fn a_file_in_the_way_of_the_folder_is_named() {
     let folder = scratch();
     let (out, out_word) = word(&folder, "out");
-    crate::support::command::put(&out, "in the way");
+    put(&out, "in the way");
     let run = sim(&out_word, &[]);
     assert_eq!(run.status, 2);
     assert!(run.stderr.contains("the folder cannot be made"), "{}", run.stderr);
     assert_eq!(fs::read_to_string(&out).unwrap(), "in the way");
+}
+
+/// What the file says is well formed, and yet the device cannot do it.
+#[test]
+fn what_the_device_cannot_do_is_refused() {
+    let cases = [
+        (
+            "clock = \"12 MHz\"",
+            "clock = \"2 kHz\"",
+            "laser: pulses at 0.",
+            "too fast for a clock of",
+        ),
+        (
+            "frequency = \"100 Hz\"",
+            "frequency = \"9 MHz\"",
+            "drive.frequency: 9000000 Hz",
+            "6000000 Hz",
+        ),
+        ("frequency = \"100 Hz\"", "frequency = \"0.1 Hz\"", "drive.frequency: 0.1 Hz", "0.715 Hz"),
+    ];
+    for (good, bad, found, expected) in cases {
+        let folder = scratch();
+        let (machine, machine_word) = word(&folder, "machine.toml");
+        let text = fs::read_to_string(MACHINE).unwrap();
+        assert!(text.contains(good), "{good}");
+        put(&machine, &text.replace(good, bad));
+        let (out, out_word) = word(&folder, "out");
+        let run = helixlock(&["sim", &machine_word, "-o", &out_word, "--length", "20"]);
+        assert_eq!(run.status, 2, "{bad}: {}", run.stdout);
+        assert!(run.stderr.contains("machine.toml: "), "{bad}: {}", run.stderr);
+        assert!(run.stderr.contains(found) && run.stderr.contains(expected), "{}", run.stderr);
+        assert!(!out.exists(), "{bad}");
+    }
+}
+
+#[test]
+fn a_counter_at_its_end_is_said_so() {
+    let folder = scratch();
+    let (machine, machine_word) = word(&folder, "machine.toml");
+    let text = fs::read_to_string(MACHINE).unwrap();
+    put(&machine, &text.replace("linear = \"50 um/m\"", "linear = \"400 um/m\""));
+    let (_, out_word) = word(&folder, "out");
+    let run = helixlock(&["sim", &machine_word, "-o", &out_word, "--length", "160"]);
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    assert!(run.stdout.contains("net -4095"), "{}", run.stdout);
+    assert!(run.stdout.contains("the step counter stood at 4095"), "{}", run.stdout);
+    assert!(!run.stdout.contains("slew limit"), "{}", run.stdout);
 }

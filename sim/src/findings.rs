@@ -53,7 +53,9 @@ impl Simulation {
             closed: appraise(&self.closed, course.turn_mm),
             hunting,
             needed_um_per_s,
-            slew_limited: hunting.map_or(too_slow, |found| OUTRUN_SHARE < found.outrun_share),
+            // A counter that stands at its end is another reason to fall behind.
+            slew_limited: !self.closed.fault
+                && hunting.map_or(too_slow, |found| OUTRUN_SHARE < found.outrun_share),
         }
     }
 }
