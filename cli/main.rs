@@ -1,10 +1,15 @@
 //! The `helixlock` command: reads files, calls the libraries, prints and writes what they say.
 
+mod add;
+mod compare;
+mod diagnose;
+mod diagnosis_json;
 mod dividers;
 mod effects;
-mod r#gen;
 mod gen_summary;
 mod gen_vectors;
+mod learn;
+mod measured;
 mod output;
 mod pages;
 mod probe_readings;
@@ -24,6 +29,7 @@ mod straightness;
 mod straightness_summary;
 mod transmission;
 mod transmission_summary;
+mod r#gen;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -34,9 +40,13 @@ use clap::Parser;
 #[derive(Debug, Parser)]
 #[command(name = "helixlock", version, arg_required_else_help = true)]
 enum Command {
+    Add(add::Add),
+    Compare(compare::Compare),
+    Diagnose(diagnose::Diagnose),
     Dividers(dividers::Dividers),
     Effects(effects::Effects),
     Gen(r#gen::Gen),
+    Learn(learn::Learn),
     Scale(Box<scale::ScaleCommand>),
     Screw(screw::Screw),
     Sim(sim::Sim),
@@ -59,9 +69,13 @@ fn main() -> ExitCode {
 
 fn run(command: Command, out: &mut impl Write) -> anyhow::Result<ExitCode> {
     match command {
+        Command::Add(command) => command.run(out),
+        Command::Compare(command) => command.run(out),
+        Command::Diagnose(command) => command.run(out),
         Command::Dividers(command) => command.run(out),
         Command::Effects(command) => command.run(out),
         Command::Gen(command) => command.run(out),
+        Command::Learn(command) => command.run(out),
         Command::Scale(scale) => scale.run(out),
         Command::Screw(screw) => screw.run(out),
         Command::Sim(sim) => sim.run(out),

@@ -1,1 +1,38 @@
 //! Model against measurement.
+
+pub mod adding;
+pub mod analysis;
+pub mod candidates;
+pub mod compare;
+pub mod component;
+pub mod diagnosis;
+pub mod error;
+pub mod experiment;
+pub mod fit;
+pub mod fourier;
+pub mod holdout;
+pub mod layout;
+pub mod learn;
+pub mod least_squares;
+pub mod lines;
+pub mod measurement;
+pub mod noise;
+pub mod noise_fit;
+pub mod order_spectrum;
+pub mod probes;
+pub mod problem;
+pub mod repeatability;
+pub mod rivals;
+pub mod setting_trial;
+pub mod settings;
+pub mod simplex;
+pub mod stage;
+mod thinning;
+pub mod trial;
+pub mod uncertainty;
+
+/// A count as a number to calculate with; exact up to 2⁵³.
+#[expect(clippy::cast_precision_loss, reason = "no file has 2⁵³ rows")]
+pub(crate) fn count(count: usize) -> f64 {
+    count as f64
+}

@@ -1,0 +1,168 @@
+//! `helixlock add`: one more effect in a machine file, fitted to data if there are any.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use anyhow::{Context, bail};
+use clap::Args;
+use helixlock_lab::adding::{Added, add};
+use helixlock_lab::diagnosis::FittedEffect;
+use helixlock_lab::learn::written;
+use helixlock_plant::{CATALOGUE, MachineFile, Term};
+use serde_json::json;
+
+use crate::{diagnosis_json, measured, output};
+
+/// Put an effect into a machine file, its parameters fitted to data
+#[derive(Debug, Args)]
+pub(crate) struct Add {
+    /// Machine file
+    machine: PathBuf,
+    /// Name of an effect of the catalogue, or a TOML file with one `[[effect]]`, such as a custom one
+    effect: String,
+    /// Measured data to fit its parameters to
+    #[arg(long, value_name = "DATA")]
+    fit: Option<PathBuf>,
+    /// Fit the effects that the machine file has already along with it
+    #[arg(long, requires = "fit")]
+    refit: bool,
+    /// A parameter, such as `amplitude="1.5 um"`; only without `--fit`
+    #[arg(long = "set", value_name = "KEY=VALUE", conflicts_with = "fit")]
+    values: Vec<String>,
+    /// New machine file
+    #[arg(short, long)]
+    output: PathBuf,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Add {
+    /// Writes the new machine file; exit status 1 when the effect has no influence on the data.
+    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+        let file = MachineFile::read(&self.machine)?;
+        let Some(data) = &self.fit else {
+            let new = self.with_given_values(&file)?;
+            self.write(&new)?;
+            writeln!(out, "{}: {} added", self.output.display(), self.effect)?;
+            return Ok(ExitCode::SUCCESS);
+        };
+        let term = self.term(&file)?;
+        let (base, beside) = if self.refit { stripped(&file)? } else { (file, Vec::new()) };
+        let measurement = measured::measurement(&base.machine, data)?;
+        let problem = measured::problem(&base.machine, &measurement, data)?;
+        let added = add(&problem, &beside, &term)
+            .with_context(|| format!("{}: {} cannot be fitted", data.display(), term.name))?;
+        let Some(added) = added else {
+            writeln!(out, "{} has no influence on these data", term.name)?;
+            return Ok(ExitCode::from(1));
+        };
+        self.write(&written(&base, &added.effects)?)?;
+        if self.json {
+            writeln!(out, "{}", serde_json::to_string_pretty(&as_json(&added))?)?;
+        } else {
+            print(out, &added, measurement.unit())?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+
+    /// The effect as it stands before the fit.
+    fn term(&self, file: &MachineFile) -> anyhow::Result<Term> {
+        if let Some(card) = Term::card(&self.effect).filter(|card| !card.parameters.is_empty()) {
+            return Ok(Term::candidate(card));
+        }
+        own_effects(file, Path::new(&self.effect)).map(|mut terms| terms.remove(0))
+    }
+
+    /// The file with the effect's table as the user gave it.
+    fn with_given_values(&self, file: &MachineFile) -> anyhow::Result<MachineFile> {
+        let text = if Term::card(&self.effect).is_some() {
+            let mut text = format!("\n[[effect]]\nkind = \"{}\"\n", self.effect);
+            for pair in &self.values {
+                let Some((key, value)) = pair.split_once('=') else {
+                    bail!("--set {pair}: found no `=`, expected KEY=VALUE");
+                };
+                let plain = value.parse::<f64>().is_ok()
+                    || value.starts_with(['"', '\'', '[', '{'])
+                    || matches!(value, "true" | "false");
+                let value = if plain { value.to_owned() } else { format!("\"{value}\"") };
+                text.push_str(&format!("{} = {value}\n", key.trim()));
+            }
+            text
+        } else {
+            effect_text(Path::new(&self.effect))?
+        };
+        Ok(MachineFile::parse(&format!("{}{text}", file.text()), &self.machine)?)
+    }
+
+    fn write(&self, file: &MachineFile) -> anyhow::Result<()> {
+        output::write_whole(&self.output, |out| Ok(out.write_all(file.text().as_bytes())?))
+    }
+}
+
+/// The machine file without its effects, and those effects.
+fn stripped(file: &MachineFile) -> anyhow::Result<(MachineFile, Vec<Term>)> {
+    let terms = file.machine.effects.clone();
+    let mut bare = file.clone();
+    for _ in &terms {
+        bare = bare.without_effect(0)?;
+    }
+    Ok((bare, terms))
+}
+
+/// Effects of a user's own file, read as part of the machine.
+pub(crate) fn own_effects(file: &MachineFile, path: &Path) -> anyhow::Result<Vec<Term>> {
+    let before = file.machine.effects.len();
+    let whole = MachineFile::parse(&format!("{}{}", file.text(), effect_text(path)?), path)?;
+    let own = whole.machine.effects[before..].to_vec();
+    if own.is_empty() {
+        bail!("{}: found no effect, expected a table `[[effect]]`", path.display());
+    }
+    Ok(own)
+}
+
+fn effect_text(path: &Path) -> anyhow::Result<String> {
+    let known = || {
+        let kinds: Vec<_> = CATALOGUE.iter().map(|card| card.kind).collect();
+        format!(
+            "{}: neither an effect nor a file, expected one of {}, or a TOML file with `[[effect]]`",
+            path.display(),
+            kinds.join(", ")
+        )
+    };
+    let text = std::fs::read_to_string(path).with_context(known)?;
+    Ok(format!("\n{text}"))
+}
+
+fn as_json(added: &Added) -> serde_json::Value {
+    let effects: Vec<_> = added.effects.iter().map(effect_json).collect();
+    json!({
+        "effects": effects,
+        "rms_before_um": added.rms_um[0],
+        "rms_um": added.rms_um[1],
+        "holdout_rms_before_um": added.holdout_rms_um[0],
+        "holdout_rms_um": added.holdout_rms_um[1],
+        "evidence": added.gain,
+    })
+}
+
+fn effect_json(effect: &FittedEffect) -> serde_json::Value {
+    json!({
+        "effect": effect.name,
+        "parameters": diagnosis_json::parameters(&effect.parameters),
+    })
+}
+
+fn print(out: &mut impl Write, added: &Added, unit: &str) -> anyhow::Result<()> {
+    writeln!(out, "error:     {:.4} → {:.4} {unit} rms", added.rms_um[0], added.rms_um[1])?;
+    writeln!(
+        out,
+        "held out:  {:.4} → {:.4} {unit} rms",
+        added.holdout_rms_um[0], added.holdout_rms_um[1]
+    )?;
+    for effect in &added.effects {
+        crate::diagnose::print_effect(out, effect)?;
+    }
+    Ok(())
+}

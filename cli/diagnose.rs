@@ -1,0 +1,102 @@
+//! `helixlock diagnose`: which effects a model lacks, and how sure that is.
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Args;
+use helixlock_lab::diagnosis::{Diagnosis, FittedEffect, diagnose};
+
+use crate::{add, diagnosis_json};
+use crate::measured::{self, Files};
+
+/// Name the effects that a machine file lacks, with evidence, rivals, and the experiment that tells
+#[derive(Debug, Args)]
+pub(crate) struct Diagnose {
+    #[command(flatten)]
+    files: Files,
+    /// TOML file with custom effects to try beside the catalogue
+    #[arg(long, value_name = "EFFECTS")]
+    custom: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Diagnose {
+    /// Prints the diagnosis; the verdict does not change the exit status.
+    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+        let (file, measurement) = self.files.read()?;
+        let mut problem = measured::problem(&file.machine, &measurement, &self.files.data)?;
+        if let Some(custom) = &self.custom {
+            problem.extra = add::own_effects(&file, custom)?;
+        }
+        let diagnosis = diagnose(&problem);
+        if self.json {
+            let value = diagnosis_json::diagnosis(&diagnosis, &measurement);
+            writeln!(out, "{}", serde_json::to_string_pretty(&value)?)?;
+        } else {
+            print(out, &diagnosis, measurement.unit())?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// The diagnosis for people: verdict, rounds, candidates, what is left, what to do next.
+pub(crate) fn print(out: &mut impl Write, diagnosis: &Diagnosis, unit: &str) -> anyhow::Result<()> {
+    writeln!(out, "verdict: {}", diagnosis.verdict.word())?;
+    writeln!(out, "left as noise: {:.4} {unit} rms\n", diagnosis.noise_um)?;
+    for round in &diagnosis.rounds {
+        let added = round.added.as_deref().unwrap_or("the model as it is");
+        writeln!(
+            out,
+            "round {}: {added}: {:.4} {unit} rms, {:.4} on held-out data",
+            round.round, round.rms_um, round.holdout_rms_um
+        )?;
+    }
+    if let Some(last) = diagnosis.rounds.last() {
+        for effect in &last.effects {
+            print_effect(out, effect)?;
+        }
+    }
+    print_candidates(out, diagnosis)?;
+    for left in &diagnosis.residual {
+        let at = left.at.map_or(String::new(), |at| format!(" at {at:.4}"));
+        writeln!(
+            out,
+            "left: {} along {}{at}, {:.4} {unit} rms, p = {:.1e}",
+            left.shape, left.along, left.rms_um, left.p_value
+        )?;
+    }
+    Ok(())
+}
+
+/// An effect with its parameters, a line each.
+pub(crate) fn print_effect(out: &mut impl Write, effect: &FittedEffect) -> anyhow::Result<()> {
+    writeln!(out, "\n{}", effect.name)?;
+    for parameter in &effect.parameters {
+        let stderr = parameter.stderr.map_or(String::new(), |s| format!(" ± {s:.3}"));
+        let warning = parameter.warning.map_or(String::new(), |w| format!("  ({w})"));
+        writeln!(out, "  {} = {:.4}{stderr}{warning}", parameter.key, parameter.value)?;
+    }
+    Ok(())
+}
+
+fn print_candidates(out: &mut impl Write, diagnosis: &Diagnosis) -> anyhow::Result<()> {
+    writeln!(out, "\ntried:")?;
+    for candidate in diagnosis.candidates.iter().take(8) {
+        let mark = if candidate.accepted { "*" } else { " " };
+        writeln!(
+            out,
+            "{mark} {:<24} rms {:.4}  held out {:.4}  p {:.1e}",
+            candidate.name, candidate.rms_um, candidate.holdout_rms_um, candidate.p_value
+        )?;
+        if !candidate.confounded_with.is_empty() {
+            writeln!(out, "    cannot be told from: {}", candidate.confounded_with.join(", "))?;
+        }
+        if let Some(experiment) = &candidate.separate_by {
+            writeln!(out, "    to tell: {experiment}")?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,115 @@
+//! `helixlock learn`: compare, name, add, until nothing significant is left.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use anyhow::{Context, bail};
+use clap::Args;
+use helixlock_lab::diagnosis::diagnose;
+use helixlock_lab::learn::{fingerprint, ledger};
+use helixlock_plant::MachineFile;
+use serde_json::Value;
+
+use crate::{add, diagnose as words, diagnosis_json, measured, output, pages};
+
+/// Find what a machine file lacks and write the better file, its ledger and a report
+#[derive(Debug, Args)]
+pub(crate) struct Learn {
+    /// Machine file
+    #[arg(required_unless_present = "undo")]
+    machine: Option<PathBuf>,
+    /// Measured data
+    #[arg(required_unless_present = "undo")]
+    data: Option<PathBuf>,
+    /// Folder for `machine.toml`, `ledger.json` and `report.html`
+    #[arg(short, long)]
+    output: Option<PathBuf>,
+    /// TOML file with custom effects to try beside the catalogue
+    #[arg(long, value_name = "EFFECTS")]
+    custom: Option<PathBuf>,
+    /// Take the last round in the folder's ledger back
+    #[arg(long, requires = "output", conflicts_with_all = ["machine", "data"])]
+    undo: bool,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Learn {
+    /// Writes the folder; the verdict does not change the exit status.
+    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+        match (&self.machine, &self.data, &self.output) {
+            (Some(machine), Some(data), folder) => self.learn(machine, data, folder.as_deref(), out),
+            (_, _, Some(folder)) => undo(folder, out),
+            _ => bail!("found no folder, expected `-o DIR`"),
+        }
+    }
+
+    fn learn(
+        &self,
+        machine: &Path,
+        data: &Path,
+        folder: Option<&Path>,
+        out: &mut impl Write,
+    ) -> anyhow::Result<ExitCode> {
+        let file = MachineFile::read(machine)?;
+        let measurement = measured::measurement(&file.machine, data)?;
+        let mut problem = measured::problem(&file.machine, &measurement, data)?;
+        if let Some(custom) = &self.custom {
+            problem.extra = add::own_effects(&file, custom)?;
+        }
+        let diagnosis = diagnose(&problem);
+        let bytes = std::fs::read(data).with_context(|| format!("{}", data.display()))?;
+        let book = ledger(&file, &diagnosis, &bytes)?;
+        if let Some(folder) = folder {
+            output::folder(folder)?;
+            let last = book.entries.last().map(|entry| entry.machine.as_str()).unwrap_or_default();
+            write(&folder.join("machine.toml"), last)?;
+            let value = diagnosis_json::ledger(&book, &diagnosis, data);
+            write(&folder.join("ledger.json"), &(serde_json::to_string_pretty(&value)? + "\n"))?;
+            let page = pages::learn::page(&file.machine.title, &problem, &diagnosis);
+            write(&folder.join("report.html"), &page.html())?;
+        }
+        if self.json {
+            let mut value = diagnosis_json::diagnosis(&diagnosis, &measurement);
+            value["data_hash"] = Value::from(fingerprint(&bytes));
+            writeln!(out, "{}", serde_json::to_string_pretty(&value)?)?;
+        } else {
+            words::print(out, &diagnosis, measurement.unit())?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+fn write(path: &Path, text: &str) -> anyhow::Result<()> {
+    output::write_whole(path, |file| Ok(file.write_all(text.as_bytes())?))
+}
+
+/// Goes back to the machine file before the last round that still stands.
+fn undo(folder: &Path, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+    let path = folder.join("ledger.json");
+    let text = std::fs::read_to_string(&path)
+        .with_context(|| format!("{}: cannot be read", path.display()))?;
+    let mut book: Value = serde_json::from_str(&text)
+        .with_context(|| format!("{}: found no ledger, expected one of `learn`", path.display()))?;
+    let Some(rounds) = book.get_mut("rounds").and_then(Value::as_array_mut) else {
+        bail!("{}: found no `rounds`, expected a ledger of `learn`", path.display());
+    };
+    let standing =
+        |round: &&mut Value| round.get("taken_back").and_then(Value::as_bool) != Some(true);
+    let mut left: Vec<&mut Value> = rounds.iter_mut().filter(standing).collect();
+    let (Some(last), Some(before)) = (left.pop(), left.pop()) else {
+        writeln!(out, "no round is left to take back")?;
+        return Ok(ExitCode::from(1));
+    };
+    let Some(machine) = before.get("machine").and_then(Value::as_str).map(str::to_owned) else {
+        bail!("{}: found a round without `machine`, expected its machine file", path.display());
+    };
+    last["taken_back"] = Value::from(true);
+    let added = last["added"].as_str().unwrap_or("nothing").to_owned();
+    write(&folder.join("machine.toml"), &machine)?;
+    write(&path, &(serde_json::to_string_pretty(&book)? + "\n"))?;
+    writeln!(out, "{added} taken back")?;
+    Ok(ExitCode::SUCCESS)
+}

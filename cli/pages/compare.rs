@@ -1,0 +1,136 @@
+//! Report of `helixlock compare`: the residual, its spectrum, and where it fails.
+
+use helixlock_lab::compare::Comparison;
+use helixlock_lab::problem::Problem;
+use helixlock_report::{Axis, Colour, Figure, Label, Page, Panel, Part, Series, Style, Table};
+
+/// The page.
+pub(crate) fn page(problem: &Problem, comparison: &Comparison) -> Page {
+    let unit = problem.measurement.unit();
+    let mut parts = vec![Part::Numbers(numbers(comparison, unit))];
+    for (index, sensor) in comparison.sensors.iter().enumerate() {
+        let residual = panel(
+            "residual",
+            x_axis(problem),
+            &format!("{unit}"),
+            vec![Series::new("measured less model", Colour::Orange, Style::Line, points(problem, index, &comparison.residual))],
+        );
+        let mut spectrum = panel(
+            "order spectrum",
+            "cycles a spindle turn".into(),
+            &format!("amplitude in {unit}"),
+            vec![Series::new(
+                "residual",
+                Colour::Blue,
+                Style::Line,
+                sensor.spectrum.iter().map(|point| [point.frequency, point.amplitude]),
+            )],
+        );
+        spectrum.labels = comparison
+            .lines
+            .iter()
+            .filter(|line| line.sensor == index)
+            .map(|line| Label {
+                at: [line.line.frequency, line.line.amplitude],
+                text: line.name.clone().unwrap_or_else(|| format!("{:.3}?", line.line.frequency)),
+            })
+            .collect();
+        let svg = Figure { width_px: 900, panels: vec![residual, spectrum] }.svg();
+        parts.push(Part::Picture {
+            svg,
+            caption: "Above, what the model leaves, each pass about its own zero. Below, its spectrum; lines that the machine file cannot name carry a question mark.".into(),
+        });
+    }
+    parts.push(Part::Heading("Where it fails".into()));
+    parts.push(Part::Table(along(comparison, unit)));
+    parts.push(Part::Heading("Lines".into()));
+    parts.push(Part::Table(lines(comparison, unit)));
+    parts.extend(problem.measurement.notes.iter().cloned().map(Part::Note));
+    let says = if comparison.noise_only { "noise" } else { "more than noise" };
+    Page {
+        title: format!("{}: model against measurement", problem.machine.title),
+        summary: format!("What the model leaves is {says} (p = {:.1e}).", comparison.noise_p_value),
+        parts,
+    }
+}
+
+fn numbers(comparison: &Comparison, unit: &str) -> Vec<(String, String)> {
+    comparison
+        .sensors
+        .iter()
+        .flat_map(|sensor| {
+            [
+                (format!("{:.3} {unit}", sensor.rms_um), "residual, rms".to_owned()),
+                (format!("{:.3} {unit}", sensor.peak_to_peak_um), "peak to peak".to_owned()),
+            ]
+        })
+        .collect()
+}
+
+fn along(comparison: &Comparison, unit: &str) -> Table {
+    let size = format!("rms in {unit}");
+    let mut table = Table::new(["along", "shape", size.as_str(), "chance", "at"]);
+    for one in &comparison.along {
+        table.row([
+            one.along.clone(),
+            one.shape.clone(),
+            format!("{:.4}", one.rms_um),
+            format!("{:.1e}", one.p_value),
+            one.at.map_or(String::new(), |at| format!("{at:.4}")),
+        ]);
+    }
+    table
+}
+
+fn lines(comparison: &Comparison, unit: &str) -> Table {
+    let size = format!("amplitude in {unit}");
+    let mut table = Table::new(["order", "period in s", size.as_str(), "name"]);
+    for line in &comparison.lines {
+        table.row([
+            format!("{:.5} ± {:.5}", line.line.frequency, line.line.frequency_stderr),
+            format!("{:.2} ± {:.2}", line.period_s, line.period_stderr_s),
+            format!("{:.4} ± {:.4}", line.line.amplitude, line.line.amplitude_stderr),
+            line.name.clone().unwrap_or_else(|| "unexplained".into()),
+        ]);
+    }
+    table
+}
+
+/// A panel of the usual height.
+pub(crate) fn panel(title: &str, x: String, y: &str, series: Vec<Series>) -> Panel {
+    Panel {
+        title: title.to_owned(),
+        height_px: 260,
+        x: Axis::linear(x),
+        y: Axis::linear(y),
+        bands: Vec::new(),
+        series,
+        labels: Vec::new(),
+    }
+}
+
+/// What residuals are drawn over: travel, or time for a rotary chain.
+pub(crate) fn x_axis(problem: &Problem) -> String {
+    if problem.machine.rotary { "time in s".into() } else { "position in mm".into() }
+}
+
+/// Values of one sensor about the zero of each pass, the passes apart.
+pub(crate) fn points(problem: &Problem, sensor: usize, values: &[f64]) -> Vec<[f64; 2]> {
+    let mut points = Vec::new();
+    for block in problem.layout.blocks.iter().filter(|block| block.sensor == sensor) {
+        let part = &values[block.rows.clone()];
+        #[expect(clippy::cast_precision_loss, reason = "a number of samples")]
+        let mean = part.iter().sum::<f64>() / part.len().max(1) as f64;
+        for row in block.rows.clone() {
+            let sample = problem.rows[row].sample;
+            let x = if problem.machine.rotary {
+                problem.record.time_s[sample]
+            } else {
+                problem.record.position_mm[sample]
+            };
+            points.push([x, values[row] - mean]);
+        }
+        points.push([f64::NAN, f64::NAN]);
+    }
+    points
+}

@@ -1,0 +1,319 @@
+//! The search for what a model lacks: round by round, until what is left is noise.
+
+use std::collections::BTreeMap;
+
+use helixlock_plant::Role;
+use rayon::prelude::*;
+
+use crate::candidates::{candidates, is_frequency, turn_scan};
+use crate::component::Component;
+use crate::count;
+use crate::fit::{Columns, Fit, noises_of, rms, settle};
+use crate::holdout::holdout_rms;
+use crate::noise::{Noise, Whitener};
+use crate::noise_fit::median;
+use crate::probes::{chi_squared_tail, matters};
+use crate::problem::Problem;
+use crate::setting_trial::setting_trials;
+use crate::stage::Stage;
+use crate::trial::{Trial, try_candidate};
+
+/// Most effects that are looked for one after the other.
+const MOST_ROUNDS: usize = 5;
+
+/// Candidates whose noise is fitted anew before one is chosen.
+const SHORTLIST: usize = 4;
+
+/// One effect judged against a model, the noise fitted with it.
+#[derive(Debug, Clone)]
+pub struct Judged {
+    /// The effect with its columns in use.
+    pub component: Component,
+    /// The joint fit with the model.
+    pub fit: Fit,
+    /// Twice the log likelihood ratio against the model without it.
+    pub gain: f64,
+    /// The same less what its freedom costs; differences of it rank effects.
+    pub evidence: f64,
+    /// Independent places that were looked at.
+    pub looks: f64,
+    /// Chance in noise, the places looked at and the effects tried counted.
+    pub p_value: f64,
+    /// Root mean square left, µm (arcsec).
+    pub rms_um: f64,
+    /// Root mean square on held-out data.
+    pub holdout_rms_um: f64,
+}
+
+/// A model found so far, with its fit.
+#[derive(Debug, Clone)]
+pub struct State {
+    /// Effects in the order they were added.
+    pub components: Vec<Component>,
+    /// Their stacked columns.
+    pub columns: Columns,
+    /// The joint fit.
+    pub fit: Fit,
+}
+
+impl State {
+    /// A fit of some components; `None` when one of them cannot be worked out.
+    #[must_use]
+    pub fn of(problem: &Problem, components: Vec<Component>, noises: &[Noise]) -> Option<Self> {
+        let columns = Columns::of(problem, &components).ok()?;
+        let fit = settle(problem, &columns, noises);
+        Some(Self { components, columns, fit })
+    }
+
+    /// The model with nothing added; its noise explains all there is.
+    #[must_use]
+    pub fn bare(problem: &Problem) -> Self {
+        let noises = noises_of(problem, &problem.residual());
+        let columns = Columns::default();
+        let fit = settle(problem, &columns, &noises);
+        Self { components: Vec::new(), columns, fit }
+    }
+
+    /// Coefficients of one component's columns in use, and where they stand in the fit.
+    #[must_use]
+    pub fn coefficients(&self, index: usize) -> (&[f64], usize) {
+        let from: usize = self.components[..index].iter().map(Component::width).sum();
+        (&self.fit.linear.coefficients[from..from + self.components[index].width()], from)
+    }
+}
+
+/// Everything that happened in one round.
+#[derive(Debug, Clone)]
+pub struct Step {
+    /// The state after it.
+    pub state: State,
+    /// Effects tried, best first.
+    pub tried: Vec<Judged>,
+    /// Name of the effect added.
+    pub added: Option<String>,
+    /// Names of effects that became superfluous.
+    pub dropped: Vec<String>,
+}
+
+/// Looks for effects until none is significant; every step begins where the last one ended.
+///
+/// Outliers are marked anew whenever the model has changed, so that no effect passes for them.
+#[must_use]
+pub fn search(problem: &mut Problem) -> Vec<Step> {
+    let bare = State::bare(problem);
+    let mut steps =
+        vec![Step { state: bare, tried: Vec::new(), added: None, dropped: Vec::new() }];
+    for _ in 0..MOST_ROUNDS {
+        let last = steps.len() - 1;
+        let now = &steps[last].state;
+        let tried = tried(problem, now);
+        let best = tried.iter().find(|judged| acceptable(problem, now, judged)).cloned();
+        let mut components = now.components.clone();
+        steps[last].tried = tried;
+        let Some(best) = best else { break };
+        components.push(best.component.clone());
+        problem.mark_outliers(&best.fit.left);
+        let Some(state) = State::of(problem, components, &best.fit.noises) else { break };
+        let (state, dropped) = pruned(problem, state);
+        let added = Some(best.component.term.name.clone());
+        steps.push(Step { state, tried: Vec::new(), added, dropped });
+    }
+    steps
+}
+
+/// True when an effect is beyond chance, helps on unseen data and is large enough to matter.
+fn acceptable(problem: &Problem, now: &State, judged: &Judged) -> bool {
+    let before = rms(&problem.layout, &now.fit.left);
+    let size = (before * before - judged.rms_um * judged.rms_um).max(0.0).sqrt();
+    let unseen = holdout_rms(problem, &now.columns, &now.fit.noises);
+    matters(size, judged.rms_um, judged.p_value)
+        && judged.holdout_rms_um < unseen
+        && plausible(judged, now)
+        && repeats(judged, now)
+        && locked_to_time(problem, now, judged)
+}
+
+/// True unless a frequency in time was found that an order of the spindle explains as well.
+///
+/// At one speed the two are one: such a line is nobody's until the speed is changed.
+fn locked_to_time(problem: &Problem, now: &State, judged: &Judged) -> bool {
+    if !judged.component.term.parameters.iter().any(is_frequency) {
+        return true;
+    }
+    let stage = Stage::new(problem, &now.columns, &judged.fit.noises);
+    let own = crate::trial::gain_at(&stage, &judged.component).map_or(0.0, |gain| gain.gain);
+    let turns: Vec<f64> = problem.record.turns().collect();
+    let of_row: Vec<f64> = problem.rows.iter().map(|row| turns[row.sample]).collect();
+    let scan = turn_scan(&stage, &of_row);
+    let line = scan.strongest(&stage.target[..of_row.len()]);
+    line.is_none_or(|line| line.gain + TIME_LOCK < own)
+}
+
+/// Evidence that tells time from angle.
+const TIME_LOCK: f64 = 12.0;
+
+/// True unless an effect that is there once would be added a second time.
+///
+/// Lines come in numbers, and so do slips; of curves and bumps a sum can imitate anything.
+fn repeats(judged: &Judged, now: &State) -> bool {
+    let term = &judged.component.term;
+    let periodic = term.parameters.iter().any(|what| {
+        what.role == Role::Amplitude || what.name == "count"
+    });
+    let before = now.components.iter().filter(|other| other.term.name == term.name).count();
+    before == 0 || (periodic && before < 3)
+}
+
+/// True when all parameters lie in their plausible ranges, to within two standard errors.
+fn plausible(judged: &Judged, now: &State) -> bool {
+    let from = now.columns.raw.len();
+    let component = &judged.component;
+    let covariance =
+        crate::fit::covariance_rows(&judged.fit.linear.covariance, from, component.width());
+    let used = &judged.fit.linear.coefficients[from..];
+    component.estimates(used, &covariance).iter().all(|estimate| {
+        let range = &component.term.parameters[estimate.parameter].range;
+        let slack = 2.0 * estimate.stderr;
+        range.start() >= range.end()
+            || (*range.start() <= estimate.value + slack && estimate.value - slack <= *range.end())
+    })
+}
+
+/// All candidates on what a model leaves, best evidence first.
+#[must_use]
+pub fn tried(problem: &Problem, now: &State) -> Vec<Judged> {
+    let coloured = Stage::new(problem, &now.columns, &now.fit.noises);
+    let white = Stage::new(problem, &now.columns, &plain_noises(problem, &now.fit));
+    let first = judged_shortlist(problem, now, &[trials(&white), trials(&coloured)]);
+    let Some(best) = first.first() else { return first };
+    // Under the noise that the best one leaves, its rivals show what they can really do.
+    let clear = Stage::new(problem, &now.columns, &best.fit.noises);
+    let again = trials(&clear);
+    let mut all = judged_shortlist(problem, now, &[again]);
+    for judged in first {
+        let known = all.iter().position(|other| other.component.term.name == judged.component.term.name);
+        match known {
+            Some(place) if all[place].evidence < judged.evidence => all[place] = judged,
+            Some(_) => {}
+            None => all.push(judged),
+        }
+    }
+    all.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+    all
+}
+
+/// Every candidate at its best under a stage's noise, largest gain first.
+fn trials(stage: &Stage<'_>) -> Vec<Trial> {
+    let all = candidates(stage);
+    let mut trials: Vec<Trial> =
+        all.par_iter().filter_map(|candidate| try_candidate(stage, candidate)).collect();
+    trials.extend(setting_trials(stage));
+    trials.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+    trials
+}
+
+/// The strongest trials of each list and all that come near them, their noise fitted anew.
+fn judged_shortlist(problem: &Problem, now: &State, lists: &[Vec<Trial>]) -> Vec<Judged> {
+    let mut chosen: BTreeMap<String, Vec<&Trial>> = BTreeMap::new();
+    let mut tried = 1.0_f64;
+    for list in lists {
+        let best = list.first().map_or(0.0, |trial| trial.gain);
+        let near = |place: usize, trial: &Trial| place < SHORTLIST || 0.7 * best < trial.gain;
+        for (place, trial) in list.iter().enumerate() {
+            if near(place, trial) {
+                chosen.entry(trial.component.term.name.clone()).or_default().push(trial);
+            }
+        }
+        tried = tried.max(count(list.len()));
+    }
+    let flat: Vec<&Trial> = chosen.into_values().flatten().collect();
+    let judged: Vec<Judged> =
+        flat.into_par_iter().filter_map(|trial| judge(problem, now, trial, tried)).collect();
+    let mut best: Vec<Judged> = Vec::new();
+    for one in judged {
+        match best.iter_mut().find(|other| other.component.term.name == one.component.term.name) {
+            Some(other) if other.evidence < one.evidence => *other = one,
+            Some(_) => {}
+            None => best.push(one),
+        }
+    }
+    best.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+    best
+}
+
+/// Joint fit, evidence, chance and held-out error of one trial.
+fn judge(problem: &Problem, now: &State, trial: &Trial, tried: f64) -> Option<Judged> {
+    let more = Columns::of(problem, std::slice::from_ref(&trial.component)).ok()?;
+    // The noise begins with what the trial leaves, lest the first noise hides the effect.
+    let left = more.left(&now.fit.left, &trial.coefficients);
+    let columns = now.columns.and(&more);
+    let fit = settle(problem, &columns, &noises_of(problem, &left));
+    let gain = 2.0 * (fit.log_likelihood - now.fit.log_likelihood);
+    let freedom = trial.freedom();
+    let price = libm::log(count(problem.rows.len()).max(3.0));
+    Some(Judged {
+        component: trial.component.clone(),
+        gain,
+        evidence: gain - freedom * price - 2.0 * libm::log(trial.looks),
+        looks: trial.looks,
+        p_value: (chi_squared_tail(gain, freedom) * trial.looks.max(1.0) * tried).min(1.0),
+        rms_um: rms(&problem.layout, &fit.left),
+        holdout_rms_um: holdout_rms(problem, &columns, &fit.noises),
+        fit,
+    })
+}
+
+/// White noise of the size that neighbouring samples differ by: no slow effect hides in it.
+fn plain_noises(problem: &Problem, fit: &Fit) -> Vec<Noise> {
+    (0..problem.sensors.len())
+        .map(|sensor| {
+            let (layout, rows) = problem.of_sensor(sensor);
+            let mut steps: Vec<f64> = layout
+                .blocks
+                .iter()
+                .flat_map(|block| block.rows.clone().skip(1))
+                .map(|row| (fit.left[rows[row]] - fit.left[rows[row - 1]]).abs())
+                .collect();
+            let deviation = (median(&mut steps) * 1.4826).max(f64::MIN_POSITIVE.sqrt());
+            Noise::white().scaled(0.5 * deviation * deviation)
+        })
+        .collect()
+}
+
+/// Drops effects that the others have made superfluous.
+fn pruned(problem: &Problem, state: State) -> (State, Vec<String>) {
+    let mut state = state;
+    let mut dropped = Vec::new();
+    while 1 < state.components.len() {
+        let price = libm::log(count(problem.rows.len()).max(3.0));
+        let weakest = (0..state.components.len() - 1)
+            .filter_map(|index| {
+                let mut fewer = state.components.clone();
+                let gone = fewer.remove(index);
+                let smaller = State::of(problem, fewer, &state.fit.noises)?;
+                let loss = 2.0 * (state.fit.log_likelihood - smaller.fit.log_likelihood)
+                    - count(gone.width()) * price;
+                Some((loss, smaller, gone.term.name))
+            })
+            .min_by(|a, b| a.0.total_cmp(&b.0));
+        match weakest {
+            Some((loss, smaller, name)) if loss < 0.0 => {
+                state = smaller;
+                dropped.push(name);
+            }
+            _ => break,
+        }
+    }
+    (state, dropped)
+}
+
+/// Whitened pattern of a component at its fitted size, offsets taken out.
+#[must_use]
+pub fn pattern(problem: &Problem, state: &State, index: usize, whitener: &Whitener) -> Vec<f64> {
+    let (coefficients, from) = state.coefficients(index);
+    let mut sum = vec![0.0; problem.rows.len()];
+    for (column, weight) in state.columns.raw[from..].iter().zip(coefficients) {
+        sum.iter_mut().zip(column).for_each(|(value, part)| *value += weight * part);
+    }
+    whitener.whiten(&sum)
+}

@@ -1,0 +1,275 @@
+//! Which effects can be tried on a measurement, and where their nonlinear parameters may lie.
+
+use helixlock_plant::{CATALOGUE, Entry, Machine, Parameter, Search, Term};
+
+use crate::count;
+use crate::measurement::spread;
+use crate::order_spectrum::Scan;
+use crate::problem::Problem;
+use crate::stage::Stage;
+
+/// An effect that may be missing.
+#[derive(Debug, Clone)]
+pub struct Candidate {
+    /// The effect at its defaults.
+    pub term: Term,
+    /// Nonlinear values worth trying; one empty list when there are none.
+    pub grid: Vec<Vec<f64>>,
+    /// Per nonlinear parameter: distance of grid values, 0 when only grid values count.
+    pub steps: Vec<f64>,
+    /// Independent places the grid looks at: what a maximum over it must pay.
+    pub looks: f64,
+}
+
+/// Grid values of a plain parameter.
+const PLAIN: usize = 24;
+/// Places along the travel.
+const PLACES: usize = 48;
+/// Instants along the record.
+const INSTANTS: usize = 96;
+/// Most grid points of an effect.
+const MOST: usize = 3000;
+
+/// Every effect of the catalogue that the sensors could see and whose logs are there.
+///
+/// The user's own effects of [`Problem::extra`] take part like any other.
+#[must_use]
+pub fn candidates(stage: &Stage<'_>) -> Vec<Candidate> {
+    let problem = stage.problem;
+    CATALOGUE
+        .iter()
+        .filter(|card| card.candidate && !card.random && problem.sees(card.entry))
+        .filter(|card| card.entry != Entry::Actuator || corrector_moves(problem))
+        .map(|card| Term::candidate(card))
+        .chain(problem.extra.iter().cloned())
+        .filter(|term| logged(problem, term))
+        .filter_map(|term| candidate(stage, term))
+        .collect()
+}
+
+/// An effect with its grid; `None` when there is no place to look for it.
+#[must_use]
+pub fn candidate(stage: &Stage<'_>, term: Term) -> Option<Candidate> {
+    let axes: Vec<Vec<f64>> = term
+        .parameters
+        .iter()
+        .filter(|parameter| parameter.is_nonlinear())
+        .map(|parameter| axis(stage, parameter))
+        .collect();
+    if axes.iter().any(Vec::is_empty) {
+        return None;
+    }
+    let steps = term
+        .parameters
+        .iter()
+        .filter(|parameter| parameter.is_nonlinear())
+        .zip(&axes)
+        .map(|(parameter, axis)| match is_frequency(parameter) {
+            true => 0.3 / spread(&stage.problem.record.time_s).max(f64::MIN_POSITIVE),
+            false => step(parameter, axis),
+        })
+        .collect();
+    let grid = product(&thinned(axes));
+    let mut looks = count(grid.len());
+    if term.parameters.iter().any(is_frequency) {
+        let times = row_times(stage.problem);
+        looks *= time_scan(stage, &times, 0.0, f64::INFINITY).looks() / 16.0;
+    }
+    let candidate = Candidate { term, grid, steps, looks };
+    stage.problem.design(&candidate.at(0)).is_ok().then_some(candidate)
+}
+
+impl Candidate {
+    /// The effect at a grid point.
+    #[must_use]
+    pub fn at(&self, point: usize) -> Term {
+        self.term.with_nonlinear(&self.grid[point])
+    }
+}
+
+/// True when the corrector takes steps: in a closed loop, or by hand and logged.
+fn corrector_moves(problem: &Problem) -> bool {
+    problem.machine.loop_closed || problem.measurement.covariates.contains_key("steps")
+}
+
+/// True when the covariates an effect needs are logged and not constant.
+fn logged(problem: &Problem, term: &Term) -> bool {
+    term.needs().iter().all(|name| problem.measurement.covariates.contains_key(*name))
+}
+
+fn axis(stage: &Stage<'_>, parameter: &Parameter) -> Vec<f64> {
+    let record = &stage.problem.record;
+    let (low, high) = (*parameter.range.start(), *parameter.range.end());
+    match parameter.search {
+        _ if is_frequency(parameter) => frequencies(stage, low, high),
+        Search::Linear => evenly(low, high, PLAIN),
+        Search::Logarithmic => logarithmic(stage.problem, parameter),
+        Search::Whole => whole(low, high),
+        Search::Position => inside(&record.position_mm, PLACES),
+        Search::Time => instants(&record.time_s),
+        Search::GearOrder => gear_orders(&stage.problem.machine),
+        Search::Fixed => vec![parameter.default.unwrap_or(low)],
+    }
+}
+
+/// True for a frequency in time, which a spectrum finds better than a grid.
+#[must_use]
+pub fn is_frequency(parameter: &Parameter) -> bool {
+    parameter.unit.suffix() == "hz" && parameter.search != Search::Fixed
+}
+
+fn evenly(low: f64, high: f64, points: usize) -> Vec<f64> {
+    (0..points).map(|i| low + (high - low) * (count(i) + 0.5) / count(points)).collect()
+}
+
+/// Values that the record can tell apart: times and widths between a few samples and its length.
+fn logarithmic(problem: &Problem, parameter: &Parameter) -> Vec<f64> {
+    let (mut low, mut high) = (*parameter.range.start(), *parameter.range.end());
+    let scale = match parameter.unit.suffix().as_str() {
+        "s" => Some(spread(&problem.record.time_s)),
+        "mm" => Some(spread(&problem.record.position_mm)),
+        _ => None,
+    };
+    if let Some(scale) = scale.filter(|scale| 0.0 < *scale) {
+        low = low.max(scale / 200.0);
+        high = high.min(scale * 2.0).max(low);
+    }
+    let (from, to) = (libm::log(low.max(1e-12)), libm::log(high.max(1e-12)));
+    evenly(from, to, PLAIN).into_iter().map(libm::exp).collect()
+}
+
+fn whole(low: f64, high: f64) -> Vec<f64> {
+    let mut values = Vec::new();
+    let mut value = low.ceil();
+    while value <= high && values.len() < 64 {
+        if value != 0.0 {
+            values.push(value);
+        }
+        value += 1.0;
+    }
+    values
+}
+
+fn inside(values: &[f64], points: usize) -> Vec<f64> {
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    if spread(values) <= 0.0 { Vec::new() } else { evenly(low, low + spread(values), points) }
+}
+
+/// Instants between samples, evenly over the samples, so that pauses cost nothing.
+fn instants(time_s: &[f64]) -> Vec<f64> {
+    let between = between_samples(time_s);
+    let points = INSTANTS.min(between.len());
+    (0..points).map(|i| between[(2 * i + 1) * between.len() / (2 * points)]).collect()
+}
+
+/// Every instant halfway between two samples, in order.
+#[must_use]
+pub fn between_samples(time_s: &[f64]) -> Vec<f64> {
+    let mut sorted = time_s.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.dedup();
+    sorted.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect()
+}
+
+/// Shafts and meshes of the gear table, also those faster than the samples: their aliases are
+/// exact, because the columns are worked out at the very samples.
+fn gear_orders(machine: &Machine) -> Vec<f64> {
+    let shafts = machine.gears.iter().map(|gear| gear.order);
+    let meshes = machine.gears.iter().filter_map(helixlock_plant::machine::Gear::mesh_order);
+    shafts.chain(meshes).collect()
+}
+
+/// Distinct frequencies of the strongest lines in time.
+fn frequencies(stage: &Stage<'_>, low: f64, high: f64) -> Vec<f64> {
+    const MOST: usize = 16;
+    let times = row_times(stage.problem);
+    let scan = time_scan(stage, &times, low, high);
+    let mut points = scan.spectrum(&stage.target[..times.len()]);
+    points.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+    let mut peaks: Vec<f64> = Vec::new();
+    for point in points {
+        let apart = |known: &f64| scan.resolution() < (known - point.frequency).abs();
+        if peaks.len() < MOST && peaks.iter().all(apart) {
+            peaks.push(point.frequency);
+        }
+    }
+    peaks
+}
+
+fn row_times(problem: &Problem) -> Vec<f64> {
+    problem.rows.iter().map(|row| problem.record.time_s[row.sample]).collect()
+}
+
+fn time_scan<'a>(stage: &'a Stage<'_>, times: &'a [f64], low: f64, high: f64) -> Scan<'a> {
+    Scan {
+        layout: &stage.problem.layout,
+        noises: &stage.noises,
+        turns: times,
+        whitener: &stage.whitener,
+        lowest: low.max(1.5 / spread(times).max(f64::MIN_POSITIVE)),
+        highest: high.min(highest_order(times)),
+    }
+}
+
+/// A scan of all rows over the spindle angle.
+#[must_use]
+pub fn turn_scan<'a>(stage: &'a Stage<'_>, turns: &'a [f64]) -> Scan<'a> {
+    Scan {
+        layout: &stage.problem.layout,
+        noises: &stage.noises,
+        turns,
+        whitener: &stage.whitener,
+        lowest: 1.5 / spread(turns).max(f64::MIN_POSITIVE),
+        highest: highest_order(turns),
+    }
+}
+
+/// Highest order that the samples resolve: half the usual rate of sampling, more when the
+/// samples are uneven, because then no two frequencies look alike.
+#[must_use]
+pub fn highest_order(coordinate: &[f64]) -> f64 {
+    let mut moves: Vec<f64> = coordinate
+        .windows(2)
+        .map(|pair| (pair[1] - pair[0]).abs())
+        .filter(|step| 0.0 < *step)
+        .collect();
+    moves.sort_by(f64::total_cmp);
+    let usual = moves.get(moves.len() / 2).copied().unwrap_or(1.0);
+    let short = moves.get(moves.len() / 10).copied().unwrap_or(1.0);
+    0.5 / short.max(0.2 * usual).max(f64::MIN_POSITIVE)
+}
+
+fn step(parameter: &Parameter, axis: &[f64]) -> f64 {
+    match parameter.search {
+        Search::Whole | Search::GearOrder | Search::Fixed | Search::Time => 0.0,
+        _ if axis.len() < 2 => 0.0,
+        Search::Logarithmic => 0.3 * axis[0],
+        _ => (axis[1] - axis[0]).abs(),
+    }
+}
+
+/// Drops every second value of the longest axis until the product is small enough.
+fn thinned(mut axes: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    while MOST < axes.iter().map(Vec::len).product() {
+        let Some(longest) = axes.iter_mut().max_by_key(|axis| axis.len()) else { break };
+        let mut keep = false;
+        longest.retain(|_| {
+            keep = !keep;
+            keep
+        });
+    }
+    axes
+}
+
+fn product(axes: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let mut points = vec![Vec::new()];
+    for axis in axes {
+        points = points
+            .iter()
+            .flat_map(|point: &Vec<f64>| {
+                axis.iter().map(|value| [point.as_slice(), &[*value]].concat())
+            })
+            .collect();
+    }
+    points
+}

@@ -1,0 +1,149 @@
+//! Where a model and a measurement part: size, noise, and every coordinate it could follow.
+
+use helixlock_plant::prediction::Sensor;
+
+use crate::analysis::State;
+use crate::lines::{LineSearch, NamedLine, lines};
+use crate::measurement::spread;
+use crate::noise::{Noise, Whitener};
+use crate::order_spectrum::Point;
+use crate::probes::{SIGNIFICANCE, Structure, all_structures};
+use crate::problem::Problem;
+
+/// Size of a residual in one pass.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PassSize {
+    /// Name of the pass in the file.
+    pub pass: f64,
+    /// Samples.
+    pub samples: usize,
+    /// Root mean square about the pass's own zero.
+    pub rms_um: f64,
+    /// Peak to peak.
+    pub peak_to_peak_um: f64,
+}
+
+/// One sensor's residual.
+#[derive(Debug, Clone)]
+pub struct SensorResidual {
+    /// The sensor.
+    pub sensor: Sensor,
+    /// Samples.
+    pub samples: usize,
+    /// Samples' worth of independent information about a mean.
+    pub effective_samples: f64,
+    /// Root mean square about the zero of each pass.
+    pub rms_um: f64,
+    /// Largest peak to peak of a pass.
+    pub peak_to_peak_um: f64,
+    /// Size in each pass.
+    pub passes: Vec<PassSize>,
+    /// The noise that fits best.
+    pub noise: Noise,
+    /// Sample interval, s, that the noise's correlation lengths count.
+    pub interval_s: f64,
+    /// Outliers that were weighed down.
+    pub outliers: usize,
+    /// Spectrum over the spindle angle.
+    pub spectrum: Vec<Point>,
+}
+
+/// A comparison of a model with a measurement.
+#[derive(Debug, Clone)]
+pub struct Comparison {
+    /// One entry a sensor.
+    pub sensors: Vec<SensorResidual>,
+    /// Everything that was looked along, clearest first; chances count all looks.
+    pub along: Vec<Structure>,
+    /// Lines over the spindle angle, named where the machine file knows them.
+    pub lines: Vec<NamedLine>,
+    /// Chance that the residual is noise alone: that of its clearest structure.
+    pub noise_p_value: f64,
+    /// True when nothing but noise is left.
+    pub noise_only: bool,
+    /// The residual, row by row.
+    pub residual: Vec<f64>,
+}
+
+/// Compares a model with a measurement.
+#[must_use]
+pub fn compare(problem: &Problem) -> Comparison {
+    let state = State::bare(problem);
+    let along = all_structures(problem, &state.columns, &state.fit);
+    let noise_p_value = along.first().map_or(1.0, |first| first.p_value);
+    let residual = problem.residual();
+    let sensors = (0..problem.sensors.len())
+        .map(|sensor| sensor_residual(problem, &state, &residual, sensor))
+        .collect();
+    Comparison {
+        sensors,
+        lines: lines(problem, &state.columns, &state.fit),
+        noise_only: SIGNIFICANCE < noise_p_value,
+        noise_p_value,
+        along,
+        residual,
+    }
+}
+
+fn sensor_residual(
+    problem: &Problem,
+    state: &State,
+    residual: &[f64],
+    sensor: usize,
+) -> SensorResidual {
+    let blocks = || problem.layout.blocks.iter().filter(|block| block.sensor == sensor);
+    let passes: Vec<PassSize> = blocks()
+        .map(|block| {
+            let part = &residual[block.rows.clone()];
+            let samples = part.len();
+            let mean = part.iter().sum::<f64>() / crate::count(samples);
+            let square: f64 = part.iter().map(|value| (value - mean) * (value - mean)).sum();
+            PassSize {
+                pass: problem.measurement.pass_names[block.pass],
+                samples,
+                rms_um: (square / crate::count(samples)).sqrt(),
+                peak_to_peak_um: spread(part),
+            }
+        })
+        .collect();
+    let samples: usize = passes.iter().map(|pass| pass.samples).sum();
+    let square: f64 =
+        passes.iter().map(|pass| pass.rms_um * pass.rms_um * crate::count(pass.samples)).sum();
+    let turns: Vec<f64> = problem.record.turns().collect();
+    let search = LineSearch { problem, fit: &state.fit, sensor, coordinate: &turns };
+    SensorResidual {
+        sensor: problem.sensors[sensor],
+        samples,
+        effective_samples: effective_samples(problem, state, sensor),
+        rms_um: (square / crate::count(samples.max(1))).sqrt(),
+        peak_to_peak_um: passes.iter().map(|pass| pass.peak_to_peak_um).fold(0.0, f64::max),
+        passes,
+        noise: state.fit.noises[sensor].clone(),
+        interval_s: interval_s(problem),
+        outliers: blocks()
+            .flat_map(|block| block.rows.clone())
+            .filter(|&row| 1.0 < problem.layout.inflation[row])
+            .count(),
+        spectrum: search.spectrum(),
+    }
+}
+
+/// Variance of a sample over the variance of the best mean: `σ²·1ᵀK⁻¹1`.
+fn effective_samples(problem: &Problem, state: &State, sensor: usize) -> f64 {
+    let (layout, rows) = problem.of_sensor(sensor);
+    let noise = &state.fit.noises[sensor];
+    let whitener = Whitener::new(&layout, std::slice::from_ref(noise));
+    let ones = whitener.whiten_only(&vec![1.0; rows.len()]);
+    noise.variance() * crate::least_squares::dot(&ones, &ones)
+}
+
+fn interval_s(problem: &Problem) -> f64 {
+    let mut intervals: Vec<f64> = problem
+        .record
+        .time_s
+        .windows(2)
+        .map(|pair| pair[1] - pair[0])
+        .filter(|interval| 0.0 < *interval)
+        .collect();
+    crate::noise_fit::median(&mut intervals)
+}

@@ -1,0 +1,66 @@
+//! What can be wrong with a measurement or an analysis.
+
+use helixlock_traces::TraceError;
+
+/// Why a measurement cannot be analysed.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum LabError {
+    /// The file itself cannot be read.
+    #[error(transparent)]
+    Trace(#[from] TraceError),
+    /// No column holds an observation.
+    #[error("{path}: found columns {found}, expected at least one of {expected}")]
+    NoObservation {
+        /// The file.
+        path: String,
+        /// Names of the columns there are.
+        found: String,
+        /// Names of the columns that would do.
+        expected: &'static str,
+    },
+    /// No column says where or when a sample was taken.
+    #[error(
+        "{path}: found columns {found}, expected one of `position_mm`, `time_s`, `angle_rev`"
+    )]
+    NoCoordinate {
+        /// The file.
+        path: String,
+        /// Names of the columns there are.
+        found: String,
+    },
+    /// The file measures another kind of machine than the machine file describes.
+    #[error("{path}: found `{found}`, expected {expected}\n\nhint: {hint}")]
+    OtherKind {
+        /// The data file.
+        path: String,
+        /// The column found.
+        found: &'static str,
+        /// The column that fits the machine file.
+        expected: &'static str,
+        /// What to change.
+        hint: &'static str,
+    },
+    /// A cell holds a value its column cannot have.
+    #[error("{at}: found `{found}` in column `{column}`, expected {expected}")]
+    Cell {
+        /// File and line.
+        at: String,
+        /// Name of the column.
+        column: String,
+        /// The value.
+        found: f64,
+        /// What it should be.
+        expected: &'static str,
+    },
+    /// Too few usable samples.
+    #[error("{path}: found {found} usable samples, expected at least {expected}")]
+    TooFew {
+        /// The file.
+        path: String,
+        /// Samples with a coordinate and an observation.
+        found: usize,
+        /// Fewest that can be analysed.
+        expected: usize,
+    },
+}

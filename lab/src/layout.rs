@@ -1,0 +1,60 @@
+//! Rows of one analysis: which sensor and pass each belongs to, and the clock its noise runs on.
+
+use std::ops::Range;
+
+/// Consecutive rows of one sensor in one pass; it has its own zero and its own noise history.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Block {
+    /// Index of the sensor; each sensor has its own noise.
+    pub sensor: usize,
+    /// Index of the pass.
+    pub pass: usize,
+    /// Rows of the block.
+    pub rows: Range<usize>,
+}
+
+/// How the rows of a fit hang together.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Layout {
+    /// Blocks in row order, without gaps between them.
+    pub blocks: Vec<Block>,
+    /// Per row: clock of the noise in median sample intervals, not falling within a block.
+    pub clock: Vec<f64>,
+    /// Per row: factor on the white variance, 1 for an ordinary sample, more for an outlier.
+    pub inflation: Vec<f64>,
+}
+
+impl Layout {
+    /// Number of rows.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.clock.len()
+    }
+
+    /// True when there is not a single row.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.clock.is_empty()
+    }
+
+    /// Number of sensors.
+    #[must_use]
+    pub fn sensors(&self) -> usize {
+        self.blocks.iter().map(|block| block.sensor + 1).max().unwrap_or(0)
+    }
+
+    /// The layout of some blocks only, and the rows they had here.
+    #[must_use]
+    pub fn restricted(&self, keep: impl Fn(&Block) -> bool) -> (Self, Vec<usize>) {
+        let mut part = Self::default();
+        let mut rows = Vec::new();
+        for block in self.blocks.iter().filter(|block| keep(block)) {
+            let start = rows.len();
+            rows.extend(block.rows.clone());
+            part.blocks.push(Block { rows: start..rows.len(), ..block.clone() });
+        }
+        part.clock = rows.iter().map(|&row| self.clock[row]).collect();
+        part.inflation = rows.iter().map(|&row| self.inflation[row]).collect();
+        (part, rows)
+    }
+}

@@ -1,0 +1,254 @@
+//! Measured samples in order: coordinates, sensors and covariates, pass by pass.
+
+mod coordinates;
+mod passes;
+mod thinning;
+
+use std::collections::BTreeMap;
+
+use helixlock_plant::Machine;
+use helixlock_plant::prediction::Sensor;
+use helixlock_traces::Table;
+
+use crate::error::LabError;
+
+/// What the machine file says that a data file may leave out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nominal {
+    /// Travel of one spindle turn, mm; arbitrary when rotary.
+    pub lead_mm: f64,
+    /// Spindle speed, rpm.
+    pub speed_rpm: f64,
+    /// Table travel of one counted step, µm.
+    pub step_um: f64,
+    /// True for chains without a workpiece, measured in arcsec.
+    pub rotary: bool,
+    /// True when the corrector works, so that the counter is a sensor.
+    pub closed: bool,
+}
+
+impl From<&Machine> for Nominal {
+    fn from(machine: &Machine) -> Self {
+        Self {
+            lead_mm: machine.workpiece.lead.mm(),
+            speed_rpm: machine.spindle.speed_rpm,
+            step_um: machine.drive.step_um,
+            rotary: machine.rotary,
+            closed: machine.loop_closed,
+        }
+    }
+}
+
+/// Column of the data file that a sensor fills.
+#[must_use]
+pub fn sensor_column(sensor: Sensor, rotary: bool) -> &'static str {
+    match sensor {
+        Sensor::Recorder if rotary => "error_arcsec",
+        Sensor::Recorder => "error_um",
+        Sensor::Counter => "steps",
+        Sensor::Thread => "lead_error_um",
+    }
+}
+
+/// Samples sorted by pass and, within a pass, by time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measurement {
+    /// True when the unit is arcsec instead of µm.
+    pub rotary: bool,
+    /// Time, s, from the start of the record.
+    pub time_s: Vec<f64>,
+    /// Travel, mm; for rotary chains the angle of the output in degrees is not travel and this is 0.
+    pub position_mm: Vec<f64>,
+    /// Spindle angle in turns, growing with position.
+    pub angle_rev: Vec<f64>,
+    /// Spindle speed, rpm.
+    pub speed_rpm: Vec<f64>,
+    /// +1 forward, −1 reverse.
+    pub direction: Vec<f64>,
+    /// Index of the pass, from 0.
+    pub pass: Vec<usize>,
+    /// Names of the passes as in the file.
+    pub pass_names: Vec<f64>,
+    /// Per sensor one value a sample, NaN where the cell is missing; the counter in µm.
+    pub observations: BTreeMap<Sensor, Vec<f64>>,
+    /// Logged covariates, known and unknown; gaps are bridged from their neighbours.
+    pub covariates: BTreeMap<String, Vec<f64>>,
+    /// True when time was measured, not worked out from travel and speed.
+    pub timed: bool,
+    /// What a user should know about how the file was read.
+    pub notes: Vec<String>,
+}
+
+/// Columns that are coordinates or sensors; every other one is a covariate.
+const NOT_COVARIATES: [&str; 10] = [
+    "time_s", "position_mm", "angle_rev", "speed_rpm", "direction", "pass", "error_um",
+    "error_arcsec", "steps", "lead_error_um",
+];
+
+/// Fewest samples that say anything about noise.
+const FEWEST: usize = 16;
+
+impl Measurement {
+    /// Orders and completes the samples of a table.
+    ///
+    /// Rows without a coordinate or without any observation are left out and counted in `notes`.
+    ///
+    /// # Errors
+    ///
+    /// A missing observation or coordinate, an observation of the other kind of machine,
+    /// a direction that is no sign, or fewer than 16 usable samples.
+    pub fn from_table(table: &Table, nominal: &Nominal) -> Result<Self, LabError> {
+        let path = table.path.display().to_string();
+        check_kind(table, nominal, &path)?;
+        let observed = observed_columns(table, nominal);
+        if observed.is_empty() {
+            return Err(LabError::NoObservation {
+                path,
+                found: names(table),
+                expected: if nominal.rotary {
+                    "`error_arcsec`"
+                } else {
+                    "`error_um`, `lead_error_um`, `steps`"
+                },
+            });
+        }
+        let coordinates = coordinates::complete(table, nominal)?;
+        let keep = |row: &usize| {
+            coordinates.usable(*row) && observed.iter().any(|(_, values)| values[*row].is_finite())
+        };
+        let rows: Vec<usize> = (0..table.rows()).filter(keep).collect();
+        if rows.len() < FEWEST {
+            return Err(LabError::TooFew { path, found: rows.len(), expected: FEWEST });
+        }
+        let mut notes = coordinates.notes.clone();
+        let dropped = table.rows() - rows.len();
+        if 0 < dropped {
+            notes.push(format!("{dropped} rows without a coordinate or an observation are left out"));
+        }
+        let passes = passes::split(table, &coordinates, &rows, &mut notes);
+        Ok(assemble(table, nominal, &coordinates, passes, notes))
+    }
+
+    /// Number of samples.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.time_s.len()
+    }
+
+    /// True when there is no sample; `from_table` never gives that.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.time_s.is_empty()
+    }
+
+    /// Unit of the observations.
+    #[must_use]
+    pub fn unit(&self) -> &'static str {
+        if self.rotary { "arcsec" } else { "µm" }
+    }
+
+    /// True when `name` is logged and takes more than one value.
+    #[must_use]
+    pub fn varies(&self, name: &str) -> bool {
+        self.covariates.get(name).is_some_and(|values| spread(values) > 0.0)
+    }
+}
+
+/// Largest less smallest value.
+#[must_use]
+pub fn spread(values: &[f64]) -> f64 {
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    if low <= high { high - low } else { 0.0 }
+}
+
+fn check_kind(table: &Table, nominal: &Nominal, path: &str) -> Result<(), LabError> {
+    let other = |found, expected, hint| {
+        Err(LabError::OtherKind { path: path.to_owned(), found, expected, hint })
+    };
+    let has = |name| table.column(name).is_some();
+    if nominal.rotary && !has("error_arcsec") && has("error_um") {
+        return other("error_um", "`error_arcsec`", "the machine file says `rotary = true`");
+    }
+    if !nominal.rotary && has("error_arcsec") && !has("error_um") {
+        return other(
+            "error_arcsec",
+            "`error_um`",
+            "a rotary chain needs `[output]` with `rotary = true` in the machine file",
+        );
+    }
+    Ok(())
+}
+
+fn observed_columns<'a>(table: &'a Table, nominal: &Nominal) -> Vec<(Sensor, &'a [f64])> {
+    // Steps of an open loop were made by hand: they are a cause, not an observation.
+    let sees = |sensor: &Sensor| match sensor {
+        Sensor::Recorder => true,
+        Sensor::Counter => nominal.closed && !nominal.rotary,
+        Sensor::Thread => !nominal.rotary,
+    };
+    let sensors = Sensor::ALL.into_iter().filter(sees);
+    sensors
+        .filter_map(|s| table.column(sensor_column(s, nominal.rotary)).map(|c| (s, c)))
+        .filter(|(_, values)| values.iter().any(|value| value.is_finite()))
+        .collect()
+}
+
+fn names(table: &Table) -> String {
+    table.names().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}
+
+fn assemble(
+    table: &Table,
+    nominal: &Nominal,
+    coordinates: &coordinates::Coordinates,
+    passes: passes::Passes,
+    mut notes: Vec<String>,
+) -> Measurement {
+    let rows = &passes.rows;
+    let pick = |values: &[f64]| -> Vec<f64> { rows.iter().map(|&row| values[row]).collect() };
+    let mut observations = BTreeMap::new();
+    for (sensor, values) in observed_columns(table, nominal) {
+        let factor = if sensor == Sensor::Counter { nominal.step_um } else { 1.0 };
+        observations.insert(sensor, pick(values).iter().map(|value| value * factor).collect());
+    }
+    let covariates = covariates(table, nominal, &passes, &mut notes);
+    Measurement {
+        rotary: nominal.rotary,
+        time_s: pick(&coordinates.time_s),
+        position_mm: pick(&coordinates.position_mm),
+        angle_rev: pick(&coordinates.angle_rev),
+        speed_rpm: passes.speed_rpm,
+        direction: passes.direction,
+        pass: passes.pass,
+        pass_names: passes.names,
+        observations,
+        covariates,
+        timed: coordinates.timed,
+        notes,
+    }
+}
+
+fn covariates(
+    table: &Table,
+    nominal: &Nominal,
+    passes: &passes::Passes,
+    notes: &mut Vec<String>,
+) -> BTreeMap<String, Vec<f64>> {
+    let mut known = BTreeMap::new();
+    let covariate = |name: &str| {
+        !NOT_COVARIATES.contains(&name) || (name == "steps" && !nominal.closed)
+    };
+    for column in table.columns.iter().filter(|column| covariate(&column.name)) {
+        let values: Vec<f64> = passes.rows.iter().map(|&row| column.values[row]).collect();
+        if !values.iter().any(|value| value.is_finite()) {
+            notes.push(format!("column `{}` is empty and left out", column.name));
+            continue;
+        }
+        if !helixlock_plant::COVARIATES.contains(&column.name.as_str()) {
+            notes.push(format!("column `{}` is not known and kept as a covariate", column.name));
+        }
+        known.insert(column.name.clone(), passes::bridged(&values, &passes.pass));
+    }
+    known
+}

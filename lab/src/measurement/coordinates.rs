@@ -1,0 +1,84 @@
+//! Where and when each row was taken; what is missing follows from lead and speed.
+
+use helixlock_traces::Table;
+
+use super::Nominal;
+use crate::error::LabError;
+
+/// Coordinates of the rows of a table, in the order of the file; NaN where unknown.
+#[derive(Debug, Clone)]
+pub(crate) struct Coordinates {
+    pub(crate) time_s: Vec<f64>,
+    pub(crate) position_mm: Vec<f64>,
+    pub(crate) angle_rev: Vec<f64>,
+    pub(crate) timed: bool,
+    pub(crate) placed: bool,
+    pub(crate) notes: Vec<String>,
+}
+
+impl Coordinates {
+    pub(crate) fn usable(&self, row: usize) -> bool {
+        self.time_s[row].is_finite() && self.angle_rev[row].is_finite()
+    }
+}
+
+/// Completes time, travel and angle from those that were measured.
+pub(crate) fn complete(table: &Table, nominal: &Nominal) -> Result<Coordinates, LabError> {
+    let time = table.column("time_s");
+    let position = table.column("position_mm");
+    let angle = table.column("angle_rev");
+    let turns_per_second = nominal.speed_rpm / 60.0;
+    let scaled = |values: &[f64], factor: f64| values.iter().map(|v| v * factor).collect::<Vec<_>>();
+    let mut notes = Vec::new();
+    let angle_rev = match (angle, position, time) {
+        (Some(angle), _, _) => angle.to_vec(),
+        (None, Some(position), _) if !nominal.rotary => scaled(position, 1.0 / nominal.lead_mm),
+        (None, _, Some(time)) => {
+            notes.push("angle and travel follow from `time_s` and the spindle speed".to_owned());
+            scaled(time, turns_per_second)
+        }
+        _ => {
+            return Err(LabError::NoCoordinate {
+                path: table.path.display().to_string(),
+                found: super::names(table),
+            });
+        }
+    };
+    let position_mm = match position {
+        Some(position) => position.to_vec(),
+        None => scaled(&angle_rev, if nominal.rotary { 0.0 } else { nominal.lead_mm }),
+    };
+    let time_s = match time {
+        Some(time) => from_start(time),
+        None => {
+            notes.push("time follows from travel and the spindle speed".to_owned());
+            elapsed(&angle_rev, turns_per_second)
+        }
+    };
+    let placed = position.is_some() || angle.is_some();
+    Ok(Coordinates { time_s, position_mm, angle_rev, timed: time.is_some(), placed, notes })
+}
+
+/// Time from the first sample of the record, so that clock times may be given.
+fn from_start(time: &[f64]) -> Vec<f64> {
+    let first = time.iter().copied().filter(|t| t.is_finite()).fold(f64::INFINITY, f64::min);
+    // A record that begins soon after zero keeps its own zero: effects count from there.
+    let start = if first.abs() < 86_400.0 { 0.0 } else { first };
+    time.iter().map(|t| t - start).collect()
+}
+
+/// Running time when only travel is known: the way made at the nominal speed.
+fn elapsed(angle_rev: &[f64], turns_per_second: f64) -> Vec<f64> {
+    let mut total = 0.0;
+    let mut last = f64::NAN;
+    let step = |&angle: &f64| {
+        if angle.is_finite() {
+            if last.is_finite() {
+                total += (angle - last).abs();
+            }
+            last = angle;
+        }
+        if angle.is_finite() { total / turns_per_second } else { f64::NAN }
+    };
+    angle_rev.iter().map(step).collect()
+}

@@ -1,0 +1,183 @@
+//! Which rows make a pass, in which order, direction and speed.
+
+use std::collections::BTreeMap;
+
+use helixlock_traces::Table;
+
+use super::coordinates::Coordinates;
+
+/// Rows of the table in pass and time order, with what follows from that order.
+#[derive(Debug)]
+pub(crate) struct Passes {
+    pub(crate) rows: Vec<usize>,
+    pub(crate) pass: Vec<usize>,
+    pub(crate) names: Vec<f64>,
+    pub(crate) direction: Vec<f64>,
+    pub(crate) speed_rpm: Vec<f64>,
+}
+
+/// Sorts rows into passes by the column `pass`, or where the table jumps back to a start.
+pub(crate) fn split(
+    table: &Table,
+    coordinates: &Coordinates,
+    rows: &[usize],
+    notes: &mut Vec<String>,
+) -> Passes {
+    let groups = match table.column("pass") {
+        Some(names) => by_name(names, rows, notes),
+        None => by_jumps(coordinates, rows, notes),
+    };
+    let mut passes = Passes {
+        rows: Vec::with_capacity(rows.len()),
+        pass: Vec::with_capacity(rows.len()),
+        names: groups.iter().map(|(name, _)| *name).collect(),
+        direction: Vec::new(),
+        speed_rpm: Vec::new(),
+    };
+    for (index, (_, mut members)) in groups.into_iter().enumerate() {
+        order(&mut members, coordinates);
+        passes.direction.extend(direction(table, coordinates, &members));
+        passes.speed_rpm.extend(speed(table, coordinates, &members));
+        passes.pass.extend(std::iter::repeat_n(index, members.len()));
+        passes.rows.extend(members);
+    }
+    passes
+}
+
+fn by_name(names: &[f64], rows: &[usize], notes: &mut Vec<String>) -> Vec<(f64, Vec<usize>)> {
+    let mut groups: Vec<(f64, Vec<usize>)> = Vec::new();
+    let mut places: BTreeMap<u64, usize> = BTreeMap::new();
+    let mut missing = 0;
+    for &row in rows {
+        let name = names[row];
+        if !name.is_finite() {
+            missing += 1;
+            continue;
+        }
+        let place = *places.entry(name.to_bits()).or_insert_with(|| {
+            groups.push((name, Vec::new()));
+            groups.len() - 1
+        });
+        groups[place].1.push(row);
+    }
+    if 0 < missing {
+        notes.push(format!("{missing} rows without a pass are left out"));
+    }
+    groups.sort_by(|a, b| a.0.total_cmp(&b.0));
+    groups
+}
+
+/// A new pass begins where the table is suddenly far back against its travel.
+fn by_jumps(
+    coordinates: &Coordinates,
+    rows: &[usize],
+    notes: &mut Vec<String>,
+) -> Vec<(f64, Vec<usize>)> {
+    let moves: Vec<f64> = rows
+        .windows(2)
+        .map(|pair| coordinates.angle_rev[pair[1]] - coordinates.angle_rev[pair[0]])
+        .collect();
+    let mut sizes: Vec<f64> = moves.iter().map(|m| m.abs()).collect();
+    let usual = crate::noise_fit::median(&mut sizes);
+    let range = super::spread(&rows.iter().map(|&r| coordinates.angle_rev[r]).collect::<Vec<_>>());
+    let far = (50.0 * usual).max(0.2 * range);
+    let jumps = moves.iter().filter(|m| far < m.abs()).count();
+    let shuffled = rows.len() < 20 * jumps;
+    let mut groups = vec![(1.0, vec![rows[0]])];
+    for (pair, step) in rows.windows(2).zip(&moves) {
+        if coordinates.placed && !shuffled && far < step.abs() {
+            groups.push((crate::count(groups.len() + 1), Vec::new()));
+        }
+        let last = groups.len() - 1;
+        groups[last].1.push(pair[1]);
+    }
+    if 1 < groups.len() {
+        notes.push(format!("{} passes are told apart by where the travel jumps", groups.len()));
+    }
+    groups
+}
+
+/// Time order; without a clock the order of the file, or that of travel when rows are shuffled.
+fn order(members: &mut [usize], coordinates: &Coordinates) {
+    if coordinates.timed {
+        members.sort_by(|&a, &b| coordinates.time_s[a].total_cmp(&coordinates.time_s[b]));
+        return;
+    }
+    let angle = |row: usize| coordinates.angle_rev[row];
+    let turns = members
+        .windows(3)
+        .filter(|w| (angle(w[1]) - angle(w[0])) * (angle(w[2]) - angle(w[1])) < 0.0)
+        .count();
+    if members.len() < 8 * turns {
+        members.sort_by(|&a, &b| angle(a).total_cmp(&angle(b)));
+    }
+}
+
+fn direction(table: &Table, coordinates: &Coordinates, members: &[usize]) -> Vec<f64> {
+    let given = table.column("direction");
+    let travel = |from: usize, to: usize| {
+        coordinates.angle_rev[members[to]] - coordinates.angle_rev[members[from]]
+    };
+    let last = members.len() - 1;
+    let mut before = if travel(0, last) < 0.0 { -1.0 } else { 1.0 };
+    let mut signs = Vec::with_capacity(members.len());
+    for (index, &row) in members.iter().enumerate() {
+        let told = given.map_or(f64::NAN, |column| column[row]);
+        // Two samples each way, so that a jitter of the scale is no reversal.
+        let way = travel(index.saturating_sub(2), (index + 2).min(last));
+        if told.is_finite() && told != 0.0 {
+            before = told.signum();
+        } else if way != 0.0 {
+            before = way.signum();
+        }
+        signs.push(before);
+    }
+    signs
+}
+
+fn speed(table: &Table, coordinates: &Coordinates, members: &[usize]) -> Vec<f64> {
+    let mut measured: Vec<f64> = members
+        .windows(2)
+        .map(|pair| {
+            let turns = coordinates.angle_rev[pair[1]] - coordinates.angle_rev[pair[0]];
+            let time = coordinates.time_s[pair[1]] - coordinates.time_s[pair[0]];
+            60.0 * (turns / time).abs()
+        })
+        .filter(|rpm| rpm.is_finite() && 0.0 < *rpm)
+        .collect();
+    let usual = crate::noise_fit::median(&mut measured);
+    let given = table.column("speed_rpm");
+    let told = |row: usize| given.map(|column| column[row]).filter(|rpm| rpm.is_finite());
+    members.iter().map(|&row| told(row).unwrap_or(usual)).collect()
+}
+
+/// Missing values taken from their neighbours in the pass: between two, linear; at an end, equal.
+pub(crate) fn bridged(values: &[f64], pass: &[usize]) -> Vec<f64> {
+    let overall = values.iter().copied().find(|value| value.is_finite()).unwrap_or(0.0);
+    let mut whole = values.to_vec();
+    let mut start = 0;
+    while start < values.len() {
+        let end = start + pass[start..].iter().take_while(|p| **p == pass[start]).count();
+        bridge(&mut whole[start..end], overall);
+        start = end;
+    }
+    whole
+}
+
+fn bridge(values: &mut [f64], overall: f64) {
+    let known: Vec<usize> = (0..values.len()).filter(|&i| values[i].is_finite()).collect();
+    let Some((&first, &last)) = known.first().zip(known.last()) else {
+        values.fill(overall);
+        return;
+    };
+    let (low, high) = (values[first], values[last]);
+    values[..first].fill(low);
+    values[last + 1..].fill(high);
+    for pair in known.windows(2) {
+        let (a, b) = (values[pair[0]], values[pair[1]]);
+        let width = crate::count(pair[1] - pair[0]);
+        for row in pair[0] + 1..pair[1] {
+            values[row] = a + (b - a) * crate::count(row - pair[0]) / width;
+        }
+    }
+}

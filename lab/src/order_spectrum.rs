@@ -1,0 +1,306 @@
+//! Lines in a residual over any cyclic coordinate, unevenly sampled and under correlated noise.
+//!
+//! The gain of a frequency is the whitened square that a sine and a cosine take away: twice the
+//! log likelihood ratio. A scan by Fourier sums finds the peaks, a fit settles each, and the
+//! strongest is taken out before the next is looked for (CLEAN with exact fits).
+
+use crate::layout::Layout;
+use crate::least_squares::{self, dot};
+use crate::noise::{Noise, Whitener};
+use crate::{count, fourier};
+
+/// Coordinate, noise and whitened residual of a search for lines.
+#[derive(Debug)]
+pub struct Scan<'a> {
+    /// Which rows share a zero and a sensor.
+    pub layout: &'a Layout,
+    /// Noise of each sensor.
+    pub noises: &'a [Noise],
+    /// Per row: the cyclic coordinate, one period of order 1 a unit.
+    pub turns: &'a [f64],
+    /// Whitening of that noise.
+    pub whitener: &'a Whitener,
+    /// Lowest frequency tried, cycles a unit.
+    pub lowest: f64,
+    /// Highest frequency tried.
+    pub highest: f64,
+}
+
+/// A sinusoid found in a residual.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Line {
+    /// Cycles a unit of the coordinate.
+    pub frequency: f64,
+    /// Its standard error.
+    pub frequency_stderr: f64,
+    /// Amplitude in the residual's unit.
+    pub amplitude: f64,
+    /// Its standard error.
+    pub amplitude_stderr: f64,
+    /// Phase φ of `a·sin(2π·f·u + φ)`, rad.
+    pub phase_rad: f64,
+    /// Whitened square it takes away.
+    pub gain: f64,
+    /// Chance of a line as strong anywhere in noise.
+    pub p_value: f64,
+}
+
+/// One point of a spectrum for the eye.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Point {
+    /// Cycles a unit of the coordinate.
+    pub frequency: f64,
+    /// Amplitude of the best sinusoid there, in the residual's unit, before whitening's share.
+    pub amplitude: f64,
+    /// Whitened gain, about χ² with two degrees of freedom in noise.
+    pub gain: f64,
+}
+
+/// Scan points a frequency resolution cell; three lose at most a tenth of a peak's gain.
+const POINTS_A_CELL: f64 = 3.0;
+
+/// Most scan points; a scan for more covers the lowest ones.
+const MOST_POINTS: usize = 1 << 17;
+
+impl Scan<'_> {
+    /// Width of a frequency cell: one over the range of the coordinate.
+    #[must_use]
+    pub fn resolution(&self) -> f64 {
+        1.0 / crate::measurement::spread(self.turns).max(f64::MIN_POSITIVE)
+    }
+
+    /// Independent frequencies in the range, at least one.
+    #[must_use]
+    pub fn looks(&self) -> f64 {
+        (2.0 * (self.highest - self.lowest) / self.resolution()).max(1.0)
+    }
+
+    /// Gain and amplitude over the whole range for a whitened residual.
+    #[must_use]
+    pub fn spectrum(&self, white: &[f64]) -> Vec<Point> {
+        let step = self.resolution() / POINTS_A_CELL;
+        let points = self.points(step);
+        let weighted = self.whitener.unwhiten(white);
+        let sums = fourier::sums(self.turns, &weighted, step, points);
+        let stretches = self.stretches();
+        let mut spectrum = Vec::with_capacity(points);
+        for (index, sum) in sums.iter().enumerate() {
+            let frequency = step * count(index);
+            if frequency < self.lowest {
+                continue;
+            }
+            let information: f64 = stretches.iter().map(|s| s.information(frequency)).sum();
+            let power = sum.norm_sqr() / information.max(f64::MIN_POSITIVE);
+            let amplitude = sum.norm() / information.max(f64::MIN_POSITIVE);
+            spectrum.push(Point { frequency, amplitude, gain: power });
+        }
+        spectrum
+    }
+
+    /// Lines stronger than chance, strongest first, at most `most`.
+    ///
+    /// `white` is the whitened residual; `significance` the chance of naming one in pure noise.
+    /// Each further line is fitted with all before it.
+    #[must_use]
+    pub fn lines(&self, white: &[f64], significance: f64, most: usize) -> Vec<Line> {
+        let mut lines: Vec<Line> = Vec::new();
+        let mut columns: Vec<Vec<f64>> = Vec::new();
+        let mut left = white.to_vec();
+        while lines.len() < most {
+            let Some(line) = self.strongest(&left) else { break };
+            if significance < line.p_value {
+                break;
+            }
+            columns.extend(self.wave(line.frequency));
+            left = remainder(&columns, white);
+            lines.push(line);
+        }
+        lines
+    }
+
+    /// The strongest line of a whitened residual, its frequency settled by bisection.
+    #[must_use]
+    pub fn strongest(&self, white: &[f64]) -> Option<Line> {
+        let spectrum = self.spectrum(white);
+        let mut peaks: Vec<&Point> = spectrum.iter().collect();
+        peaks.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+        let mut tried: Vec<f64> = Vec::new();
+        let mut best: Option<(f64, f64)> = None;
+        for peak in peaks {
+            if tried.iter().any(|known| (known - peak.frequency).abs() < self.resolution()) {
+                continue;
+            }
+            tried.push(peak.frequency);
+            let refined = self.settled(white, peak.frequency);
+            if best.is_none_or(|(_, gain)| gain < refined.1) {
+                best = Some(refined);
+            }
+            if 3 < tried.len() {
+                break;
+            }
+        }
+        best.map(|(frequency, _)| self.line(white, frequency))
+    }
+
+    /// Frequency and gain of the peak near a scan point, by golden section.
+    fn settled(&self, white: &[f64], near: f64) -> (f64, f64) {
+        let width = self.resolution() / POINTS_A_CELL;
+        let ends = ((near - width).max(0.2 * self.resolution()), near + width);
+        let mut gain = |frequency: f64| self.gain(white, frequency);
+        golden_maximum(&mut gain, ends, 14)
+    }
+
+    fn gain(&self, white: &[f64], frequency: f64) -> f64 {
+        let wave = self.wave(frequency);
+        let total = dot(white, white);
+        total - least_squares::fit(&[&wave[0], &wave[1]], white).residual_square
+    }
+
+    /// Whitened sine and cosine.
+    fn wave(&self, frequency: f64) -> [Vec<f64>; 2] {
+        let pairs = self.turns.iter().map(|u| libm::sincos(std::f64::consts::TAU * frequency * u));
+        let (sine, cosine): (Vec<f64>, Vec<f64>) = pairs.unzip();
+        [self.whitener.whiten(&sine), self.whitener.whiten(&cosine)]
+    }
+
+    /// Amplitude, phase and all standard errors of the sinusoid at a settled frequency.
+    #[must_use]
+    pub fn line(&self, white: &[f64], frequency: f64) -> Line {
+        let wave = self.wave(frequency);
+        let flat = least_squares::fit(&[&wave[0], &wave[1]], white);
+        let (sine, cosine) = (flat.coefficients[0], flat.coefficients[1]);
+        let amplitude = libm::hypot(sine, cosine);
+        // The third column says how the sinusoid changes with its frequency.
+        let middle = 0.5 * (self.turns.iter().copied().fold(f64::INFINITY, f64::min)
+            + self.turns.iter().copied().fold(f64::NEG_INFINITY, f64::max));
+        let slope: Vec<f64> = self
+            .turns
+            .iter()
+            .map(|u| {
+                let (s, c) = libm::sincos(std::f64::consts::TAU * frequency * u);
+                std::f64::consts::TAU * (u - middle) * (sine * c - cosine * s)
+            })
+            .collect();
+        let slope = self.whitener.whiten(&slope);
+        let bent = least_squares::fit(&[&wave[0], &wave[1], &slope], white);
+        let freedom = (count(white.len()) - 5.0 - count(self.whitener.offsets())).max(1.0);
+        let scale = (flat.residual_square / freedom).max(1e-300);
+        let along = |i: usize, j: usize| bent.covariance[(i, j)] * scale;
+        let power = (amplitude * amplitude).max(f64::MIN_POSITIVE);
+        let variance = (sine * sine * along(0, 0)
+            + 2.0 * sine * cosine * along(0, 1)
+            + cosine * cosine * along(1, 1))
+            / power;
+        let gain = dot(white, white) - flat.residual_square;
+        Line {
+            frequency,
+            frequency_stderr: along(2, 2).max(0.0).sqrt(),
+            amplitude,
+            amplitude_stderr: variance.max(0.0).sqrt(),
+            phase_rad: libm::atan2(cosine, sine),
+            gain,
+            p_value: chance(gain / scale.max(1.0), freedom, self.looks()),
+        }
+    }
+
+    fn points(&self, step: f64) -> usize {
+        let wanted = (self.highest / step).clamp(4.0, count(MOST_POINTS));
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "clamped to small positive numbers"
+        )]
+        let points = wanted as usize;
+        points + 1
+    }
+
+    fn stretches(&self) -> Vec<Stretch<'_>> {
+        let blocks = self.layout.blocks.iter().filter(|block| 1 < block.rows.len());
+        blocks
+            .map(|block| {
+                let (first, last) = (block.rows.start, block.rows.end - 1);
+                let clock = self.layout.clock[last] - self.layout.clock[first];
+                let turns = crate::measurement::spread(&self.turns[block.rows.clone()]);
+                Stretch {
+                    noise: &self.noises[block.sensor],
+                    rows: count(block.rows.len()),
+                    cycles_a_sample: turns / clock.max(f64::MIN_POSITIVE),
+                }
+            })
+            .collect()
+    }
+}
+
+/// A block as the spectrum sees it: so many samples under noise of known colour.
+struct Stretch<'a> {
+    noise: &'a Noise,
+    rows: f64,
+    cycles_a_sample: f64,
+}
+
+impl Stretch<'_> {
+    /// Information a sinusoid of frequency `f` gets here: half the samples over the noise density.
+    fn information(&self, frequency: f64) -> f64 {
+        0.5 * self.rows / density(self.noise, frequency * self.cycles_a_sample)
+    }
+}
+
+/// Power density of evenly sampled noise at a frequency in cycles a sample, white level = white.
+#[must_use]
+pub fn density(noise: &Noise, cycles: f64) -> f64 {
+    let wave = libm::cos(std::f64::consts::TAU * cycles);
+    let slow = noise.slow.iter().map(|part| {
+        let kept = libm::exp(-1.0 / part.length);
+        part.variance * (1.0 - kept * kept) / (1.0 - 2.0 * kept * wave + kept * kept)
+    });
+    noise.white + slow.sum::<f64>()
+}
+
+/// Chance of a gain of two columns as large at any of `looks` places in noise of known colour.
+#[must_use]
+pub fn chance(gain: f64, freedom: f64, looks: f64) -> f64 {
+    // F with 2 and ν degrees of freedom has this closed tail; it counts the scale's own error.
+    let single = libm::exp(-0.5 * freedom * libm::log1p(gain / freedom.max(1.0)));
+    -libm::expm1(looks * libm::log1p(-single.min(1.0 - 1e-16)))
+}
+
+/// What of `target` is left when whitened columns are fitted.
+#[must_use]
+pub fn remainder(columns: &[Vec<f64>], target: &[f64]) -> Vec<f64> {
+    let views: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+    let fit = least_squares::fit(&views, target);
+    let mut left = target.to_vec();
+    for (column, coefficient) in columns.iter().zip(&fit.coefficients) {
+        for (value, part) in left.iter_mut().zip(column) {
+            *value -= coefficient * part;
+        }
+    }
+    left
+}
+
+/// Place and value of the maximum of a function with one peak between two ends.
+pub fn golden_maximum(
+    value_at: &mut impl FnMut(f64) -> f64,
+    ends: (f64, f64),
+    steps: usize,
+) -> (f64, f64) {
+    const SHARE: f64 = 0.618_033_988_749_894_9;
+    let (mut low, mut high) = ends;
+    let mut left = high - SHARE * (high - low);
+    let mut right = low + SHARE * (high - low);
+    let (mut at_left, mut at_right) = (value_at(left), value_at(right));
+    for _ in 0..steps {
+        if at_left < at_right {
+            low = left;
+            (left, at_left) = (right, at_right);
+            right = low + SHARE * (high - low);
+            at_right = value_at(right);
+        } else {
+            high = right;
+            (right, at_right) = (left, at_left);
+            left = high - SHARE * (high - low);
+            at_left = value_at(left);
+        }
+    }
+    if at_left < at_right { (right, at_right) } else { (left, at_left) }
+}

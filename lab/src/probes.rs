@@ -1,0 +1,321 @@
+//! Structure that no effect needs to explain: what a residual must not show if it is noise.
+//!
+//! Each probe is a set of columns that belong to no effect. Its likelihood against the model, the
+//! noise fitted anew on both sides, says whether something is left, and its shape says what.
+
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+use crate::count;
+use crate::fit::{Columns, Fit, rms, settle};
+use crate::lines::LineSearch;
+use crate::measurement::spread;
+use crate::order_spectrum::Line;
+use crate::problem::Problem;
+
+/// What is left, in the words of a person.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Structure {
+    /// The coordinate or covariate along which it shows.
+    pub along: String,
+    /// Its shape in words.
+    pub shape: String,
+    /// Root mean square of it, µm (arcsec).
+    pub rms_um: f64,
+    /// Chance of as much in noise, with all probes counted.
+    pub p_value: f64,
+    /// Where it is, when it has a place: order, mm or s.
+    pub at: Option<f64>,
+    /// Standard error of the place.
+    pub at_stderr: Option<f64>,
+    /// The line, when it is one.
+    pub line: Option<Line>,
+}
+
+/// Probes are counted together; more than these are never made.
+const PROBES: f64 = 12.0;
+
+/// A chance smaller than this is structure.
+pub const SIGNIFICANCE: f64 = 1e-4;
+
+/// Structure weaker than this share of the noise is left alone: it changes no figure.
+const SHARE_OF_NOISE: f64 = 0.25;
+
+/// Share and chance of what is small but beyond any doubt about the noise model.
+const CLEAR: (f64, f64) = (0.08, 1e-12);
+
+/// True for something large enough to matter, or too clear to be a flaw of the noise model.
+#[must_use]
+pub fn matters(size_um: f64, noise_um: f64, p_value: f64) -> bool {
+    (p_value < SIGNIFICANCE && SHARE_OF_NOISE * noise_um < size_um)
+        || (p_value < CLEAR.1 && CLEAR.0 * noise_um < size_um)
+}
+
+/// Everything a fit leaves that is not noise, clearest first.
+#[must_use]
+pub fn structures(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
+    let noise = rms(&problem.layout, &fit.left);
+    let mut found = all_structures(problem, model, fit);
+    found.retain(|s| matters(s.rms_um, noise, s.p_value));
+    found
+}
+
+/// Everything that was looked for, found or not, clearest first.
+#[must_use]
+pub fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
+    let mut all = smooth(problem, model, fit);
+    all.extend(cyclic_shapes(problem, model, fit));
+    all.extend(repeats(problem, fit));
+    all.extend(lines(problem, fit));
+    all.extend(step(problem, model, fit));
+    all.extend(covariates(problem, model, fit));
+    all.sort_by(|a, b| a.p_value.total_cmp(&b.p_value).then(b.rms_um.total_cmp(&a.rms_um)));
+    all
+}
+
+/// Structure explained by free columns: its size and chance.
+fn probe(problem: &Problem, model: &Columns, fit: &Fit, raw: Vec<Vec<f64>>) -> (f64, f64) {
+    let width = count(raw.len());
+    let wider = settle(problem, &model.and(&Columns::free(raw)), &fit.noises);
+    let gain = 2.0 * (wider.log_likelihood - fit.log_likelihood);
+    let before = rms(&problem.layout, &fit.left);
+    let after = rms(&problem.layout, &wider.left);
+    let size = (before * before - after * after).max(0.0).sqrt();
+    (size, tail(gain, width))
+}
+
+/// Chance of a likelihood ratio with so many free numbers, all probes counted.
+fn tail(gain: f64, width: f64) -> f64 {
+    (PROBES * chi_squared_tail(gain, width)).min(1.0)
+}
+
+/// Chance that χ² with `freedom` degrees of freedom exceeds a value.
+#[must_use]
+pub fn chi_squared_tail(value: f64, freedom: f64) -> f64 {
+    if value <= 0.0 {
+        return 1.0;
+    }
+    ChiSquared::new(freedom).map_or(1.0, |law| law.sf(value))
+}
+
+/// Variance by which a shape of many columns must exceed what it leaves.
+const FAR_ABOVE: f64 = 2.25;
+
+fn smooth(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
+    let record = &problem.record;
+    let noise = rms(&problem.layout, &fit.left);
+    let passes = record.passes().len();
+    let position = &record.position_mm;
+    let mut axes = vec![("position", position, 6), ("position", position, 24), ("position", position, 64)];
+    if problem.machine.rotary || 1 < passes {
+        axes.push(("time", &record.time_s, 6));
+    }
+    let mut found = Vec::new();
+    for (along, values, order) in axes {
+        if spread(values) <= 0.0 || problem.rows.len() < 6 * order {
+            continue;
+        }
+        let raw = stacked(problem, &chebyshev(values, order));
+        let (rms_um, mut p_value) = probe(problem, model, fit, raw);
+        // So many columns also follow slow noise; only what stands far above the rest is shape.
+        if 30 < order && rms_um * rms_um < FAR_ABOVE * (noise * noise - rms_um * rms_um) {
+            p_value = 1.0;
+        }
+        let shape = match order {
+            0..10 => "smooth curve",
+            10..30 => "local bump or wave",
+            _ => "wave whose length changes, or several bumps",
+        };
+        found.push(Structure {
+            along: along.to_owned(),
+            shape: shape.to_owned(),
+            rms_um,
+            p_value,
+            at: None,
+            at_stderr: None,
+            line: None,
+        });
+    }
+    found
+}
+
+/// Anything at all that comes back at the same place in another pass.
+fn repeats(problem: &Problem, fit: &Fit) -> Option<Structure> {
+    let (correlation, chance) = crate::repeatability::repeatability(problem, fit)?;
+    Some(Structure {
+        along: "position".to_owned(),
+        shape: "repeats from pass to pass".to_owned(),
+        rms_um: rms(&problem.layout, &fit.left) * correlation.max(0.0).sqrt(),
+        p_value: (PROBES * chance).min(1.0),
+        at: None,
+        at_stderr: None,
+        line: None,
+    })
+}
+
+/// A shape that comes back with every turn of the spindle or of the machine's screw.
+fn cyclic_shapes(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
+    let turns: Vec<f64> = problem.record.turns().collect();
+    let mut axes = vec![("spindle angle", 1.0)];
+    if let Some(screw) = problem.machine.lead_screw.as_ref().filter(|_| !problem.machine.rotary) {
+        axes.push(("machine screw angle", problem.machine.workpiece.lead.mm() / screw.mm()));
+    }
+    let enough = |order: &f64| 2.0 < order * spread(&turns);
+    axes.into_iter()
+        .filter(|(_, order)| enough(order))
+        .map(|(along, order)| {
+            let (rms_um, p_value) = probe(problem, model, fit, stacked(problem, &turning(&turns, order)));
+            Structure {
+                along: along.to_owned(),
+                shape: "shape that repeats each turn".to_owned(),
+                rms_um,
+                p_value,
+                at: None,
+                at_stderr: None,
+                line: None,
+            }
+        })
+        .collect()
+}
+
+/// Sines and cosines of the first four harmonics.
+fn turning(turns: &[f64], order: f64) -> Vec<Vec<f64>> {
+    (1..=4)
+        .flat_map(|harmonic| {
+            let angle = |turn: &f64| std::f64::consts::TAU * order * f64::from(harmonic) * turn;
+            let sine = turns.iter().map(|turn| libm::sin(angle(turn))).collect();
+            let cosine = turns.iter().map(|turn| libm::cos(angle(turn))).collect();
+            [sine, cosine]
+        })
+        .collect()
+}
+
+/// Sensor by sensor its own columns: a probe assumes nothing of entries.
+fn stacked(problem: &Problem, samples: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let mut raw = Vec::new();
+    for sensor in &problem.sensors {
+        for values in samples {
+            let of_row = |row: &crate::problem::Row| {
+                if row.sensor == *sensor { values[row.sample] } else { 0.0 }
+            };
+            raw.push(problem.rows.iter().map(of_row).collect());
+        }
+    }
+    raw
+}
+
+/// Chebyshev polynomials 1 … order over the range of a coordinate.
+fn chebyshev(values: &[f64], order: usize) -> Vec<Vec<f64>> {
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let scaled: Vec<f64> = values.iter().map(|v| 2.0 * (v - low) / spread(values) - 1.0).collect();
+    let mut all = vec![vec![1.0; values.len()], scaled.clone()];
+    for degree in 2..=order {
+        let next = (0..values.len())
+            .map(|i| 2.0 * scaled[i] * all[degree - 1][i] - all[degree - 2][i])
+            .collect();
+        all.push(next);
+    }
+    all.remove(0);
+    all
+}
+
+/// Lines over the spindle angle and over time, sensor by sensor.
+fn lines(problem: &Problem, fit: &Fit) -> Vec<Structure> {
+    let mut found = Vec::new();
+    for (sensor, _) in problem.sensors.iter().enumerate() {
+        for (along, coordinate) in cyclic(problem) {
+            let search = LineSearch { problem, fit, sensor, coordinate: &coordinate };
+            let Some(line) = search.strongest() else { continue };
+            let shape = format!("sinusoid of amplitude {:.3}", line.amplitude);
+            found.push(Structure {
+                along: along.to_owned(),
+                shape,
+                rms_um: line.amplitude / std::f64::consts::SQRT_2,
+                p_value: (PROBES * line.p_value).min(1.0),
+                at: Some(line.frequency),
+                at_stderr: Some(line.frequency_stderr),
+                line: Some(line),
+            });
+        }
+    }
+    found
+}
+
+fn cyclic(problem: &Problem) -> Vec<(&'static str, Vec<f64>)> {
+    let mut axes = vec![("spindle order", problem.record.turns().collect())];
+    if 1 < problem.record.passes().len() && problem.measurement.timed {
+        axes.push(("frequency in time", problem.record.time_s.clone()));
+    }
+    axes
+}
+
+/// The best step over the travel, at the same place in every pass, and over time.
+fn step(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
+    let axes = [("position", &problem.record.position_mm), ("time", &problem.record.time_s)];
+    let mut found = Vec::new();
+    for (along, values) in axes {
+        let places = quantiles(values, 200);
+        let stage = crate::stage::Stage::new(problem, model, &fit.noises);
+        let best = places
+            .iter()
+            .map(|&place| {
+                let raw = stacked(problem, &[above(values, place)]);
+                (place, stage.gain(&Columns::free(raw)).gain)
+            })
+            .max_by(|a, b| a.1.total_cmp(&b.1));
+        let Some((place, _)) = best else { continue };
+        let raw = stacked(problem, &[above(values, place)]);
+        let (rms_um, p_value) = probe(problem, model, fit, raw);
+        found.push(Structure {
+            along: along.to_owned(),
+            shape: "step".to_owned(),
+            rms_um,
+            p_value: (p_value * count(places.len())).min(1.0),
+            at: Some(place),
+            at_stderr: None,
+            line: None,
+        });
+    }
+    found
+}
+
+fn above(values: &[f64], place: f64) -> Vec<f64> {
+    values.iter().map(|value| f64::from(u8::from(place < *value))).collect()
+}
+
+fn quantiles(values: &[f64], points: usize) -> Vec<f64> {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.dedup();
+    let points = points.min(sorted.len().saturating_sub(1));
+    (1..points)
+        .map(|i| {
+            let place = i * (sorted.len() - 1) / points;
+            0.5 * (sorted[place] + sorted[place + 1])
+        })
+        .collect()
+}
+
+/// A straight relation to every logged covariate, to direction and to speed.
+fn covariates(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
+    let measured = &problem.measurement;
+    let mut columns: Vec<(&str, &Vec<f64>)> =
+        measured.covariates.iter().map(|(name, values)| (name.as_str(), values)).collect();
+    columns.push(("direction", &measured.direction));
+    columns.push(("speed_rpm", &measured.speed_rpm));
+    columns
+        .into_iter()
+        .filter(|(_, values)| 0.0 < spread(values))
+        .map(|(name, values)| {
+            let (rms_um, p_value) = probe(problem, model, fit, stacked(problem, std::slice::from_ref(values)));
+            Structure {
+                along: name.to_owned(),
+                shape: "straight relation".to_owned(),
+                rms_um,
+                p_value,
+                at: None,
+                at_stderr: None,
+                line: None,
+            }
+        })
+        .collect()
+}

@@ -1,0 +1,226 @@
+//! A measurement against a machine, as the rows of one least-squares problem.
+
+use helixlock_plant::prediction::{Sensor, gain, meter_um, observe, predict};
+use helixlock_plant::{
+    EffectError, Entry, Machine, Record, Samples, Term,
+};
+
+use crate::layout::{Block, Layout};
+use crate::measurement::Measurement;
+use crate::{count, noise_fit};
+
+/// One value of one sensor.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Row {
+    /// Which sensor.
+    pub sensor: Sensor,
+    /// Index of the sample in the measurement and in the record.
+    pub sample: usize,
+}
+
+/// All sensors of a measurement stacked, with what the model predicts taken off.
+#[derive(Debug, Clone)]
+pub struct Problem {
+    /// The machine; the effects in it are part of the prediction.
+    pub machine: Machine,
+    /// The samples.
+    pub measurement: Measurement,
+    /// The samples as the catalogue wants them.
+    pub record: Record,
+    /// Sensors in the order of `Layout`'s numbers.
+    pub sensors: Vec<Sensor>,
+    /// What each row is.
+    pub rows: Vec<Row>,
+    /// Blocks, clocks and outliers.
+    pub layout: Layout,
+    /// Observed values in µm (arcsec), the counter too.
+    pub observed: Vec<f64>,
+    /// What the model predicts, each pass from its own zero.
+    pub predicted: Vec<f64>,
+    /// Effects of the user's own to be tried beside the catalogue.
+    pub extra: Vec<Term>,
+}
+
+impl Problem {
+    /// Lays a measurement out for a machine.
+    ///
+    /// # Errors
+    ///
+    /// [`EffectError`] when an effect of the machine needs a column the measurement lacks.
+    pub fn new(machine: &Machine, measurement: &Measurement) -> Result<Self, EffectError> {
+        let record = record(machine, measurement);
+        let sensors: Vec<Sensor> = measurement.observations.keys().copied().collect();
+        let mut problem = Self {
+            machine: machine.clone(),
+            measurement: measurement.clone(),
+            record,
+            sensors,
+            rows: Vec::new(),
+            layout: Layout::default(),
+            observed: Vec::new(),
+            predicted: Vec::new(),
+            extra: Vec::new(),
+        };
+        problem.stack_rows();
+        problem.predict()?;
+        let residual = problem.residual();
+        problem.mark_outliers(&residual);
+        Ok(problem)
+    }
+
+    /// Weighs outliers down, as they stand out of what a model leaves.
+    pub fn mark_outliers(&mut self, left: &[f64]) {
+        self.layout.inflation = noise_fit::outlier_inflation(&self.layout, left);
+    }
+
+    /// The same samples for a machine with other effects or settings; outliers stay marked.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::new`].
+    pub fn with_machine(&self, machine: &Machine) -> Result<Self, EffectError> {
+        let mut problem = Self { machine: machine.clone(), ..self.clone() };
+        problem.predict()?;
+        Ok(problem)
+    }
+
+    /// Observed less predicted, µm (arcsec); every pass has an arbitrary zero.
+    #[must_use]
+    pub fn residual(&self) -> Vec<f64> {
+        self.observed.iter().zip(&self.predicted).map(|(seen, said)| seen - said).collect()
+    }
+
+    /// Design column, row by row, of an effect whose δ at every sample is given.
+    #[must_use]
+    pub fn column(&self, entry: Entry, deltas: &[f64]) -> Vec<f64> {
+        let shown: Vec<Vec<f64>> = self
+            .sensors
+            .iter()
+            .map(|&sensor| observe(&self.machine, &self.record, entry, sensor, deltas))
+            .collect();
+        self.layout
+            .blocks
+            .iter()
+            .flat_map(|block| {
+                let shown = &shown[block.sensor];
+                let factor = self.unit(self.sensors[block.sensor]);
+                block.rows.clone().map(move |row| factor * shown[self.rows[row].sample])
+            })
+            .collect()
+    }
+
+    /// True when some sensor sees an entry.
+    #[must_use]
+    pub fn sees(&self, entry: Entry) -> bool {
+        self.sensors.iter().any(|&s| gain(&self.machine, entry, s) != 0.0)
+    }
+
+    /// Design columns of a term at its nonlinear values, and what does not scale.
+    ///
+    /// # Errors
+    ///
+    /// [`EffectError`] when a column or a section of the machine file is missing.
+    pub fn design(&self, term: &Term) -> Result<Design, EffectError> {
+        let context = helixlock_plant::Context {
+            machine: &self.machine,
+            columns: &self.record.columns,
+        };
+        let basis = term.basis(&context)?;
+        let columns = basis.columns.iter().map(|c| self.column(term.entry, &c.deltas_um(&self.record)));
+        let fixed = basis.fixed.map(|f| self.column(term.entry, &f.deltas_um(&self.record)));
+        Ok(Design { columns: columns.collect(), fixed })
+    }
+
+    /// Rows of one sensor with their layout as sensor 0.
+    #[must_use]
+    pub fn of_sensor(&self, sensor: usize) -> (Layout, Vec<usize>) {
+        let (mut layout, rows) = self.layout.restricted(|block| block.sensor == sensor);
+        layout.blocks.iter_mut().for_each(|block| block.sensor = 0);
+        (layout, rows)
+    }
+
+    /// µm a unit of a sensor's prediction: the counter counts steps.
+    fn unit(&self, sensor: Sensor) -> f64 {
+        if sensor == Sensor::Counter { self.machine.drive.step_um } else { 1.0 }
+    }
+
+    fn stack_rows(&mut self) {
+        let clock = clock(&self.measurement);
+        for (index, &sensor) in self.sensors.iter().enumerate() {
+            let values = &self.measurement.observations[&sensor];
+            for rows in self.record.passes() {
+                let start = self.rows.len();
+                for sample in rows.clone().filter(|&sample| values[sample].is_finite()) {
+                    self.rows.push(Row { sensor, sample });
+                    self.layout.clock.push(clock[sample]);
+                    self.observed.push(values[sample]);
+                }
+                if start < self.rows.len() {
+                    let pass = self.measurement.pass[rows.start];
+                    let rows = start..self.rows.len();
+                    self.layout.blocks.push(Block { sensor: index, pass, rows });
+                }
+            }
+        }
+        self.layout.inflation = vec![1.0; self.rows.len()];
+        self.predicted = vec![0.0; self.rows.len()];
+    }
+
+    fn predict(&mut self) -> Result<(), EffectError> {
+        // Effects that depend on the error get the predicted one: what was measured carries the
+        // noise, and a column made of the noise explains it.
+        let effects = self
+            .machine
+            .effects
+            .iter()
+            .map(|term| Ok((term.entry, term.effect(&self.machine, &self.record.columns)?)))
+            .collect::<Result<Vec<_>, EffectError>>()?;
+        self.record.error_um = meter_um(&self.machine, &self.record, &effects);
+        let shown = predict(&self.machine, &self.record)?;
+        for (slot, row) in self.predicted.iter_mut().zip(&self.rows) {
+            let factor =
+                if row.sensor == Sensor::Counter { self.machine.drive.step_um } else { 1.0 };
+            *slot = factor * shown.of(row.sensor)[row.sample];
+        }
+        Ok(())
+    }
+}
+
+/// Columns of one effect.
+#[derive(Debug, Clone)]
+pub struct Design {
+    /// One a coefficient, row by row.
+    pub columns: Vec<Vec<f64>>,
+    /// What does not scale with a coefficient.
+    pub fixed: Option<Vec<f64>>,
+}
+
+/// Clock of the noise in median intervals: time if it was logged, else the count of samples.
+fn clock(measurement: &Measurement) -> Vec<f64> {
+    let time = &measurement.time_s;
+    let mut intervals: Vec<f64> = time
+        .windows(2)
+        .zip(measurement.pass.windows(2))
+        .filter(|(_, pass)| pass[0] == pass[1])
+        .map(|(pair, _)| pair[1] - pair[0])
+        .filter(|interval| 0.0 < *interval)
+        .collect();
+    let usual = noise_fit::median(&mut intervals);
+    if measurement.timed && 0.0 < usual {
+        return time.iter().map(|t| t / usual).collect();
+    }
+    (0..time.len()).map(count).collect()
+}
+
+fn record(machine: &Machine, measurement: &Measurement) -> Record {
+    let samples = Samples {
+        time_s: Some(measurement.time_s.clone()),
+        position_mm: Some(measurement.position_mm.clone()),
+        angle_rev: Some(measurement.angle_rev.clone()),
+        speed_rpm: Some(measurement.speed_rpm.clone()),
+        direction: Some(measurement.direction.clone()),
+        pass: Some(measurement.pass.iter().map(|&pass| count(pass)).collect()),
+        covariates: measurement.covariates.iter().map(|(n, v)| (n.clone(), v.clone())).collect(),
+    };
+    Record::new(machine, &samples).unwrap_or_default()
+}

@@ -1,0 +1,86 @@
+//! Who explains the data as well as an effect that was found, so that no name is safe.
+
+use crate::analysis::{Judged, State, pattern, tried};
+use crate::component::Component;
+use crate::least_squares::dot;
+use crate::noise::Whitener;
+use crate::problem::Problem;
+
+/// Evidence by which an effect must beat every other to be named: odds of about 50 to 1.
+const MARGIN: f64 = 8.0;
+
+/// Evidence that overrules a high inflation.
+const CLEAR_MARGIN: f64 = 25.0;
+
+/// Variance inflation above which two effects count as one (`docs/effects.md`).
+const INFLATION: f64 = 10.0;
+
+/// A rival that had to be tuned to so many more places is a coincidence, not a likeness.
+const COINCIDENCE: f64 = 8.0;
+
+/// An effect that was found, and those that cannot be told from it.
+#[derive(Debug, Clone)]
+pub struct Found {
+    /// Its place among the components.
+    pub index: usize,
+    /// All effects tried in its place, best evidence first.
+    pub tried: Vec<Judged>,
+    /// Names that the data cannot tell from it.
+    pub confused: Vec<String>,
+}
+
+/// Rivals of every component of a model, given the others.
+///
+/// `first` are the effects tried on the bare model; they save the work for a single effect.
+#[must_use]
+pub fn rivals(problem: &Problem, state: &State, first: &[Judged]) -> Vec<Found> {
+    (0..state.components.len())
+        .map(|index| {
+            let tried = if state.components.len() == 1 {
+                first.to_vec()
+            } else {
+                instead_of(problem, state, index)
+            };
+            let confused = confused(problem, state, index, &tried);
+            Found { index, tried, confused }
+        })
+        .collect()
+}
+
+/// Everything tried in the place of one component, the others kept.
+fn instead_of(problem: &Problem, state: &State, index: usize) -> Vec<Judged> {
+    let mut others: Vec<Component> = state.components.clone();
+    others.remove(index);
+    State::of(problem, others, &state.fit.noises)
+        .map(|fewer| tried(problem, &fewer))
+        .unwrap_or_default()
+}
+
+fn confused(problem: &Problem, state: &State, index: usize, tried: &[Judged]) -> Vec<String> {
+    let name = &state.components[index].term.name;
+    let own = tried.iter().find(|judged| judged.component.term.name == *name);
+    let Some(own) = own else { return Vec::new() };
+    let whitener = Whitener::new(&problem.layout, &own.fit.noises);
+    let shape = pattern(problem, state, index, &whitener);
+    tried
+        .iter()
+        .filter(|judged| judged.component.term.name != *name && 0.0 < judged.gain)
+        .filter(|judged| {
+            let behind = own.evidence - judged.evidence;
+            behind < MARGIN
+                || (behind < CLEAR_MARGIN
+                    && judged.looks < COINCIDENCE * own.looks
+                    && INFLATION < inflation(problem, judged, &whitener, &shape))
+        })
+        .map(|judged| judged.component.term.name.clone())
+        .collect()
+}
+
+/// Variance inflation of a pattern by another effect's fitted pattern: `1/(1 − R²)`.
+fn inflation(problem: &Problem, rival: &Judged, whitener: &Whitener, shape: &[f64]) -> f64 {
+    let Ok((design, _)) = rival.component.design(problem) else { return 1.0 };
+    let white: Vec<Vec<f64>> = design.columns.iter().map(|c| whitener.whiten(c)).collect();
+    let views: Vec<&[f64]> = white.iter().map(Vec::as_slice).collect();
+    let fit = crate::least_squares::fit(&views, shape);
+    dot(shape, shape) / fit.residual_square.max(f64::MIN_POSITIVE)
+}

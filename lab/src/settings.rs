@@ -1,0 +1,111 @@
+//! Numbers of the machine file that may be other than the file says.
+//!
+//! A wrong divider, line count or lead leaves an exact slope, because each enters the comparison
+//! as a plain factor. A slope that equals such a ratio to within its error is a setting, not
+//! physics.
+
+use helixlock_plant::{Machine, Term};
+
+/// One number that may be other than the file says.
+#[derive(Debug, Clone)]
+pub struct Setting {
+    /// Its key in the machine file.
+    pub key: &'static str,
+    /// What it would be instead.
+    pub value: f64,
+    /// The effect `wrong-setting` with that number.
+    pub term: Term,
+}
+
+/// Leads taken for each other: inch for metric, two starts, π as 22/7.
+const LEAD_RATIOS: [f64; 5] = [25.4 / 25.0, 25.0 / 25.4, 2.0, 0.5, 22.0 / 7.0 / std::f64::consts::PI];
+
+/// All settings worth a look: digit slips and neighbours, counts of ten for counts of two, the
+/// other track, inch for metric.
+#[must_use]
+pub fn alternatives(machine: &Machine) -> Vec<Setting> {
+    let Some(card) = Term::card("wrong-setting").filter(|_| !machine.rotary) else {
+        return Vec::new();
+    };
+    let lead_mm = machine.workpiece.lead.mm();
+    let lines = line_counts(machine.grating.lines).into_iter().map(|n| ("grating.lines", "lines", f64::from(n)));
+    let a = slips(u32::from(machine.dividers.a)).into_iter().map(|n| ("dividers.a", "a", f64::from(n)));
+    let b = slips(u32::from(machine.dividers.b)).into_iter().map(|n| ("dividers.b", "b", f64::from(n)));
+    // The recorder's scale may be that of the true divider as well: the slope is then B′/B − 1,
+    // which the effect gives for this b.
+    let scaled = slips(u32::from(machine.dividers.b)).into_iter().filter_map(|n| {
+        let (b, other) = (f64::from(machine.dividers.b), f64::from(n));
+        (other < 2.0 * b).then(|| ("dividers.b", "b", b * b / (2.0 * b - other)))
+    });
+    let leads = LEAD_RATIOS.iter().map(|ratio| ("workpiece.lead", "lead", lead_mm * ratio));
+    lines
+        .chain(a)
+        .chain(b)
+        .chain(scaled)
+        .chain(leads)
+        .filter_map(|(key, parameter, value)| {
+            let mut term = Term::candidate(card);
+            let index = term.parameters.iter().position(|what| what.name == parameter)?;
+            term.values[index] = value;
+            Some(Setting { key, value, term })
+        })
+        .collect()
+}
+
+/// One thumb wheel turned, two digits exchanged, the next number, twice or half.
+fn slips(number: u32) -> Vec<u32> {
+    const MOST: u32 = 999;
+    let mut slips = vec![number.saturating_sub(1), number + 1, 2 * number, number / 2];
+    for place in [1, 10, 100] {
+        let digit = number / place % 10;
+        slips.extend((0..10).map(|other| number - digit * place + other * place));
+    }
+    for (low, high) in [(1, 10), (10, 100), (1, 100)] {
+        let (a, b) = (number / low % 10, number / high % 10);
+        slips.push(number - a * low - b * high + b * low + a * high);
+    }
+    distinct(slips, number, MOST)
+}
+
+/// Counts that are mistaken for each other, and the neighbours.
+fn line_counts(lines: u32) -> Vec<u32> {
+    const ALIKE: [[u32; 2]; 3] = [[2500, 2048], [5000, 4096], [13_906, 11_060]];
+    let mut counts = vec![lines.saturating_sub(1), lines + 1, 2 * lines, 4 * lines];
+    for [a, b] in ALIKE {
+        counts.extend((lines == a).then_some(b));
+        counts.extend((lines == b).then_some(a));
+    }
+    counts.extend([2, 4].into_iter().filter(|n| lines % n == 0).map(|n| lines / n));
+    // Decimal for binary at any size: 1000 for 1024, 500 for 512, interpolated or not.
+    counts.extend((lines % 128 == 0).then_some(lines / 128 * 125));
+    counts.extend((lines % 125 == 0).then_some(lines / 125 * 128));
+    distinct(counts, lines, u32::MAX)
+}
+
+fn distinct(mut numbers: Vec<u32>, not: u32, most: u32) -> Vec<u32> {
+    numbers.sort_unstable();
+    numbers.dedup();
+    numbers.retain(|number| 0 < *number && *number <= most && *number != not);
+    numbers
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_binary_count_is_taken_for_a_decimal_one() {
+        assert!(line_counts(1024).contains(&1000));
+        assert!(line_counts(1000).contains(&1024));
+        assert!(line_counts(13_906).contains(&11_060));
+    }
+
+    #[test]
+    fn slips_turn_one_wheel_or_exchange_two() {
+        let slips = slips(127);
+        for expected in [126, 128, 27, 197, 172, 217, 721] {
+            assert!(slips.contains(&expected), "{expected}");
+        }
+        assert!(!slips.contains(&127) && !slips.contains(&0));
+    }
+}

@@ -1,0 +1,84 @@
+//! Standard errors of all parameters together, linear and nonlinear.
+
+use nalgebra::DMatrix;
+
+use crate::analysis::State;
+use crate::component::Component;
+use crate::fit::Columns;
+use crate::least_squares;
+use crate::noise::Whitener;
+use crate::problem::Problem;
+
+/// Covariance of a joint fit under its noise.
+#[derive(Debug, Clone)]
+pub struct JointCovariance {
+    /// Of the stacked linear coefficients, nonlinear parameters free.
+    pub linear: DMatrix<f64>,
+    /// Per component and nonlinear parameter: the standard error, `None` for one from a list.
+    pub nonlinear: Vec<Vec<Option<f64>>>,
+}
+
+/// Linearises the model about its fit (Gauss–Newton): a column a coefficient and one a
+/// continuous nonlinear parameter, whose derivative is taken by a central difference.
+#[must_use]
+pub fn joint_covariance(problem: &Problem, state: &State) -> JointCovariance {
+    let mut columns = state.columns.clone();
+    columns.fixed = None;
+    let linear_width = columns.raw.len();
+    let mut places = Vec::new();
+    for (index, component) in state.components.iter().enumerate() {
+        for place in 0..component.term.nonlinear_indices().len() {
+            if let Some(slope) = slope(problem, state, index, component, place) {
+                columns = columns.and(&Columns::free(vec![slope]));
+                places.push((index, place));
+            }
+        }
+    }
+    let whitener = Whitener::new(&problem.layout, &state.fit.noises);
+    let white = columns.whitened(&whitener);
+    let views: Vec<&[f64]> = white.iter().map(Vec::as_slice).collect();
+    let nothing = vec![0.0; white.first().map_or(0, Vec::len)];
+    let covariance = least_squares::fit(&views, &nothing).covariance;
+    let mut nonlinear: Vec<Vec<Option<f64>>> = state
+        .components
+        .iter()
+        .map(|component| vec![None; component.term.nonlinear_indices().len()])
+        .collect();
+    for (offset, (index, place)) in places.into_iter().enumerate() {
+        let at = linear_width + offset;
+        nonlinear[index][place] = Some(covariance[(at, at)].max(0.0).sqrt());
+    }
+    let linear = covariance.view((0, 0), (linear_width, linear_width)).into_owned();
+    JointCovariance { linear, nonlinear }
+}
+
+/// Change of a component's fitted pattern with one nonlinear parameter; `None` for a parameter
+/// that only takes listed values.
+fn slope(
+    problem: &Problem,
+    state: &State,
+    index: usize,
+    component: &Component,
+    place: usize,
+) -> Option<Vec<f64>> {
+    use helixlock_plant::Search;
+    let parameter = &component.term.parameters[component.term.nonlinear_indices()[place]];
+    if matches!(parameter.search, Search::Whole | Search::GearOrder | Search::Fixed) {
+        return None;
+    }
+    let value = component.term.nonlinear()[place];
+    let range = parameter.range.end() - parameter.range.start();
+    let step = 1e-4 * if value == 0.0 { range.abs() } else { value.abs() };
+    let (coefficients, _) = state.coefficients(index);
+    let moved = |by: f64| {
+        let mut nonlinear = component.term.nonlinear();
+        nonlinear[place] += by;
+        let other = Component { term: component.term.with_nonlinear(&nonlinear), ..component.clone() };
+        let columns = Columns::of(problem, &[other]).ok()?;
+        let nothing = vec![0.0; problem.rows.len()];
+        Some(columns.left(&nothing, coefficients))
+    };
+    let (up, down) = (moved(step)?, moved(-step)?);
+    let slope: Vec<f64> = up.iter().zip(&down).map(|(a, b)| (b - a) / (2.0 * step)).collect();
+    slope.iter().any(|value| *value != 0.0).then_some(slope)
+}
