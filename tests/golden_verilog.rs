@@ -8,7 +8,7 @@ use helixlock_netlist::{Design, Library, elaborate};
 use helixlock_rtl::BLOCKS;
 
 /// The block of that name, its inner blocks named as in [`BLOCKS`].
-fn design_of(name: &str) -> Design {
+pub(crate) fn design_of(name: &str) -> Design {
     let library = BLOCKS.iter().fold(Library::new(), |library, card| {
         library.with(card.name, card.summary, (card.build)())
     });
