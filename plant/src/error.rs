@@ -107,6 +107,16 @@ pub enum MachineError {
         /// What is wrong with it.
         message: Box<str>,
     },
+    /// A key that leads nowhere, such as through a value or past the end of an array.
+    #[error("{}: key `{key}`: there is no place `{word}`, expected for example `spindle.speed` or `effect.0.amplitude`", path.display())]
+    NoSuchKey {
+        /// The file.
+        path: PathBuf,
+        /// The key asked for.
+        key: Box<str>,
+        /// The part of it that leads nowhere.
+        word: Box<str>,
+    },
     /// A position in the list of effects that does not exist.
     #[error("{}: effect {index} does not exist, there are {count}", path.display())]
     NoSuchEffect {

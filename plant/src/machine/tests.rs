@@ -125,3 +125,148 @@ fn writing_back_keeps_comments_and_order() {
     let phase = file.with_setting("effect.0.phase", "\"45 deg\"").expect("set");
     assert_eq!(phase.text(), SG7430.replace("\"30 deg\"", "\"45 deg\""));
 }
+
+#[test]
+fn settings_that_have_no_place_are_refused() {
+    let file = MachineFile::parse(SG7430, Path::new("machine.toml")).expect("a machine");
+    let refused =
+        |key: &str, value: &str| file.with_setting(key, value).expect_err("refused").to_string();
+    let hint = "expected for example `spindle.speed` or `effect.0.amplitude`";
+    assert_eq!(
+        refused("effect.1.phase", "\"1 deg\""),
+        format!("machine.toml: key `effect.1.phase`: there is no place `1`, {hint}")
+    );
+    assert_eq!(
+        refused("title.speed", "1"),
+        format!("machine.toml: key `title.speed`: there is no place `speed`, {hint}")
+    );
+    assert!(refused("spindle.sped", "\"3 rpm\"").contains("unknown key `sped` in `spindle`"));
+    assert!(refused("spindle", "\"3 rpm\"").contains("expected a table"));
+    assert!(refused("spindle.speed", "3 rpm").contains("expected a TOML value"));
+    assert!(refused("", "1").contains("unknown key"));
+}
+
+#[test]
+fn a_section_that_is_not_there_is_made() {
+    let file = MachineFile::parse(SG7430, Path::new("machine.toml")).expect("a machine");
+    let warm = file.with_setting("environment.air_temperature", "\"22 degC\"").expect("set");
+    assert_eq!(warm.machine.environment.get("air_temperature_c"), Some(22.0));
+    let gear = file.with_setting("gear.0.order", "3.5").expect("set");
+    assert_eq!(gear.text(), SG7430.replace("order = 2.5", "order = 3.5"));
+}
+
+/// Rotary chains need nothing of the grinder.
+#[test]
+fn a_rotary_chain_reads() {
+    let machine = parse(
+        "[output]\nrotary = true\n[spindle]\nspeed = \"1 rev/day\"\n[[gear]]\nname = \"worm\"\n\
+         order = 180\n[[effect]]\nkind = \"gear-error\"\ngear = \"worm\"\namplitude = \"5 arcsec\"\n",
+    );
+    assert!(machine.rotary);
+    assert_eq!(machine.effects[0].values, [5.0, 0.0, 180.0]);
+    assert!(
+        refusal(
+            "output.rotary = true\nspindle.speed = \"1 rpm\"\n[[effect]]\nkind = \"gear-error\"\n\
+         order = 1\namplitude = \"1 mm\"\n"
+        )
+        .contains("expected one of the units")
+    );
+}
+
+mod properties {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::prediction::{Sensor, gain, predict};
+    use crate::{CATALOGUE, Effect, Entry, LeadUnit, Parameter, Record, Samples};
+
+    /// A value inside the plausible range, whole where it has to be.
+    fn inside(parameter: &Parameter, part: f64) -> f64 {
+        let (low, high) = (*parameter.range.start(), *parameter.range.end());
+        let value = low + (high - low) * part;
+        if parameter.search == crate::Search::Whole { libm::round(value) } else { value }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+        /// A lead that is written is read as the same lead.
+        #[test]
+        fn leads_come_back(n in 1_i64..100_000, d in 1_i64..10_000, kind in 0..3) {
+            let unit = [LeadUnit::Mm, LeadUnit::Inch, LeadUnit::PiMm][kind as usize];
+            let lead = Lead { ratio: num_rational::Ratio::new(n, d), unit };
+            if (0.001..=1000.0).contains(&lead.mm()) {
+                prop_assert_eq!(lead.to_string().parse(), Ok(lead));
+            }
+        }
+
+        /// Any effect with any values comes back from the file to the bit, and the rest stays.
+        #[test]
+        fn effects_come_back(which in 0..CATALOGUE.len() - 2, part in 0.0..1.0_f64) {
+            let card = CATALOGUE[which];
+            let values: Vec<_> = card.parameters.iter().map(|p| inside(p, part)).collect();
+            let term = Term::new(card, &values).unwrap();
+            let file = MachineFile::parse(SG7430, Path::new("machine.toml")).unwrap();
+            let more = file.with_effect(&term).unwrap();
+            prop_assert!(more.text().starts_with(SG7430));
+            let read = &more.machine.effects[1];
+            prop_assert_eq!(read.kind(), card.kind);
+            prop_assert_eq!(&read.values, &values);
+            let back = more.without_effect(1).unwrap().text();
+            prop_assert_eq!(back.trim_end(), SG7430.trim_end());
+        }
+
+        /// What a sensor shows of an effect is its δ times the gain of its entry.
+        #[test]
+        fn sensors_show_what_the_sign_table_says(
+            entry in 0_usize..6, closed: bool, slope in -9.0..9.0_f64,
+        ) {
+            let entry = Entry::ALL[entry];
+            let mut machine = parse(SG7430);
+            (machine.loop_closed, machine.filter_cutoff_hz) = (closed, None);
+            machine.effects.clear();
+            let samples = Samples { position_mm: Some(vec![5.0, 6.0, 8.0]), ..Samples::default() };
+            let record = Record::new(&machine, &samples).unwrap();
+            let before = predict(&machine, &record).unwrap();
+            let mut term = Term::new(Term::card("phase-drift").unwrap(), &[3600.0 * slope]).unwrap();
+            term.entry = entry;
+            let deltas = term.effect(&machine, &record.columns).unwrap().deltas_um(&record);
+            machine.effects.push(term);
+            let after = predict(&machine, &record).unwrap();
+            for sensor in Sensor::ALL {
+                let shown = after.of(sensor)[2] - before.of(sensor)[2];
+                let expected = gain(&machine, entry, sensor) * (deltas[2] - deltas[0]);
+                prop_assert!((shown - expected).abs() < 1e-9 * expected.abs().max(1.0));
+            }
+        }
+    }
+
+    /// Section 4 of the design, row by row.
+    #[test]
+    fn the_sign_table() {
+        let step = 0.0125;
+        let table = [
+            (Entry::Motion, [-1.0, 0.0, -1.0 / step, 1.0, 0.0]),
+            (Entry::LengthReference, [1.0, 0.0, 1.0 / step, 0.0, 1.0]),
+            (Entry::AngleReference, [1.0, 0.0, 1.0 / step, 0.0, 1.0]),
+            (Entry::Workpiece, [0.0, 0.0, 0.0, 1.0, 1.0]),
+            (Entry::Electronics, [1.0, 0.0, 1.0 / step, 0.0, 1.0]),
+            (Entry::Actuator, [1.0, 0.0, 1.0 / step, -1.0, 0.0]),
+        ];
+        let mut machine = parse(SG7430);
+        for (entry, row) in table {
+            let mut seen = |closed, sensor| {
+                machine.loop_closed = closed;
+                gain(&machine, entry, sensor)
+            };
+            let found = [
+                seen(false, Sensor::Recorder),
+                seen(true, Sensor::Recorder),
+                seen(true, Sensor::Counter),
+                seen(false, Sensor::Thread),
+                seen(true, Sensor::Thread),
+            ];
+            assert_eq!(found, row, "{entry}");
+        }
+    }
+}

@@ -104,11 +104,12 @@ impl MachineFile {
 
     /// The file with another value for a key such as `spindle.speed`; the value is TOML text.
     ///
-    /// Effects are counted from 0: `effect.1.amplitude`.
+    /// Effects and gears are counted from 0: `effect.1.amplitude`. A section that is not there is
+    /// made.
     ///
     /// # Errors
     ///
-    /// [`MachineError`] when the new text is no longer a machine file.
+    /// [`MachineError`] when there is no such place, or the new text is no longer a machine file.
     pub fn with_setting(&self, key: &str, toml: &str) -> Result<Self, MachineError> {
         let new: Value =
             toml.parse().map_err(|error: toml_edit::TomlError| MachineError::Value {
@@ -120,23 +121,14 @@ impl MachineFile {
         let mut document = self.document.clone();
         let mut item: &mut Item = document.as_item_mut();
         for word in key.split('.') {
-            item = match word.parse::<usize>() {
-                Ok(index) => self.nth(item, index)?,
-                Err(_) => &mut item[word],
-            };
+            item = below(item, word).ok_or_else(|| MachineError::NoSuchKey {
+                path: self.path.clone(),
+                key: key.into(),
+                word: word.into(),
+            })?;
         }
         replace_value(item, new);
         self.reread(document)
-    }
-
-    fn nth<'i>(&self, item: &'i mut Item, index: usize) -> Result<&'i mut Item, MachineError> {
-        let missing = || self.no_such_effect(index);
-        // An array of tables holds tables, not items; its values are reached through an index.
-        if item.as_array_of_tables().is_some_and(|tables| index < tables.len()) {
-            Ok(&mut item[index])
-        } else {
-            Err(missing())
-        }
     }
 
     fn reread(&self, document: DocumentMut) -> Result<Self, MachineError> {
@@ -151,6 +143,17 @@ impl MachineFile {
             count: self.machine.effects.len(),
         }
     }
+}
+
+/// What a word of a key names: an entry of an array by its number, else a key, made when missing.
+fn below<'i>(item: &'i mut Item, word: &str) -> Option<&'i mut Item> {
+    if let Ok(index) = word.parse::<usize>() {
+        return item.get_mut(index);
+    }
+    if item.is_none() {
+        *item = Item::Table(Table::new());
+    }
+    Some(item.as_table_like_mut()?.entry(word).or_insert(Item::None))
 }
 
 /// The array `[[effect]]`, made when there is none; an inline array becomes tables.
