@@ -9,6 +9,8 @@ use helixlock_gen::{Board, Project, Synthesis};
 use helixlock_sim::Dialled;
 use serde::Serialize;
 
+use crate::wheels::Wheels;
+
 /// The project in plain numbers; the JSON of `--json`.
 #[derive(Debug, Serialize)]
 pub(crate) struct Summary {
@@ -24,19 +26,6 @@ pub(crate) struct Summary {
     pins: Vec<Pin>,
     files: Vec<String>,
     synthesis: Option<Built>,
-}
-
-#[derive(Debug, Serialize)]
-struct Wheels {
-    divide_a: u32,
-    divide_b: u32,
-    range: u32,
-    initial_phase: u32,
-    compensation_f: u32,
-    compensation_insert: bool,
-    compensation_um_per_m: f64,
-    step_period_clocks: u32,
-    step_frequency_hz: f64,
 }
 
 #[derive(Debug, Serialize)]
@@ -81,7 +70,7 @@ impl Summary {
             clock_source: board.clock_source.clone(),
             clock_hz: 1_000_000 * u64::from(board.clock_mhz),
             machine_file_clock_hz,
-            settings: wheels(dialled),
+            settings: dialled.into(),
             notes: board.notes.clone(),
             pins: board.pins.iter().map(pin).collect(),
             files: project.files.iter().map(|(name, _)| name.clone()).collect(),
@@ -139,21 +128,6 @@ impl Summary {
             table.add_row([&pin.port, &pin.place, &pin.note]);
         }
         table
-    }
-}
-
-fn wheels(dialled: &Dialled) -> Wheels {
-    let settings = &dialled.settings;
-    Wheels {
-        divide_a: settings.a,
-        divide_b: settings.b,
-        range: settings.range.factor(),
-        initial_phase: settings.initial_phase,
-        compensation_f: settings.compensation_f,
-        compensation_insert: settings.insert,
-        compensation_um_per_m: dialled.compensation_um_per_m,
-        step_period_clocks: settings.step_period,
-        step_frequency_hz: dialled.step_frequency_hz,
     }
 }
 

@@ -6,6 +6,7 @@ mod diagnose;
 mod diagnosis_json;
 mod dividers;
 mod effects;
+mod r#gen;
 mod gen_summary;
 mod gen_vectors;
 mod learn;
@@ -29,7 +30,7 @@ mod straightness;
 mod straightness_summary;
 mod transmission;
 mod transmission_summary;
-mod r#gen;
+mod wheels;
 
 use std::io::{self, Write};
 use std::process::ExitCode;

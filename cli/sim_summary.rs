@@ -7,13 +7,15 @@ use helixlock_plant::Machine;
 use helixlock_sim::{Findings, Pass, PassFindings, Simulation};
 use serde::Serialize;
 
+use crate::wheels::Wheels;
+
 /// `summary.json`: keys are stable, units are in the names.
 #[derive(Debug, Serialize)]
 pub(crate) struct Summary {
     pub(crate) title: String,
     machine_file: String,
     pub(crate) run: Run,
-    settings: Dials,
+    settings: Wheels,
     pub(crate) without_correction: PassSummary,
     pub(crate) with_correction: PassSummary,
     pub(crate) hunting: Option<HuntingSummary>,
@@ -32,20 +34,6 @@ pub(crate) struct Run {
     pub(crate) comparisons: usize,
     comparison_hz: f64,
     pub(crate) range_um: f64,
-}
-
-/// What the wheels and switches stood at.
-#[derive(Debug, Serialize)]
-struct Dials {
-    a: u32,
-    b: u32,
-    range: u32,
-    initial_phase: u32,
-    compensation_f: u32,
-    compensation_insert: bool,
-    compensation_um_per_m: f64,
-    step_period_clocks: u32,
-    step_frequency_hz: f64,
 }
 
 /// One pass.
@@ -105,7 +93,7 @@ impl Summary {
                 comparison_hz: course.comparison_hz,
                 range_um: course.full_scale_um,
             },
-            settings: dials(simulation),
+            settings: Wheels::from(&course.dialled),
             without_correction: pass(&simulation.open, &findings.open),
             with_correction: pass(closed, &findings.closed),
             hunting: hunting(simulation, &findings),
@@ -165,22 +153,6 @@ impl Summary {
             slew.limit_um_per_s, slew.needed_um_per_s
         )?;
         self.notes.iter().try_for_each(|note| writeln!(out, "note: {note}"))
-    }
-}
-
-fn dials(simulation: &Simulation) -> Dials {
-    let dialled = &simulation.course.dialled;
-    let settings = &dialled.settings;
-    Dials {
-        a: settings.a,
-        b: settings.b,
-        range: settings.range.factor(),
-        initial_phase: settings.initial_phase,
-        compensation_f: settings.compensation_f,
-        compensation_insert: settings.insert,
-        compensation_um_per_m: dialled.compensation_um_per_m,
-        step_period_clocks: settings.step_period,
-        step_frequency_hz: dialled.step_frequency_hz,
     }
 }
 

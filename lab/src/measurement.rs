@@ -85,6 +85,14 @@ const NOT_COVARIATES: [&str; 10] = [
     "error_arcsec", "steps", "lead_error_um",
 ];
 
+/// True for the columns by which a simulated trace shows the recorder before its filter, and the
+/// same machine with the loop the other way: they are sensors, but not of this run.
+fn is_of_another_run(name: &str) -> bool {
+    let rest = name.strip_prefix("open_").or_else(|| name.strip_prefix("closed_"));
+    let rest = rest.unwrap_or("");
+    name == "raw_error_um" || rest == "raw_error_um" || NOT_COVARIATES.contains(&rest)
+}
+
 /// Fewest samples that say anything about noise.
 const FEWEST: usize = 16;
 
@@ -237,7 +245,8 @@ fn covariates(
 ) -> BTreeMap<String, Vec<f64>> {
     let mut known = BTreeMap::new();
     let covariate = |name: &str| {
-        !NOT_COVARIATES.contains(&name) || (name == "steps" && !nominal.closed)
+        let own = !NOT_COVARIATES.contains(&name) || (name == "steps" && !nominal.closed);
+        own && !is_of_another_run(name)
     };
     for column in table.columns.iter().filter(|column| covariate(&column.name)) {
         let values: Vec<f64> = passes.rows.iter().map(|&row| column.values[row]).collect();
