@@ -100,7 +100,7 @@ struct Apply {
     /// Largest error that may be left, µm; exit status 1 beyond
     #[arg(long, value_name = "UM", value_parser = length_um)]
     limit: Option<f64>,
-    /// Folder for corrected.csv, report.html and result.json
+    /// Folder for corrected.csv, report.html, figure.svg and result.json
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Print the result as JSON
@@ -285,7 +285,9 @@ fn read_image(path: &Path) -> anyhow::Result<CorrectionTable> {
 
 fn write_applied(output: &Path, comparison: &Comparison, result: &Value) -> anyhow::Result<()> {
     let page = pages::scale::page(comparison);
+    let figure = pages::scale::figure(comparison).svg();
     folder(output)?;
+    write_whole(&output.join("figure.svg"), |file| Ok(file.write_all(figure.as_bytes())?))?;
     write_whole(&output.join("result.json"), |file| {
         Ok(serde_json::to_writer_pretty(file, result)?)
     })?;

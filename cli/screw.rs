@@ -65,7 +65,7 @@ pub(crate) struct Screw {
     /// Pass to evaluate, when the file holds several
     #[arg(long, value_name = "PASS")]
     pass: Option<f64>,
-    /// Folder for report.html and result.json
+    /// Folder for report.html, figure.svg and result.json
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Print the result as JSON
@@ -237,7 +237,9 @@ impl Evaluation {
 
 fn write_files(output: &Path, evaluation: &Evaluation, result: &Value) -> anyhow::Result<()> {
     let page = pages::screw::page(evaluation);
+    let figure = pages::screw::figure(evaluation).svg();
     folder(output)?;
+    write_whole(&output.join("figure.svg"), |file| Ok(file.write_all(figure.as_bytes())?))?;
     write_whole(&output.join("result.json"), |file| {
         Ok(serde_json::to_writer_pretty(file, result)?)
     })?;

@@ -77,7 +77,7 @@ pub(crate) struct StraightnessCommand {
     /// Seed of the simulation
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Folder for report.html, result.json, separated.csv and correction.csv
+    /// Folder for report.html, figure.svg, result.json, separated.csv and correction.csv
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Print the result as JSON
@@ -144,6 +144,14 @@ impl StraightnessCommand {
         }
         let Some(path) = &self.data else { bail!("no data, expected a file") };
         let readings = read_readings(path)?;
+        #[expect(clippy::cast_precision_loss, reason = "samples of a stroke are few")]
+        let stroke_mm = readings.samples() as f64 * readings.step_mm;
+        if 1e6 < stroke_mm / self.table_step {
+            bail!(
+                "`--table-step`: {} mm, expected a millionth of the stroke or more",
+                self.table_step
+            );
+        }
         let spacing = self.spacing(readings.step_mm)?;
         let evaluation = self
             .evaluate(path, &readings, spacing)
@@ -179,7 +187,7 @@ impl StraightnessCommand {
             Some(longest_mm) => whole_steps(longest_mm / step_mm).clamp(2, samples),
             None => (samples / 3).max(2),
         };
-        let proposals = propose(samples, longest.min(200), 5);
+        let proposals = propose(samples, longest, 5);
         if self.json {
             print_json(out, &plan_json(samples, step_mm, asked.as_ref(), &proposals))?;
         } else {
@@ -272,7 +280,9 @@ fn write_files(
     result: &serde_json::Value,
 ) -> anyhow::Result<()> {
     let page = pages::straightness::page(evaluation);
+    let figure = pages::straightness::figure(evaluation).svg();
     folder(output)?;
+    write_whole(&output.join("figure.svg"), |file| Ok(file.write_all(figure.as_bytes())?))?;
     write_whole(&output.join("result.json"), |file| {
         Ok(serde_json::to_writer_pretty(file, result)?)
     })?;

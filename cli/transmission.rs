@@ -76,7 +76,7 @@ pub(crate) struct TransmissionCommand {
     /// Peak-to-peak error that must not be exceeded, arcsec
     #[arg(long, value_name = "ARCSEC")]
     limit: Option<f64>,
-    /// Folder for report.html, result.json, error.csv and compare.csv
+    /// Folder for report.html, figure.svg, result.json, error.csv and compare.csv
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Print the result as JSON
@@ -241,7 +241,9 @@ impl TransmissionCommand {
         result: &serde_json::Value,
     ) -> anyhow::Result<()> {
         let page = pages::transmission::page(evaluation);
+        let figure = pages::transmission::figure(evaluation).svg();
         folder(output)?;
+        write_whole(&output.join("figure.svg"), |file| Ok(file.write_all(figure.as_bytes())?))?;
         write_whole(&output.join("result.json"), |file| {
             Ok(serde_json::to_writer_pretty(file, result)?)
         })?;

@@ -39,7 +39,8 @@ pub(crate) fn page(comparison: &Comparison) -> Page {
     }
 }
 
-fn figure(comparison: &Comparison) -> Figure {
+/// The figure of the page.
+pub(crate) fn figure(comparison: &Comparison) -> Figure {
     let series = |name: &str, colour, direction, error: fn(&Corrected) -> f64| {
         let chosen = comparison.corrected.iter().filter(|one| one.sample.direction == direction);
         let mut points: Vec<[f64; 2]> =

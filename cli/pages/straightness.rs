@@ -68,7 +68,12 @@ pub(crate) fn figure(evaluation: &Evaluation) -> Figure {
         ]
     };
     #[expect(clippy::cast_precision_loss, reason = "harmonics are few")]
-    let gains = evaluation.plan.harmonics.iter().map(|h| [h.number as f64, h.gain]);
+    let number = |count: usize| count as f64;
+    let harmonics = &evaluation.plan.harmonics;
+    let stems = harmonics.iter().map(|harmonic| [number(harmonic.number), harmonic.gain]);
+    let gains = vec![Series::new("", Colour::Blue, Style::Stems, stems)];
+    // Room beside the last stem.
+    let beyond = number(harmonics.len() + 1);
     Figure {
         width_px: 900,
         panels: vec![
@@ -90,12 +95,10 @@ pub(crate) fn figure(evaluation: &Evaluation) -> Figure {
                 "β in µrad",
                 both(&fourier.tilt_urad, &squares.tilt_urad),
             ),
-            panel(
-                "gain of the probes",
-                "harmonic of the stroke",
-                "gain",
-                vec![Series::new("", Colour::Blue, Style::Stems, gains)],
-            ),
+            Panel {
+                x: Axis::linear("harmonic of the stroke").between(0.0, beyond),
+                ..panel("gain of the probes", "", "gain", gains)
+            },
         ],
     }
 }

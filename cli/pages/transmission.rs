@@ -1,5 +1,6 @@
 //! Report of `helixlock transmission`.
 
+use helixlock_metrology::transmission::Method;
 use helixlock_report::{Axis, Colour, Figure, Label, Page, Panel, Part, Series, Style, Table};
 
 use crate::transmission::{ARCSEC, Evaluation, Found, MethodResult};
@@ -43,26 +44,37 @@ pub(crate) fn page(evaluation: &Evaluation) -> Page {
     }
 }
 
-fn figure(evaluation: &Evaluation) -> Figure {
-    let series = |(result, colour): (&MethodResult, Colour)| {
-        let found = result.found.as_ref().ok()?;
-        let points = found.reading.samples.iter().map(|s| [s.output_turns, s.error_rad * ARCSEC]);
-        Some(Series::new(result.method.name(), colour, Style::Line, points))
-    };
+/// The figure of the page: all methods; those that see fractions of a pulse, larger; the spectrum.
+pub(crate) fn figure(evaluation: &Evaluation) -> Figure {
+    let by_pulses = |result: &MethodResult| result.method == Method::DirectCounting;
+    let drawn: Vec<(&MethodResult, Colour)> = evaluation.results.iter().zip(COLOURS).collect();
     // Counting, which jumps by whole pulses, lies behind the others.
-    let mut drawn: Vec<(&MethodResult, Colour)> = evaluation.results.iter().zip(COLOURS).collect();
-    drawn.sort_by_key(|(result, _)| result.method.name() != "counting");
-    let mut panels = vec![Panel {
-        title: "transmission error".into(),
-        height_px: 340,
+    let (counted, fine): (Vec<_>, Vec<_>) = drawn.into_iter().partition(|(r, _)| by_pulses(r));
+    let all = counted.iter().chain(&fine).filter_map(series).collect();
+    let mut panels = vec![panel("transmission error", all)];
+    if !counted.is_empty() && !fine.is_empty() {
+        panels.push(panel("without direct counting", fine.iter().filter_map(series).collect()));
+    }
+    panels.extend(evaluation.best().and_then(spectrum));
+    Figure { width_px: 900, panels }
+}
+
+fn series((result, colour): &(&MethodResult, Colour)) -> Option<Series> {
+    let found = result.found.as_ref().ok()?;
+    let points = found.reading.samples.iter().map(|s| [s.output_turns, s.error_rad * ARCSEC]);
+    Some(Series::new(result.method.name(), *colour, Style::Line, points))
+}
+
+fn panel(title: &str, series: Vec<Series>) -> Panel {
+    Panel {
+        title: title.into(),
+        height_px: 280,
         x: Axis::linear("turns of the output"),
         y: Axis::linear("δ in arcsec"),
         bands: Vec::new(),
-        series: drawn.into_iter().filter_map(series).collect(),
+        series,
         labels: Vec::new(),
-    }];
-    panels.extend(evaluation.best().and_then(spectrum));
-    Figure { width_px: 900, panels }
+    }
 }
 
 fn spectrum(found: &Found) -> Option<Panel> {

@@ -47,8 +47,9 @@ impl JointRule {
             [first, .., last] => (first.0, last.0),
             _ => (0.0, 0.0),
         };
-        // A scale of no length has no joints; it would have endlessly many here.
-        let every_mm = if 0.0 < self.every_mm { self.every_mm } else { f64::INFINITY };
+        // Scales that are hardly as long as a sample have no joints worth the name.
+        let long_enough = (last - first) / 10_000.0 < self.every_mm && 0.0 < self.every_mm;
+        let every_mm = if long_enough { self.every_mm } else { f64::INFINITY };
         let before = ((first - self.first_mm) / every_mm).floor().max(0.0);
         let place = move |index: usize| self.first_mm + (before + number(index)) * every_mm;
         (0..).map(place).take_while(move |at| *at < last).filter(move |at| first < *at)

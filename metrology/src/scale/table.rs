@@ -88,7 +88,7 @@ pub fn build_table(samples: &[ErrorSample], rule: &TableRule) -> Result<Correcti
             return Err(Error::TooFewSamples { found: curve.len(), expected: 2 });
         }
     }
-    let places = places(curves, rule.step_mm);
+    let places = places(curves, rule.step_mm)?;
     let mut tables = Vec::new();
     for curve in curves {
         tables.push(corrections(curve, &places, rule)?);
@@ -154,13 +154,20 @@ fn mean_curve(samples: &[ErrorSample], direction: Direction) -> Vec<(f64, f64)> 
     places.map(mean).collect()
 }
 
+/// More places than any memory of this kind holds; a step in the wrong unit asks for them.
+const MOST_PLACES: f64 = 100_000.0;
+
 /// Whole steps that every direction covers.
-fn places(curves: &[Vec<(f64, f64)>], step_mm: f64) -> Vec<f64> {
+fn places(curves: &[Vec<(f64, f64)>], step_mm: f64) -> Result<Vec<f64>, Error> {
     let first = curves.iter().map(|curve| curve[0].0).fold(f64::NEG_INFINITY, f64::max);
     let last = curves.iter().map(|curve| curve[curve.len() - 1].0).fold(f64::INFINITY, f64::min);
+    if MOST_PLACES < (last - first) / step_mm {
+        let (found, expected) = ((last - first) / step_mm, "a few thousand for 2 KiB");
+        return Err(Error::OutOfRange { name: "number of places", found, expected });
+    }
     let start = (first / step_mm - 1e-6).ceil();
     let place = |index: usize| (start + number(index)) * step_mm;
-    (0..usize::MAX).map(place).take_while(|place| *place <= last + 1e-6).collect()
+    Ok((0..usize::MAX).map(place).take_while(|place| *place <= last + 1e-6).collect())
 }
 
 fn corrections(curve: &[(f64, f64)], places: &[f64], rule: &TableRule) -> Result<Vec<i8>, Error> {

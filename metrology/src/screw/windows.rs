@@ -44,6 +44,10 @@ pub struct Widest {
 #[must_use]
 pub fn widest_in_windows(travel_mm: &[f64], values: &[f64], window_mm: f64) -> Option<Widest> {
     let reach_mm = window_mm + WINDOW_SLACK_MM;
+    if travel_mm.last().zip(travel_mm.first()).is_some_and(|(last, first)| last - first <= reach_mm)
+    {
+        return widest_of_all(values);
+    }
     let (mut high, mut low) = (VecDeque::new(), VecDeque::new());
     let mut start = 0;
     let mut widest: Option<Widest> = None;
@@ -65,6 +69,21 @@ pub fn widest_in_windows(travel_mm: &[f64], values: &[f64], window_mm: f64) -> O
         }
     }
     widest
+}
+
+/// All samples as one window.
+fn widest_of_all(values: &[f64]) -> Option<Widest> {
+    let (mut highest, mut lowest) = (0, 0);
+    for (index, &value) in values.iter().enumerate() {
+        if values[highest] < value {
+            highest = index;
+        }
+        if value < values[lowest] {
+            lowest = index;
+        }
+    }
+    let spread = values.get(highest)? - values[lowest];
+    Some(Widest { spread, highest, lowest, most_samples: values.len() })
 }
 
 /// A value with its place; kept together so that the queues never look back into the curve.

@@ -22,7 +22,8 @@ use crate::number::number;
 /// Above this many places the uncertainty, a full inverse, is not worked out.
 const MOST_PLACES_WITH_UNCERTAINTY: usize = 2500;
 
-/// Smoothness weights tried: a quarter decade apart, from no smoothing to nothing but a line.
+/// Smoothness weights tried, in quarter decades: from no smoothing to nothing but a line, first a
+/// decade apart, then about the best of those.
 const SMOOTHNESS_TRIED: std::ops::RangeInclusive<i32> = -40..=32;
 
 /// Finds the bar without assuming that it repeats with the stroke.
@@ -43,9 +44,13 @@ pub fn separate_by_least_squares(
     let offset_um = if zeros_matched { combined.offset_um } else { 0.0 };
     let z_um: Vec<f64> = combined.z_um.iter().map(|z| z + offset_um).collect();
     let system = System { z_um: &z_um, combined };
-    let trials = SMOOTHNESS_TRIED.filter_map(|k| system.fit(libm::pow(10.0, f64::from(k) / 4.0)));
-    let best = trials.min_by(|a, b| a.misfit.total_cmp(&b.misfit));
-    let best = best.ok_or(Error::TooFewSamples { found: z_um.len(), expected: 4 })?;
+    let fit =
+        |quarters: i32| Some((quarters, system.fit(libm::pow(10.0, f64::from(quarters) / 4.0))?));
+    let better = |a: &(i32, Fit), b: &(i32, Fit)| a.1.misfit.total_cmp(&b.1.misfit);
+    let coarse = SMOOTHNESS_TRIED.step_by(4).filter_map(fit).min_by(better);
+    let near = coarse.as_ref().map_or(0..=0, |(quarters, _)| quarters - 3..=quarters + 3);
+    let best = near.filter_map(fit).min_by(better);
+    let (_, best) = best.ok_or(Error::TooFewSamples { found: z_um.len(), expected: 4 })?;
     let back = combined.spacing.total();
     let uncertainty_um = system.uncertainty(&best);
     let touched_um = |sample: usize, behind: usize| best.places_um[sample + back - behind];

@@ -65,9 +65,11 @@ pub fn plan(spacing: Spacing, samples: usize) -> Plan {
 /// The `count` choices with the least noise of `h` for noise of the probes, among those whose
 /// probes span at most `longest` samples and lose nothing.
 ///
-/// Of equally quiet ones, the shorter comes first.
+/// Of equally quiet ones, the shorter comes first. Spans beyond 200 samples are not tried, beyond 60
+/// for strokes of more than a thousand samples.
 #[must_use]
 pub fn propose(samples: usize, longest: usize, count: usize) -> Vec<Plan> {
+    let longest = longest.min(if samples <= 1000 { 200 } else { 60 });
     let pairs = (1..longest).flat_map(|first| (1..=longest - first).map(move |s| (first, s)));
     let plans = pairs.map(|(first, second)| plan(Spacing { first, second }, samples));
     let mut plans: Vec<Plan> = plans.filter(|plan| plan.noise_gain.is_finite()).collect();

@@ -29,7 +29,9 @@ pub(super) fn divide(
     method: &'static str,
 ) -> Result<Divided, Error> {
     let (over, under) = setup.gearing.pulses_per_pulse();
-    let (by_input, by_output) = (over * setup.range_divider, under * setup.range_divider);
+    // Dividers beyond 64 bits are beyond any capture too.
+    let by_input = over.saturating_mul(setup.range_divider);
+    let by_output = under.saturating_mul(setup.range_divider);
     let comparisons = float(by_output) * 2.0;
     let cannot = || Error::MethodCannot {
         method,
