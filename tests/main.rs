@@ -20,11 +20,8 @@ mod golden_verilog;
 mod initial_phase_selector;
 mod layers;
 mod linuxcnc;
-<<<<<<< HEAD
 mod lockstep;
-=======
 mod metrology;
->>>>>>> 243d821 (Add an example of each document, with figures and what does not come out)
 mod parquet_readers;
 mod phase_meter;
 mod programmable_divider;
