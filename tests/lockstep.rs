@@ -51,7 +51,7 @@ fn compare(program: &Program, engine: &mut impl Engine, mut stimulus: Stimulus, 
         for _ in 0..BATCH {
             stimulus.next(&mut inputs);
             asked.extend(layout.pack_inputs(&inputs));
-            answers.extend(expected(engine, &netlist, &inputs));
+            answers.extend(expected(engine, &layout, &netlist, &inputs));
         }
         let found = verilator.run(&asked, answers.len());
         assert!(found == answers, "{}", report(&layout, &netlist, done, &answers, &found));
@@ -95,7 +95,7 @@ fn icarus_agrees_with_the_compiled_engine() {
         for _ in 0..20_000 {
             stimulus.next(&mut inputs);
             asked.push(layout.pack_inputs(&inputs));
-            answers.extend(expected(&mut engine, netlist, &inputs));
+            answers.extend(expected(&mut engine, &layout, netlist, &inputs));
         }
         let found = icarus::run(&device_design(), netlist, &layout, &asked);
         assert!(found == answers, "{}", report(&layout, netlist, 0, &answers, &found));

@@ -57,7 +57,7 @@ fn compare(mut stimulus: Stimulus, clocks: u64) {
         for _ in 0..BATCH {
             stimulus.next(&mut inputs);
             asked.extend(layout.pack_inputs(&inputs));
-            let mut answer = expected(&mut engine, netlist, &inputs);
+            let mut answer = expected(&mut engine, &layout, netlist, &inputs);
             clear_bits(&mut answer, state_bits);
             answers.extend(answer);
         }
