@@ -86,7 +86,10 @@ impl<W: Write> RowWriter<W> {
     ///
     /// Those of `out`.
     pub fn new(mut out: W, names: &[&str]) -> io::Result<Self> {
-        ::csv::WriterBuilder::new().from_writer(&mut out).write_record(names)?;
+        ::csv::WriterBuilder::new()
+            .comment(Some(b'#'))
+            .from_writer(&mut out)
+            .write_record(names)?;
         Ok(Self { out })
     }
 
@@ -131,6 +134,13 @@ fn header(record: &ByteRecord, line: &Line) -> Result<Vec<String>, TraceError> {
             let found = if separator == ';' { "semicolons" } else { "tabs" };
             let found = format!("{found} between the names");
             return refuse(index, found, "commas between cells and points in numbers");
+        }
+        if name.contains(|c: char| c.is_control() || c == '\u{feff}') {
+            return refuse(
+                index,
+                format!("`{}`", name.escape_debug()),
+                "a name that can be printed",
+            );
         }
         if name.is_empty() {
             return refuse(index, "no name".into(), "a name for every column");

@@ -11,6 +11,7 @@ use ::parquet::basic::{Compression, ConvertedType, LogicalType, Repetition, Type
 use ::parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use ::parquet::data_type::{DataType, DoubleType};
 use ::parquet::errors::ParquetError;
+use ::parquet::file::metadata::RowGroupMetaData;
 use ::parquet::file::properties::WriterProperties;
 use ::parquet::file::reader::{FileReader, SerializedFileReader};
 use ::parquet::file::writer::SerializedFileWriter;
@@ -32,11 +33,21 @@ const GROUP_ROWS: usize = 1 << 20;
 ///
 /// A file that contradicts itself, a column that holds no numbers, an infinite value, no rows.
 pub fn read_parquet(bytes: Vec<u8>, path: &Path) -> Result<Table, TraceError> {
+    // Fuzzing found broken pages on which the library panics; for its user that is an error too.
+    std::panic::catch_unwind(|| read_columns(bytes, path)).unwrap_or_else(|_| {
+        let message = "its pages contradict its footer".into();
+        Err(TraceError::Parquet { path: path.to_owned(), message })
+    })
+}
+
+fn read_columns(bytes: Vec<u8>, path: &Path) -> Result<Table, TraceError> {
     let broken = |error: ParquetError| TraceError::Parquet {
         path: path.to_owned(),
         message: error.to_string(),
     };
+    let size = bytes.len();
     let reader = SerializedFileReader::new(Bytes::from(bytes)).map_err(broken)?;
+    check_places(&reader, size).map_err(broken)?;
     let schema = reader.metadata().file_metadata().schema_descr();
     let mut columns = Vec::with_capacity(schema.num_columns());
     for (index, descriptor) in schema.columns().iter().enumerate() {
@@ -116,6 +127,19 @@ fn check_type(column: &ColumnDescriptor, name: &str, path: &Path) -> Result<(), 
         (_, converted) => format!("type {converted}").to_lowercase(),
     };
     Err(TraceError::ColumnType { path: path.to_owned(), name: name.to_owned(), found })
+}
+
+/// Refuses columns that lie outside the file, on which the library would panic.
+fn check_places(file: &SerializedFileReader<Bytes>, size: usize) -> Result<(), ParquetError> {
+    for column in file.metadata().row_groups().iter().flat_map(RowGroupMetaData::columns) {
+        let start = column.dictionary_page_offset().unwrap_or(column.data_page_offset());
+        let end = start.checked_add(column.compressed_size());
+        let inside = |place: i64| usize::try_from(place).is_ok_and(|place| place <= size);
+        if column.compressed_size() < 0 || !inside(start) || !end.is_some_and(inside) {
+            return Err(ParquetError::General("a column lies outside the file".into()));
+        }
+    }
+    Ok(())
 }
 
 /// Refuses what would need yet another library to unpack.

@@ -48,3 +48,16 @@ fn written_numbers_read_back_to_the_same_bits() {
     let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
     assert_eq!(bits(&again.columns[0].values), bits(&values));
 }
+
+#[test]
+fn names_that_look_like_comments_read_back() {
+    let table = Table::new(vec![Column { name: "#, \"x\"".into(), values: vec![1.0, f64::NAN] }]);
+    let mut text = Vec::new();
+    write_csv(&table, &mut text).unwrap();
+    let again = read_csv(&text, Path::new("data.csv")).unwrap();
+    assert_eq!((again.columns[0].name.as_str(), again.rows()), ("#, \"x\"", 2));
+    assert_eq!(
+        refusal("a\u{1}b\n1\n"),
+        "data.csv:1:1: found `a\\u{1}b`, expected a name that can be printed"
+    );
+}
