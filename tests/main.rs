@@ -39,4 +39,5 @@ mod step_selector;
 mod subdivided_comparison;
 mod support;
 mod synchronisers;
+mod tables;
 mod waveform_readers;

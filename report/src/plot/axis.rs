@@ -26,10 +26,13 @@ impl Settled {
     ) -> Self {
         let scale = axis.scale;
         let given = axis.range.map(|[low, high]| [position(scale, low), position(scale, high)]);
-        let [low, high] = given
-            .filter(|[low, high]| low < high)
-            .unwrap_or_else(|| spread(data.map(|value| position(scale, value)), scale, room));
+        let given = given.filter(|[low, high]| low < high);
+        let [mut low, mut high] =
+            given.unwrap_or_else(|| spread(data.map(|value| position(scale, value)), scale, room));
         let step = round_step((high - low) / count(most));
+        if given.is_none() && scale == Scale::Linear {
+            [low, high] = rounded([low, high], step);
+        }
         let ticks = match scale {
             Scale::Linear => linear_ticks(low, high, step),
             Scale::Log => log_ticks(low, high, most),
@@ -85,6 +88,13 @@ fn spread(positions: impl Iterator<Item = f64>, scale: Scale, room: f64) -> [f64
     };
     let limit = f64::MAX / 4.0; // beyond it the width of the axis would overflow
     [(low - room).clamp(-limit, limit), (high + room).clamp(-limit, limit)]
+}
+
+/// The same ends, or the round numbers just beyond them: 999.9 becomes 1000.
+fn rounded([low, high]: [f64; 2], step: f64) -> [f64; 2] {
+    let near = 0.02 * (high - low);
+    let [below, above] = [(low / step).floor() * step, (high / step).ceil() * step];
+    [if low - below <= near { below } else { low }, if above - high <= near { above } else { high }]
 }
 
 /// The least 1, 2 or 5 times a power of ten that is not below `least`.
@@ -145,6 +155,12 @@ mod tests {
         let axis = Axis::linear("error in µm");
         assert_eq!(texts(&axis, &[-0.31, 0.28]), ["\u{2212}0.2", "0", "0.2"]);
         assert_eq!(texts(&axis, &[0.0, 1000.0]), ["0", "200", "400", "600", "800", "1000"]);
+    }
+
+    #[test]
+    fn an_axis_that_nearly_reaches_a_round_number_reaches_it() {
+        let settled = Settled::new(&Axis::linear(""), [0.14, 999.9].into_iter(), 10, 0.0);
+        assert_eq!((settled.ticks.len(), settled.text(settled.ticks[10])), (11, "1000".into()));
     }
 
     #[test]
