@@ -16,6 +16,7 @@ mod documented_waveforms;
 mod effects_in_the_loop;
 mod example_data;
 mod examples;
+mod fuzz_corpus;
 mod golden_verilog;
 mod initial_phase_selector;
 mod layers;

@@ -5,6 +5,7 @@
 
 pub(crate) mod axis;
 mod draw;
+mod series;
 pub(crate) mod thin;
 
 use crate::Colour;

@@ -2,6 +2,7 @@
 //! effect, as SVG.
 
 mod draw;
+mod shapes;
 
 use crate::Colour;
 

@@ -6,12 +6,11 @@ use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 use plotters::drawing::{DrawingArea, DrawingAreaErrorKind, IntoDrawingArea};
 use plotters::element::{Circle, PathElement, Rectangle, Text};
 use plotters::prelude::{Cartesian2d, SVGBackend};
-use plotters::series::DashedLineSeries;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, IntoFont, RGBColor, ShapeStyle, TextStyle};
 
 use super::axis::Settled;
-use super::thin::{thin_dots, thin_line};
+use super::series::{draw_labels, draw_series};
 use super::{Band, Figure, Panel, Series, Style};
 use crate::Colour;
 use crate::markup::printable;
@@ -26,10 +25,10 @@ const BELOW_PX: u32 = 44;
 const RIGHT_PX: u32 = 18;
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Chart<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<Settled, Settled>>;
-type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
+pub(super) type Chart<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<Settled, Settled>>;
+pub(super) type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
 
-const INK: RGBColor = RGBColor(33, 37, 41);
+pub(super) const INK: RGBColor = RGBColor(33, 37, 41);
 const FAINT_INK: RGBColor = RGBColor(90, 98, 108);
 const GRID: RGBColor = RGBColor(228, 231, 235);
 
@@ -191,93 +190,16 @@ fn draw_band(chart: &mut Chart, band: Band, [x, y]: [&Settled; 2]) -> Drawn {
     Ok(())
 }
 
-fn draw_series(
-    chart: &mut Chart,
-    series: &Series,
-    axes: [&Settled; 2],
-    pixels_per_unit: [f64; 2],
-) -> Drawn {
-    let finite = |point: &[f64; 2]| point.iter().all(|value| value.is_finite());
-    let points: Vec<_> = series.points.iter().map(|point| shown(point, axes)).collect();
-    let runs = points.split(|point| !finite(point)).filter(|run| !run.is_empty());
-    match series.style {
-        Style::Dots => {
-            let dots: Vec<_> = points.iter().copied().filter(finite).collect();
-            let style = rgb(series.colour).mix(0.75).filled();
-            let dots = thin_dots(&dots, pixels_per_unit);
-            let radius = if dots.len() < 400 { 25 } else { 15 };
-            chart.draw_series(dots.iter().map(|[x, y]| Circle::new((*x, *y), radius, style)))?;
-        }
-        Style::Stems => {
-            let foot = axes[1].position(0.0).max(axes[1].low); // NaN on a log axis: its low end
-            let style = stroke(series.colour, 14);
-            // Of the stems of one pixel column only the extremes can be seen.
-            let stems: Vec<_> = runs.flat_map(|run| thin_line(run, pixels_per_unit[0])).collect();
-            chart.draw_series(
-                stems.iter().map(|[x, y]| PathElement::new([(*x, foot), (*x, *y)], style)),
-            )?;
-        }
-        Style::Line | Style::Step | Style::Dashes => {
-            for run in runs {
-                draw_run(chart, series, &thin_line(run, pixels_per_unit[0]))?;
-            }
-        }
-    }
-    Ok(())
-}
-
-/// A point as positions; not finite beyond the sides, at the edge beyond top and bottom.
-fn shown(point: &[f64; 2], [x, y]: [&Settled; 2]) -> [f64; 2] {
-    let [across, up] = [x.position(point[0]), y.position(point[1])];
-    let inside = (x.low..=x.high).contains(&across);
-    [if inside { across } else { f64::NAN }, up.clamp(y.low, y.high)]
-}
-
-fn draw_run(chart: &mut Chart, series: &Series, points: &[[f64; 2]]) -> Drawn {
-    let style = stroke(series.colour, 14);
-    let pairs = points.iter().map(|[x, y]| (*x, *y));
-    match series.style {
-        Style::Dashes => {
-            let dashes = DashedLineSeries::new(pairs, 60, 40, style);
-            chart.draw_series(dashes)?;
-        }
-        Style::Step => {
-            chart.draw_series([PathElement::new(stairs(points), style)])?;
-        }
-        _ => {
-            chart.draw_series([PathElement::new(pairs.collect::<Vec<_>>(), style)])?;
-        }
-    }
-    Ok(())
-}
-
-/// Each value held until the next point.
-fn stairs(points: &[[f64; 2]]) -> Vec<(f64, f64)> {
-    let mut stairs = Vec::with_capacity(2 * points.len());
-    for pair in points.windows(2) {
-        stairs.extend([(pair[0][0], pair[0][1]), (pair[1][0], pair[0][1])]);
-    }
-    stairs.extend(points.last().map(|[x, y]| (*x, *y)));
-    stairs
-}
-
-fn draw_labels(chart: &mut Chart, panel: &Panel, [x, y]: [&Settled; 2]) -> Drawn {
-    let style = anchored(&text(11).color(&INK), HPos::Center, VPos::Bottom);
-    for label in &panel.labels {
-        let [across, up] = shown(&label.at, [x, y]);
-        if across.is_finite() && up.is_finite() {
-            chart.draw_series([Text::new(printable(&label.text), (across, up), style.clone())])?;
-        }
-    }
-    Ok(())
-}
-
-fn text(size_px: u32) -> plotters::style::FontDesc<'static> {
+pub(super) fn text(size_px: u32) -> plotters::style::FontDesc<'static> {
     // The library divides sizes by 1.24 on their way to SVG.
     ("system-ui, sans-serif", f64::from(size_px * UNITS) * 1.24).into_font()
 }
 
-fn anchored<'a>(style: &TextStyle<'a>, horizontal: HPos, vertical: VPos) -> TextStyle<'a> {
+pub(super) fn anchored<'a>(
+    style: &TextStyle<'a>,
+    horizontal: HPos,
+    vertical: VPos,
+) -> TextStyle<'a> {
     style.pos(Pos::new(horizontal, vertical))
 }
 
@@ -285,12 +207,12 @@ fn units(pixels: u32) -> i32 {
     (pixels * UNITS).cast_signed()
 }
 
-fn rgb(colour: Colour) -> RGBColor {
+pub(super) fn rgb(colour: Colour) -> RGBColor {
     let (red, green, blue) = colour.rgb();
     RGBColor(red, green, blue)
 }
 
-fn stroke(colour: Colour, width: u32) -> ShapeStyle {
+pub(super) fn stroke(colour: Colour, width: u32) -> ShapeStyle {
     ShapeStyle { color: rgb(colour).to_rgba(), filled: false, stroke_width: width }
 }
 

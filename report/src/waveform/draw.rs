@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::shapes::{Segment, characters, push, push_box, push_path, push_run};
 use super::{Arrow, Lane, Waveform};
 use crate::Colour;
 use crate::markup::escaped;
@@ -282,51 +283,6 @@ impl<'a> Layout<'a> {
             ),
         );
     }
-}
-
-/// A stretch of a lane; without a value it changes too often to be seen.
-struct Segment<'v, V> {
-    begin_px: f64,
-    end_px: f64,
-    value: Option<&'v V>,
-}
-
-fn push_run(path: &mut String, run: &[[f64; 2]], held: bool) {
-    for (index, [x, y]) in run.iter().enumerate() {
-        let _ = match (index, held) {
-            (0, _) => write!(path, "M{x:.1},{y:.1} "),
-            (_, true) => write!(path, "H{x:.1} V{y:.1} "),
-            (_, false) => write!(path, "L{x:.1},{y:.1} "),
-        };
-    }
-}
-
-fn push_path(svg: &mut String, path: &str, colour: Colour) {
-    let (path, colour) = (path.trim_end(), colour.hex());
-    push(
-        svg,
-        &format!("<path d=\"{path}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.4\"/>"),
-    );
-}
-
-fn push_box(svg: &mut String, [left, right]: [f64; 2], [low, high]: [f64; 2], fill: &str) {
-    let (width, height) = (right - left, low - high);
-    push(
-        svg,
-        &format!(
-            "<rect x=\"{left:.1}\" y=\"{high:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" fill=\"{fill}\"/>"
-        ),
-    );
-}
-
-fn push(svg: &mut String, element: &str) {
-    svg.push_str(element);
-    svg.push('\n');
-}
-
-#[expect(clippy::cast_precision_loss, reason = "words in a picture are short")]
-fn characters(word: &str) -> f64 {
-    word.chars().count() as f64
 }
 
 #[cfg(test)]
