@@ -24,6 +24,8 @@ use crate::table::{Column, Table};
 /// Rows decoded at a time, and rows written to a group.
 const BATCH_ROWS: usize = 1 << 16;
 const GROUP_ROWS: usize = 1 << 20;
+/// What fits into the memory of an ordinary machine: 800 MB a column.
+const MOST_ROWS: usize = 100_000_000;
 
 /// Reads every column of a Parquet file; `path` is for messages only.
 ///
@@ -48,6 +50,7 @@ fn read_columns(bytes: Vec<u8>, path: &Path) -> Result<Table, TraceError> {
     let size = bytes.len();
     let reader = SerializedFileReader::new(Bytes::from(bytes)).map_err(broken)?;
     check_places(&reader, size).map_err(broken)?;
+    let rows = declared_rows(&reader).map_err(broken)?;
     let schema = reader.metadata().file_metadata().schema_descr();
     let mut columns = Vec::with_capacity(schema.num_columns());
     for (index, descriptor) in schema.columns().iter().enumerate() {
@@ -57,7 +60,7 @@ fn read_columns(bytes: Vec<u8>, path: &Path) -> Result<Table, TraceError> {
         }
         check_type(descriptor, &name, path)?;
         check_compression(&reader, index, &name, path)?;
-        let values = read_column(&reader, index, descriptor).map_err(broken)?;
+        let values = read_column(&reader, index, descriptor, rows).map_err(broken)?;
         columns.push(Column { name, values });
     }
     let table = Table { path: path.to_owned(), columns, line_jumps: Vec::new() };
@@ -129,6 +132,15 @@ fn check_type(column: &ColumnDescriptor, name: &str, path: &Path) -> Result<(), 
     Err(TraceError::ColumnType { path: path.to_owned(), name: name.to_owned(), found })
 }
 
+/// Rows that the footer declares; a few bytes can stand for any number of equal ones.
+fn declared_rows(file: &SerializedFileReader<Bytes>) -> Result<usize, ParquetError> {
+    let groups = file.metadata().row_groups().iter().map(RowGroupMetaData::num_rows);
+    let rows = groups.map(|rows| usize::try_from(rows).ok()).sum::<Option<usize>>();
+    rows.filter(|rows| *rows <= MOST_ROWS).ok_or_else(|| {
+        ParquetError::General(format!("found another number of rows, expected 0 to {MOST_ROWS}"))
+    })
+}
+
 /// Refuses columns that lie outside the file, on which the library would panic.
 fn check_places(file: &SerializedFileReader<Bytes>, size: usize) -> Result<(), ParquetError> {
     for column in file.metadata().row_groups().iter().flat_map(RowGroupMetaData::columns) {
@@ -190,6 +202,7 @@ fn read_column(
     file: &SerializedFileReader<Bytes>,
     index: usize,
     descriptor: &ColumnDescriptor,
+    rows: usize,
 ) -> Result<Vec<f64>, ParquetError> {
     let unsigned = matches!(
         descriptor.converted_type(),
@@ -199,7 +212,7 @@ fn read_column(
             | ConvertedType::UINT_64
     );
     let complete = descriptor.max_def_level();
-    let mut values = Vec::new();
+    let mut values = Values { numbers: Vec::new(), most: rows };
     for group in 0..file.num_row_groups() {
         match file.get_row_group(group)?.get_column_reader(index)? {
             ColumnReader::BoolColumnReader(column) => {
@@ -226,7 +239,7 @@ fn read_column(
             _ => return Err(ParquetError::General("a column changed its type".into())),
         }
     }
-    Ok(values)
+    Ok(values.numbers)
 }
 
 #[expect(
@@ -245,11 +258,18 @@ fn nearest_u64(value: u64) -> f64 {
     value as f64
 }
 
+/// A column as it grows.
+struct Values {
+    numbers: Vec<f64>,
+    /// Rows that the file declares.
+    most: usize,
+}
+
 /// Appends all values of a column chunk; a level below `complete` is a null.
 fn append<T: DataType>(
     mut column: ColumnReaderImpl<T>,
     complete: i16,
-    values: &mut Vec<f64>,
+    values: &mut Values,
     number: impl Fn(T::T) -> f64,
 ) -> Result<(), ParquetError> {
     let (mut levels, mut present) = (Vec::new(), Vec::new());
@@ -262,12 +282,15 @@ fn append<T: DataType>(
         }
         let mut present = present.drain(..).map(&number);
         if complete == 0 {
-            values.extend(present);
+            values.numbers.extend(present);
         } else {
-            values.extend(levels.iter().map(|level| match *level {
+            values.numbers.extend(levels.iter().map(|level| match *level {
                 level if level == complete => present.next().unwrap_or(f64::NAN),
                 _ => f64::NAN,
             }));
+        }
+        if values.most < values.numbers.len() {
+            return Err(ParquetError::General("a column has more rows than declared".into()));
         }
     }
 }
