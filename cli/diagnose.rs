@@ -7,8 +7,8 @@ use std::process::ExitCode;
 use clap::Args;
 use helixlock_lab::diagnosis::{Diagnosis, FittedEffect, diagnose};
 
-use crate::{add, diagnosis_json};
 use crate::measured::{self, Files};
+use crate::{add, diagnosis_json};
 
 /// Name the effects that a machine file lacks, with evidence, rivals, and the experiment that tells
 #[derive(Debug, Args)]

@@ -28,9 +28,10 @@ pub(crate) fn diagnosis(diagnosis: &Diagnosis, measurement: &Measurement) -> Val
 
 /// One round; `parameters` are those of the effect it added.
 pub(crate) fn round(round: &Round) -> Value {
-    let own = round.added.as_ref().and_then(|added| {
-        round.effects.iter().rev().find(|effect| effect.name == *added)
-    });
+    let own = round
+        .added
+        .as_ref()
+        .and_then(|added| round.effects.iter().rev().find(|effect| effect.name == *added));
     json!({
         "round": round.round,
         "added": round.added,
@@ -66,9 +67,7 @@ pub(crate) fn ledger(ledger: &Ledger, diagnosis: &Diagnosis, data: &Path) -> Val
 }
 
 fn effects(effects: &[FittedEffect]) -> Value {
-    let of = |effect: &FittedEffect| {
-        json!({ "effect": effect.name, "parameters": parameters(&effect.parameters) })
-    };
+    let of = |effect: &FittedEffect| json!({ "effect": effect.name, "parameters": parameters(&effect.parameters) });
     effects.iter().map(of).collect()
 }
 

@@ -40,7 +40,9 @@ impl Learn {
     /// Writes the folder; the verdict does not change the exit status.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         match (&self.machine, &self.data, &self.output) {
-            (Some(machine), Some(data), folder) => self.learn(machine, data, folder.as_deref(), out),
+            (Some(machine), Some(data), folder) => {
+                self.learn(machine, data, folder.as_deref(), out)
+            }
             (_, _, Some(folder)) => undo(folder, out),
             _ => bail!("found no folder, expected `-o DIR`"),
         }

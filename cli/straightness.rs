@@ -33,7 +33,7 @@ pub(crate) struct StraightnessCommand {
     #[arg(value_name = "DATA", required_unless_present = "plan")]
     data: Option<PathBuf>,
     /// Probe spacings L1 and L2, such as "25 mm,30 mm"
-    #[arg(long, value_name = "L1,L2", value_parser = length_mm, value_delimiter = ',', num_args = 1..=2, required_unless_present = "plan")]
+    #[arg(long, value_name = "L1,L2", value_parser = length_mm, value_delimiter = ',', required_unless_present = "plan")]
     spacing: Vec<f64>,
     /// Show what spacings do to each harmonic, and propose better ones
     #[arg(long)]

@@ -13,7 +13,12 @@ pub(crate) fn page(problem: &Problem, comparison: &Comparison) -> Page {
             "residual",
             x_axis(problem),
             &format!("{unit}"),
-            vec![Series::new("measured less model", Colour::Orange, Style::Line, points(problem, index, &comparison.residual))],
+            vec![Series::new(
+                "measured less model",
+                Colour::Orange,
+                Style::Line,
+                points(problem, index, &comparison.residual),
+            )],
         );
         let mut spectrum = panel(
             "order spectrum",

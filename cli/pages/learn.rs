@@ -40,7 +40,9 @@ fn sentence(diagnosis: &Diagnosis) -> String {
         .map(|round| round.effects.iter().map(|effect| effect.name.as_str()).collect())
         .unwrap_or_default();
     match diagnosis.verdict {
-        Verdict::Explained => format!("Explained by {}: what is left is noise.", names.join(" and ")),
+        Verdict::Explained => {
+            format!("Explained by {}: what is left is noise.", names.join(" and "))
+        }
         Verdict::Ambiguous => format!(
             "Ambiguous: {} fits, but other effects fit as well; see what would tell them apart.",
             names.join(" and ")
@@ -59,13 +61,17 @@ fn numbers(diagnosis: &Diagnosis, unit: &str) -> Vec<(String, String)> {
         (diagnosis.verdict.word().to_owned(), "verdict".to_owned()),
         (format!("{first:.3} {unit}"), "error before, rms".to_owned()),
         (format!("{:.3} {unit}", last.map_or(0.0, |r| r.rms_um)), "error after".to_owned()),
-        (format!("{:.3} {unit}", last.map_or(0.0, |r| r.holdout_rms_um)), "on held-out data".to_owned()),
+        (
+            format!("{:.3} {unit}", last.map_or(0.0, |r| r.holdout_rms_um)),
+            "on held-out data".to_owned(),
+        ),
     ]
 }
 
 fn falling(diagnosis: &Diagnosis, unit: &str) -> Part {
     let line = |name, colour, value: fn(&helixlock_lab::diagnosis::Round) -> f64| {
-        let points = (0_u32..).zip(&diagnosis.rounds).map(|(n, round)| [f64::from(n), value(round)]);
+        let points =
+            (0_u32..).zip(&diagnosis.rounds).map(|(n, round)| [f64::from(n), value(round)]);
         Series::new(name, colour, Style::Line, points)
     };
     let series = vec![
@@ -88,12 +94,27 @@ fn before_and_after(problem: &Problem, diagnosis: &Diagnosis, sensor: usize) -> 
         .map(|(observed, left)| observed - left)
         .collect();
     let over = vec![
-        Series::new("measured", Colour::Orange, Style::Line, points(problem, sensor, &problem.observed)),
+        Series::new(
+            "measured",
+            Colour::Orange,
+            Style::Line,
+            points(problem, sensor, &problem.observed),
+        ),
         Series::new("learned model", Colour::Blue, Style::Line, points(problem, sensor, &model)),
     ];
     let left = vec![
-        Series::new("before", Colour::Orange, Style::Line, points(problem, sensor, &diagnosis.before)),
-        Series::new("after", Colour::Blue, Style::Line, points(problem, sensor, &diagnosis.state.fit.left)),
+        Series::new(
+            "before",
+            Colour::Orange,
+            Style::Line,
+            points(problem, sensor, &diagnosis.before),
+        ),
+        Series::new(
+            "after",
+            Colour::Blue,
+            Style::Line,
+            points(problem, sensor, &diagnosis.state.fit.left),
+        ),
     ];
     let turns: Vec<f64> = problem.record.turns().collect();
     let spectrum = |name, colour, values: &[f64]| {
@@ -119,7 +140,8 @@ fn before_and_after(problem: &Problem, diagnosis: &Diagnosis, sensor: usize) -> 
 
 fn rounds(diagnosis: &Diagnosis, unit: &str) -> Table {
     let (seen, unseen) = (format!("rms in {unit}"), format!("held out in {unit}"));
-    let mut table = Table::new(["round", "added", seen.as_str(), unseen.as_str(), "chance", "dropped"]);
+    let mut table =
+        Table::new(["round", "added", seen.as_str(), unseen.as_str(), "chance", "dropped"]);
     for round in &diagnosis.rounds {
         table.row([
             round.round.to_string(),
@@ -135,7 +157,8 @@ fn rounds(diagnosis: &Diagnosis, unit: &str) -> Table {
 
 fn parameters(diagnosis: &Diagnosis) -> Table {
     let mut table = Table::new(["effect", "parameter", "value", "standard error", ""]);
-    for effect in diagnosis.rounds.last().map(|round| round.effects.as_slice()).unwrap_or_default() {
+    for effect in diagnosis.rounds.last().map(|round| round.effects.as_slice()).unwrap_or_default()
+    {
         for parameter in &effect.parameters {
             table.row([
                 effect.name.clone(),
@@ -152,7 +175,13 @@ fn parameters(diagnosis: &Diagnosis) -> Table {
 fn tried(diagnosis: &Diagnosis, unit: &str) -> Table {
     let (seen, unseen) = (format!("rms in {unit}"), format!("held out in {unit}"));
     let mut table = Table::new([
-        "effect", "in the model", seen.as_str(), unseen.as_str(), "chance", "cannot be told from", "to tell them apart",
+        "effect",
+        "in the model",
+        seen.as_str(),
+        unseen.as_str(),
+        "chance",
+        "cannot be told from",
+        "to tell them apart",
     ]);
     for one in &diagnosis.candidates {
         table.row([

@@ -33,11 +33,7 @@ pub struct Added {
 /// # Errors
 ///
 /// [`EffectError`] when a column of data or a section of the machine file is missing.
-pub fn add(
-    problem: &Problem,
-    beside: &[Term],
-    term: &Term,
-) -> Result<Option<Added>, EffectError> {
+pub fn add(problem: &Problem, beside: &[Term], term: &Term) -> Result<Option<Added>, EffectError> {
     problem.design(term)?;
     let before = State::bare(problem);
     let others: Vec<Component> = beside.iter().cloned().map(Component::new).collect();

@@ -101,8 +101,7 @@ pub struct Step {
 #[must_use]
 pub fn search(problem: &mut Problem) -> Vec<Step> {
     let bare = State::bare(problem);
-    let mut steps =
-        vec![Step { state: bare, tried: Vec::new(), added: None, dropped: Vec::new() }];
+    let mut steps = vec![Step { state: bare, tried: Vec::new(), added: None, dropped: Vec::new() }];
     for _ in 0..MOST_ROUNDS {
         let last = steps.len() - 1;
         let now = &steps[last].state;
@@ -157,9 +156,8 @@ const TIME_LOCK: f64 = 12.0;
 /// Lines come in numbers, and so do slips; of curves and bumps a sum can imitate anything.
 fn repeats(judged: &Judged, now: &State) -> bool {
     let term = &judged.component.term;
-    let periodic = term.parameters.iter().any(|what| {
-        what.role == Role::Amplitude || what.name == "count"
-    });
+    let periodic =
+        term.parameters.iter().any(|what| what.role == Role::Amplitude || what.name == "count");
     let before = now.components.iter().filter(|other| other.term.name == term.name).count();
     before == 0 || (periodic && before < 3)
 }
@@ -191,7 +189,8 @@ pub fn tried(problem: &Problem, now: &State) -> Vec<Judged> {
     let again = trials(&clear);
     let mut all = judged_shortlist(problem, now, &[again]);
     for judged in first {
-        let known = all.iter().position(|other| other.component.term.name == judged.component.term.name);
+        let known =
+            all.iter().position(|other| other.component.term.name == judged.component.term.name);
         match known {
             Some(place) if all[place].evidence < judged.evidence => all[place] = judged,
             Some(_) => {}

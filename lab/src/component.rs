@@ -50,14 +50,10 @@ impl Component {
     pub fn counts(&self) -> Vec<usize> {
         let atoms = self.atoms();
         let linear = self.term.parameters.iter().filter(|what| {
-            matches!(
-                what.role,
-                Role::Amplitude | Role::Linear | Role::Squared | Role::Known { .. }
-            )
+            matches!(what.role, Role::Amplitude | Role::Linear | Role::Squared | Role::Known { .. })
         });
-        let counting = |what: &helixlock_plant::Parameter| {
-            what.role == Role::Linear && what.name == "count"
-        };
+        let counting =
+            |what: &helixlock_plant::Parameter| what.role == Role::Linear && what.name == "count";
         linear.zip(atoms).filter(|(what, _)| counting(what)).map(|(_, atom)| atom[0]).collect()
     }
 
@@ -72,7 +68,10 @@ impl Component {
     /// # Errors
     ///
     /// [`EffectError`] when a column or a section of the machine file is missing.
-    pub fn design(&self, problem: &Problem) -> Result<(Design, Vec<Option<(f64, f64)>>), EffectError> {
+    pub fn design(
+        &self,
+        problem: &Problem,
+    ) -> Result<(Design, Vec<Option<(f64, f64)>>), EffectError> {
         let Design { columns, fixed } = problem.design(&self.term)?;
         let held = self.term.priors().into_iter().zip(&self.whole);
         let priors = held.map(|(prior, whole)| whole.map(|w| (w, WHOLE_STDERR)).or(prior));
@@ -118,7 +117,9 @@ impl Component {
             let width = match what.role {
                 Role::Amplitude => 2,
                 Role::Linear | Role::Squared | Role::Known { .. } => 1,
-                Role::Phase if index == parameter => return self.kept.get(column - 1) == Some(&true),
+                Role::Phase if index == parameter => {
+                    return self.kept.get(column - 1) == Some(&true);
+                }
                 Role::Nonlinear if index == parameter => return true,
                 Role::Phase | Role::Nonlinear => 0,
             };

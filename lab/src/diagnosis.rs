@@ -216,7 +216,8 @@ fn rejected(tried: &[Judged], chosen: Option<&str>) -> Vec<(String, String)> {
                     best.evidence - judged.evidence
                 ),
                 None if judged.p_value < crate::probes::SIGNIFICANCE => {
-                    "outside its plausible range, too small to matter, or worse on held-out data".to_owned()
+                    "outside its plausible range, too small to matter, or worse on held-out data"
+                        .to_owned()
                 }
                 None => format!("not beyond chance: p = {:.2e}", judged.p_value),
             };
@@ -292,18 +293,14 @@ fn warning_at_bound(
         .then_some("at the bound of its plausible range")
 }
 
-fn ranked(
-    state: &State,
-    found: &[Found],
-    first: &[Judged],
-    experiments: &[Advice],
-) -> Vec<Ranked> {
+fn ranked(state: &State, found: &[Found], first: &[Judged], experiments: &[Advice]) -> Vec<Ranked> {
     let best = first.iter().map(|judged| judged.evidence).fold(f64::NEG_INFINITY, f64::max);
     let mut all: Vec<Ranked> = Vec::new();
     for found in found {
         let name = &state.components[found.index].term.name;
         let own = found.tried.iter().find(|judged| judged.component.term.name == *name);
-        let Some(own) = own.or_else(|| first.iter().find(|j| j.component.term.name == *name)) else {
+        let Some(own) = own.or_else(|| first.iter().find(|j| j.component.term.name == *name))
+        else {
             continue;
         };
         let mut one = of_judged(own, own.evidence, true);
@@ -327,7 +324,8 @@ fn mirror(one: &mut Ranked, state: &State, found: &[Found], experiments: &[Advic
     for found in found.iter().filter(|found| found.confused.contains(&one.name)) {
         let component: &Component = &state.components[found.index];
         one.confounded_with.push(component.term.name.clone());
-        one.confounded_with.extend(found.confused.iter().filter(|name| **name != one.name).cloned());
+        one.confounded_with
+            .extend(found.confused.iter().filter(|name| **name != one.name).cloned());
         one.separate_by = Some(experiment::for_pair(experiments, &one.name, component));
     }
 }

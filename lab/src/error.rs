@@ -20,9 +20,7 @@ pub enum LabError {
         expected: &'static str,
     },
     /// No column says where or when a sample was taken.
-    #[error(
-        "{path}: found columns {found}, expected one of `position_mm`, `time_s`, `angle_rev`"
-    )]
+    #[error("{path}: found columns {found}, expected one of `position_mm`, `time_s`, `angle_rev`")]
     NoCoordinate {
         /// The file.
         path: String,

@@ -63,7 +63,8 @@ pub fn advice(problem: &Problem, state: &State, found: &[Found]) -> Vec<Advice> 
         let own = &state.components[found.index];
         let (used, _) = state.coefficients(found.index);
         let own_term = own.valued(used);
-        for rival in found.tried.iter().filter(|j| found.confused.contains(&j.component.term.name)) {
+        for rival in found.tried.iter().filter(|j| found.confused.contains(&j.component.term.name))
+        {
             let from = rival.fit.linear.coefficients.len() - rival.component.width();
             let rival_term = rival.component.valued(&rival.fit.linear.coefficients[from..]);
             all.extend(pair_advice(problem, &own_term, &rival_term));
@@ -145,4 +146,3 @@ fn repeat_with(measurement: &mut Measurement, column: &str, value: f64) {
     let rows = measurement.len();
     measurement.covariates.insert(column.to_owned(), vec![value; rows]);
 }
-

@@ -81,8 +81,16 @@ pub struct Measurement {
 
 /// Columns that are coordinates or sensors; every other one is a covariate.
 const NOT_COVARIATES: [&str; 10] = [
-    "time_s", "position_mm", "angle_rev", "speed_rpm", "direction", "pass", "error_um",
-    "error_arcsec", "steps", "lead_error_um",
+    "time_s",
+    "position_mm",
+    "angle_rev",
+    "speed_rpm",
+    "direction",
+    "pass",
+    "error_um",
+    "error_arcsec",
+    "steps",
+    "lead_error_um",
 ];
 
 /// True for the columns by which a simulated trace shows the recorder before its filter, and the
@@ -131,7 +139,9 @@ impl Measurement {
         let mut notes = coordinates.notes.clone();
         let dropped = table.rows() - rows.len();
         if 0 < dropped {
-            notes.push(format!("{dropped} rows without a coordinate or an observation are left out"));
+            notes.push(format!(
+                "{dropped} rows without a coordinate or an observation are left out"
+            ));
         }
         let passes = passes::split(table, &coordinates, &rows, &mut notes);
         Ok(assemble(table, nominal, &coordinates, passes, notes))

@@ -50,7 +50,8 @@ impl Noise {
     /// The same shape with all variances multiplied.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
-        let slow = self.slow.iter().map(|part| SlowPart { variance: part.variance * factor, ..*part });
+        let slow =
+            self.slow.iter().map(|part| SlowPart { variance: part.variance * factor, ..*part });
         Self { white: self.white * factor, slow: slow.collect() }
     }
 }
@@ -126,7 +127,8 @@ impl Whitener {
             for row in rows.clone() {
                 let mut value = column[row];
                 for (part, memory) in state.iter_mut().enumerate() {
-                    let carried = if row == rows.start { 0.0 } else { self.gain[row - 1][part] * before };
+                    let carried =
+                        if row == rows.start { 0.0 } else { self.gain[row - 1][part] * before };
                     *memory = self.decay[row][part] * (*memory + carried);
                     value -= self.variance[row][part] * *memory;
                 }
@@ -286,7 +288,8 @@ struct DecayCache {
 
 impl DecayCache {
     fn over(&mut self, interval: f64, noise: &Noise) -> [f64; PARTS] {
-        let same = self.interval.is_some_and(|known| (known - interval).abs() <= 1e-9 * interval.abs());
+        let same =
+            self.interval.is_some_and(|known| (known - interval).abs() <= 1e-9 * interval.abs());
         if !same {
             self.interval = Some(interval);
             for (slot, part) in self.decay.iter_mut().zip(&noise.slow) {
@@ -312,10 +315,8 @@ mod tests {
             Block { sensor: 0, pass: 0, rows: 0..6 },
             Block { sensor: 1, pass: 0, rows: 6..10 },
         ];
-        let slow = vec![
-            SlowPart { variance: 2.0, length: 1.5 },
-            SlowPart { variance: 0.7, length: 40.0 },
-        ];
+        let slow =
+            vec![SlowPart { variance: 2.0, length: 1.5 }, SlowPart { variance: 0.7, length: 40.0 }];
         let noises = vec![Noise { white: 0.3, slow }, Noise { white: 1.1, slow: vec![] }];
         (Layout { blocks, clock, inflation }, noises)
     }

@@ -71,13 +71,7 @@ fn best_of(fits: impl Iterator<Item = NoiseFit>) -> NoiseFit {
         .unwrap_or(NoiseFit { noise: Noise::white(), log_likelihood: f64::NEG_INFINITY })
 }
 
-fn searched(
-    layout: &Layout,
-    residual: &[f64],
-    start: &[f64],
-    span: f64,
-    edge: f64,
-) -> NoiseFit {
+fn searched(layout: &Layout, residual: &[f64], start: &[f64], span: f64, edge: f64) -> NoiseFit {
     let shape = |point: &[f64]| shaped(point, span);
     let search = Search { evaluations: 24 * start.len(), tolerance: 0.05 };
     let steps = vec![edge; start.len()];

@@ -171,8 +171,9 @@ impl Scan<'_> {
         let (sine, cosine) = (flat.coefficients[0], flat.coefficients[1]);
         let amplitude = libm::hypot(sine, cosine);
         // The third column says how the sinusoid changes with its frequency.
-        let middle = 0.5 * (self.turns.iter().copied().fold(f64::INFINITY, f64::min)
-            + self.turns.iter().copied().fold(f64::NEG_INFINITY, f64::max));
+        let middle = 0.5
+            * (self.turns.iter().copied().fold(f64::INFINITY, f64::min)
+                + self.turns.iter().copied().fold(f64::NEG_INFINITY, f64::max));
         let slope: Vec<f64> = self
             .turns
             .iter()

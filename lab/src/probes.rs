@@ -105,7 +105,8 @@ fn smooth(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
     let noise = rms(&problem.layout, &fit.left);
     let passes = record.passes().len();
     let position = &record.position_mm;
-    let mut axes = vec![("position", position, 6), ("position", position, 24), ("position", position, 64)];
+    let mut axes =
+        vec![("position", position, 6), ("position", position, 24), ("position", position, 64)];
     if problem.machine.rotary || 1 < passes {
         axes.push(("time", &record.time_s, 6));
     }
@@ -163,7 +164,8 @@ fn cyclic_shapes(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure
     axes.into_iter()
         .filter(|(_, order)| enough(order))
         .map(|(along, order)| {
-            let (rms_um, p_value) = probe(problem, model, fit, stacked(problem, &turning(&turns, order)));
+            let (rms_um, p_value) =
+                probe(problem, model, fit, stacked(problem, &turning(&turns, order)));
             Structure {
                 along: along.to_owned(),
                 shape: "shape that repeats each turn".to_owned(),
@@ -306,7 +308,8 @@ fn covariates(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
         .into_iter()
         .filter(|(_, values)| 0.0 < spread(values))
         .map(|(name, values)| {
-            let (rms_um, p_value) = probe(problem, model, fit, stacked(problem, std::slice::from_ref(values)));
+            let (rms_um, p_value) =
+                probe(problem, model, fit, stacked(problem, std::slice::from_ref(values)));
             Structure {
                 along: name.to_owned(),
                 shape: "straight relation".to_owned(),

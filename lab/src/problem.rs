@@ -1,9 +1,7 @@
 //! A measurement against a machine, as the rows of one least-squares problem.
 
 use helixlock_plant::prediction::{Sensor, gain, meter_um, observe, predict};
-use helixlock_plant::{
-    EffectError, Entry, Machine, Record, Samples, Term,
-};
+use helixlock_plant::{EffectError, Entry, Machine, Record, Samples, Term};
 
 use crate::layout::{Block, Layout};
 use crate::measurement::Measurement;
@@ -121,12 +119,11 @@ impl Problem {
     ///
     /// [`EffectError`] when a column or a section of the machine file is missing.
     pub fn design(&self, term: &Term) -> Result<Design, EffectError> {
-        let context = helixlock_plant::Context {
-            machine: &self.machine,
-            columns: &self.record.columns,
-        };
+        let context =
+            helixlock_plant::Context { machine: &self.machine, columns: &self.record.columns };
         let basis = term.basis(&context)?;
-        let columns = basis.columns.iter().map(|c| self.column(term.entry, &c.deltas_um(&self.record)));
+        let columns =
+            basis.columns.iter().map(|c| self.column(term.entry, &c.deltas_um(&self.record)));
         let fixed = basis.fixed.map(|f| self.column(term.entry, &f.deltas_um(&self.record)));
         Ok(Design { columns: columns.collect(), fixed })
     }

@@ -109,8 +109,10 @@ mod tests {
     #[test]
     fn a_shape_that_repeats_is_found_at_other_places_too() {
         let shape = |x: f64| libm::sin(0.3 * x * x);
-        let a: Vec<_> = (0..400).map(|i| (0.05 * f64::from(i), shape(0.05 * f64::from(i)))).collect();
-        let b: Vec<_> = (0..400).map(|i| 1.0 + 0.047 * f64::from(i)).map(|x| (x, shape(x))).collect();
+        let a: Vec<_> =
+            (0..400).map(|i| (0.05 * f64::from(i), shape(0.05 * f64::from(i)))).collect();
+        let b: Vec<_> =
+            (0..400).map(|i| 1.0 + 0.047 * f64::from(i)).map(|x| (x, shape(x))).collect();
         let (correlation, deviation) = correlation(&a, &b).unwrap();
         assert!(0.9 < correlation && deviation < 0.2, "{correlation} {deviation}");
     }

@@ -18,7 +18,8 @@ pub struct Setting {
 }
 
 /// Leads taken for each other: inch for metric, two starts, π as 22/7.
-const LEAD_RATIOS: [f64; 5] = [25.4 / 25.0, 25.0 / 25.4, 2.0, 0.5, 22.0 / 7.0 / std::f64::consts::PI];
+const LEAD_RATIOS: [f64; 5] =
+    [25.4 / 25.0, 25.0 / 25.4, 2.0, 0.5, 22.0 / 7.0 / std::f64::consts::PI];
 
 /// All settings worth a look: digit slips and neighbours, counts of ten for counts of two, the
 /// other track, inch for metric.
@@ -28,9 +29,13 @@ pub fn alternatives(machine: &Machine) -> Vec<Setting> {
         return Vec::new();
     };
     let lead_mm = machine.workpiece.lead.mm();
-    let lines = line_counts(machine.grating.lines).into_iter().map(|n| ("grating.lines", "lines", f64::from(n)));
-    let a = slips(u32::from(machine.dividers.a)).into_iter().map(|n| ("dividers.a", "a", f64::from(n)));
-    let b = slips(u32::from(machine.dividers.b)).into_iter().map(|n| ("dividers.b", "b", f64::from(n)));
+    let lines = line_counts(machine.grating.lines)
+        .into_iter()
+        .map(|n| ("grating.lines", "lines", f64::from(n)));
+    let a =
+        slips(u32::from(machine.dividers.a)).into_iter().map(|n| ("dividers.a", "a", f64::from(n)));
+    let b =
+        slips(u32::from(machine.dividers.b)).into_iter().map(|n| ("dividers.b", "b", f64::from(n)));
     // The recorder's scale may be that of the true divider as well: the slope is then B′/B − 1,
     // which the effect gives for this b.
     let scaled = slips(u32::from(machine.dividers.b)).into_iter().filter_map(|n| {

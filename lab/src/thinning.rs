@@ -20,7 +20,8 @@ impl Problem {
     pub fn thinned(&self, most: usize) -> Option<Self> {
         let mut together = self.rows.len().div_ceil(most.max(1));
         if let Some(order) = self.fastest_line().filter(|_| 1 < together) {
-            let samples_a_period = 2.0 * highest_order(&self.record.turns().collect::<Vec<_>>()) / order;
+            let samples_a_period =
+                2.0 * highest_order(&self.record.turns().collect::<Vec<_>>()) / order;
             while 1 < together && samples_a_period < SAMPLES_A_PERIOD * count(together) {
                 together -= 1;
             }
@@ -43,7 +44,9 @@ impl Problem {
                 let left: Vec<f64> = rows.iter().map(|&row| residual[row]).collect();
                 let turns: Vec<f64> = rows
                     .iter()
-                    .map(|&row| self.record.spindle_rad[self.rows[row].sample] / std::f64::consts::TAU)
+                    .map(|&row| {
+                        self.record.spindle_rad[self.rows[row].sample] / std::f64::consts::TAU
+                    })
                     .collect();
                 let highest = highest_order(&turns);
                 // Differences of neighbours leave only what is fast.
@@ -64,7 +67,10 @@ impl Problem {
                     lowest: 1.5 / spread(&turns).max(f64::MIN_POSITIVE),
                     highest,
                 };
-                scan.lines(&white, SIGNIFICANCE, 3).iter().map(|line| line.frequency).max_by(f64::total_cmp)
+                scan.lines(&white, SIGNIFICANCE, 3)
+                    .iter()
+                    .map(|line| line.frequency)
+                    .max_by(f64::total_cmp)
             })
             .max_by(f64::total_cmp)
     }

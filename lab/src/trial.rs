@@ -86,11 +86,7 @@ pub fn gain_at(stage: &Stage<'_>, component: &Component) -> Option<Gain> {
 }
 
 /// Nonlinear values improved from a grid point, within their ranges.
-fn refined(
-    stage: &Stage<'_>,
-    candidate: &Candidate,
-    point: usize,
-) -> (helixlock_plant::Term, f64) {
+fn refined(stage: &Stage<'_>, candidate: &Candidate, point: usize) -> (helixlock_plant::Term, f64) {
     let start = &sharpened(stage, candidate, &candidate.grid[point]);
     let free: Vec<usize> = (0..start.len()).filter(|&i| candidate.steps[i] != 0.0).collect();
     let ranges: Vec<(f64, f64)> = candidate
@@ -103,7 +99,8 @@ fn refined(
     let place = |moved: &[f64]| {
         let mut values = start.clone();
         for (&i, shift) in free.iter().zip(moved) {
-            values[i] = start[i] + shift * candidate.steps[i].min(step_of(start[i], candidate.steps[i]));
+            values[i] =
+                start[i] + shift * candidate.steps[i].min(step_of(start[i], candidate.steps[i]));
             if ranges[i].0 < ranges[i].1 {
                 values[i] = values[i].clamp(ranges[i].0, ranges[i].1);
             }

@@ -73,7 +73,8 @@ fn slope(
     let moved = |by: f64| {
         let mut nonlinear = component.term.nonlinear();
         nonlinear[place] += by;
-        let other = Component { term: component.term.with_nonlinear(&nonlinear), ..component.clone() };
+        let other =
+            Component { term: component.term.with_nonlinear(&nonlinear), ..component.clone() };
         let columns = Columns::of(problem, &[other]).ok()?;
         let nothing = vec![0.0; problem.rows.len()];
         Some(columns.left(&nothing, coefficients))

@@ -28,7 +28,8 @@ pub(crate) fn complete(table: &Table, nominal: &Nominal) -> Result<Coordinates, 
     let position = table.column("position_mm");
     let angle = table.column("angle_rev");
     let turns_per_second = nominal.speed_rpm / 60.0;
-    let scaled = |values: &[f64], factor: f64| values.iter().map(|v| v * factor).collect::<Vec<_>>();
+    let scaled =
+        |values: &[f64], factor: f64| values.iter().map(|v| v * factor).collect::<Vec<_>>();
     let mut notes = Vec::new();
     let angle_rev = match (angle, position, time) {
         (Some(angle), _, _) => angle.to_vec(),

@@ -18,7 +18,9 @@ impl Measurement {
         let observations: BTreeMap<_, _> = self
             .observations
             .iter()
-            .map(|(sensor, values)| (*sensor, groups.iter().map(|g| present(&values[g.clone()])).collect()))
+            .map(|(sensor, values)| {
+                (*sensor, groups.iter().map(|g| present(&values[g.clone()])).collect())
+            })
             .collect();
         Self {
             time_s: mean(&self.time_s),

@@ -92,7 +92,8 @@ fn warnings(spacing: Spacing, samples: usize) -> Vec<String> {
         }
     }
     let common = gcd(gcd(spacing.first, spacing.second), samples);
-    if 1 < common {
+    // Half the samples is above the harmonics that are worked out.
+    if 2 < common {
         warnings.push(format!(
             "the spacings and the {samples} samples share the divisor {common}: every {}th harmonic is lost",
             samples / common
