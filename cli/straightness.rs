@@ -28,6 +28,7 @@ use crate::straightness_summary::{json_of, plan_json, print, print_plan};
 /// uncertainty, by Fourier series and by least squares without periodicity. Exit status 1: the
 /// straightness exceeds `--limit`.
 #[derive(Debug, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of the command line")]
 pub(crate) struct StraightnessCommand {
     /// Readings of the three probes; not needed with `--plan`
     #[arg(value_name = "DATA", required_unless_present = "plan")]

@@ -1,6 +1,6 @@
 //! The commands of documents 2 to 5, on the files of their examples and on files nobody should write.
 //!
-//! Expected numbers were worked out once from the same files with NumPy (`polyfit`, `fft`, slices
+//! Expected numbers were worked out once from the same files with `numpy` (`polyfit`, `fft`, slices
 //! looked through one by one): a second implementation that shares nothing with this one.
 
 use std::path::{Path, PathBuf};
@@ -155,9 +155,9 @@ fn a_scale_table_takes_5_5_um_to_1_um() {
     for name in ["table.hex", "table.bin"] {
         let image = folder.path().join(name);
         let image = image.to_str().expect("UTF-8");
-        let build =
+        let making =
             ["scale", "build", "inductosyn-scale/table.csv", "-o", image, "--joint-zone", "8 mm"];
-        let built = result(&build);
+        let built = result(&making);
         near(&built["joints"][0]["step_um"], 2.0, 0.15);
         let found = result(&["scale", "apply", image, "inductosyn-scale/check.csv"]);
         near(&found["before"]["largest_um"], 5.5, 0.2);
