@@ -119,7 +119,6 @@ impl Summary {
 
     /// For people.
     pub(crate) fn print(&self, out: &mut impl Write) -> io::Result<()> {
-        let (before, after) = (&self.without_correction, &self.with_correction);
         let run = &self.run;
         writeln!(out, "{}", self.title)?;
         writeln!(
@@ -127,17 +126,26 @@ impl Summary {
             "{:.0} mm in {:.1} s, {} comparisons, {} clocks at {} Hz\n",
             run.length_mm, run.duration_s, run.comparisons, run.clocks, run.clock_hz
         )?;
+        self.print_errors(out)?;
+        self.print_motor(out)?;
+        self.notes.iter().try_for_each(|note| writeln!(out, "note: {note}"))
+    }
+
+    fn print_errors(&self, out: &mut impl Write) -> io::Result<()> {
+        let (before, after) = (&self.without_correction, &self.with_correction);
         writeln!(out, "peak to peak, um          without correction   with")?;
-        let mut row = |name: &str, before: f64, after: f64| {
-            writeln!(out, "{name:<26}{before:>18.2}{after:>7.2}")
-        };
-        row("periodic lead error", before.periodic_error_um, after.periodic_error_um)?;
-        row("cumulative lead error", before.cumulative_error_um, after.cumulative_error_um)?;
-        row(
-            "lead error in all",
-            before.lead_error_peak_to_peak_um,
-            after.lead_error_peak_to_peak_um,
-        )?;
+        let rows: [(&str, fn(&PassSummary) -> f64); 3] = [
+            ("periodic lead error", |pass| pass.periodic_error_um),
+            ("cumulative lead error", |pass| pass.cumulative_error_um),
+            ("lead error in all", |pass| pass.lead_error_peak_to_peak_um),
+        ];
+        rows.iter().try_for_each(|(name, value)| {
+            writeln!(out, "{name:<26}{:>18.2}{:>7.2}", value(before), value(after))
+        })
+    }
+
+    fn print_motor(&self, out: &mut impl Write) -> io::Result<()> {
+        let (after, slew) = (&self.with_correction, &self.slew);
         writeln!(out, "\nsteps: {} taken, net {}", after.steps_taken, after.steps_net)?;
         if let Some(hunting) = &self.hunting {
             writeln!(
@@ -146,13 +154,11 @@ impl Summary {
                 hunting.frequency_hz, hunting.ratio, hunting.comparison_hz, hunting.swing_um
             )?;
         }
-        let slew = &self.slew;
         writeln!(
             out,
             "motor follows up to {:.3} um/s, the error moves at up to {:.3} um/s",
             slew.limit_um_per_s, slew.needed_um_per_s
-        )?;
-        self.notes.iter().try_for_each(|note| writeln!(out, "note: {note}"))
+        )
     }
 }
 

@@ -52,8 +52,6 @@ pub struct Sample {
     pub place: Place,
     /// Net steps then, forward positive.
     pub steps: i64,
-    /// Direction chosen then.
-    pub forward: bool,
 }
 
 /// The device and the machine, joined.
@@ -87,7 +85,7 @@ struct Meter {
     t1: bool,
     dividing: bool,
     stepping: bool,
-    ended: Option<(f64, Place, i64, bool)>,
+    ended: Option<(f64, Place, i64)>,
     reading_um: f64,
 }
 
@@ -273,18 +271,17 @@ impl<E: Engine, P: Process> ClosedLoop<E, P> {
         if self.moving { self.plan_fringe() } else { Ok(()) }
     }
 
-    fn now(&mut self) -> (f64, Place, i64, bool) {
+    fn now(&mut self) -> (f64, Place, i64) {
         let time_s = time_of(self.engine.clock(), self.clock_hz);
-        let forward = self.engine.value(self.pins.forward) == 1;
-        (time_s, self.process.place(time_s), self.steps, forward)
+        (time_s, self.process.place(time_s), self.steps)
     }
 
     fn end_comparison(&mut self, clock: u64) {
         let ended = self.meter.ended.take();
         if let Some(comparison) = self.meter.recorder.compare(clock) {
-            let (time_s, place, steps, forward) = ended.unwrap_or_else(|| self.now());
+            let (time_s, place, steps) = ended.unwrap_or_else(|| self.now());
             self.meter.reading_um = comparison.error_um(self.meter.full_scale_um);
-            self.samples.push(Sample { comparison, time_s, place, steps, forward });
+            self.samples.push(Sample { comparison, time_s, place, steps });
         }
     }
 
