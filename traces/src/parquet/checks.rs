@@ -1,0 +1,124 @@
+//! What is refused before and after a Parquet file is read.
+
+use std::path::Path;
+
+use ::parquet::basic::{Compression, ConvertedType, LogicalType, Type as PhysicalType};
+use ::parquet::column::page::Page;
+use ::parquet::errors::ParquetError;
+use ::parquet::file::metadata::RowGroupMetaData;
+use ::parquet::file::reader::{FileReader, SerializedFileReader};
+use ::parquet::schema::types::ColumnDescriptor;
+use bytes::Bytes;
+
+use crate::error::{At, TraceError};
+use crate::table::{Column, Table};
+
+/// What fits into the memory of an ordinary machine: 800 MB a column.
+const MOST_ROWS: usize = 100_000_000;
+
+/// Lets plain numbers and truth values through.
+pub(super) fn check_type(
+    column: &ColumnDescriptor,
+    name: &str,
+    path: &Path,
+) -> Result<(), TraceError> {
+    use ConvertedType::{INT_8, INT_16, INT_32, INT_64, NONE, UINT_8, UINT_16, UINT_32, UINT_64};
+    let found = match (column.physical_type(), column.converted_type()) {
+        _ if column.max_rep_level() > 0 => "lists".to_owned(),
+        (PhysicalType::BYTE_ARRAY | PhysicalType::FIXED_LEN_BYTE_ARRAY, NONE) => "bytes".to_owned(),
+        (PhysicalType::INT96, _) => "times".to_owned(),
+        (_, NONE | INT_8 | INT_16 | INT_32 | INT_64 | UINT_8 | UINT_16 | UINT_32 | UINT_64)
+            if is_plain(column.logical_type_ref()) =>
+        {
+            return Ok(());
+        }
+        (_, converted) => format!("type {converted}").to_lowercase(),
+    };
+    Err(TraceError::ColumnType { path: path.to_owned(), name: name.to_owned(), found })
+}
+
+/// Rows that the footer declares; a few bytes can stand for any number of equal ones.
+pub(super) fn declared_rows(file: &SerializedFileReader<Bytes>) -> Result<usize, ParquetError> {
+    let groups = file.metadata().row_groups().iter().map(RowGroupMetaData::num_rows);
+    let rows = groups.map(|rows| usize::try_from(rows).ok()).sum::<Option<usize>>();
+    rows.filter(|rows| *rows <= MOST_ROWS).ok_or_else(|| {
+        ParquetError::General(format!("found another number of rows, expected 0 to {MOST_ROWS}"))
+    })
+}
+
+/// Refuses columns that lie outside the file, on which the library would panic.
+pub(super) fn check_places(
+    file: &SerializedFileReader<Bytes>,
+    size: usize,
+) -> Result<(), ParquetError> {
+    for column in file.metadata().row_groups().iter().flat_map(RowGroupMetaData::columns) {
+        let start = column.dictionary_page_offset().unwrap_or(column.data_page_offset());
+        let end = start.checked_add(column.compressed_size());
+        let inside = |place: i64| usize::try_from(place).is_ok_and(|place| place <= size);
+        if column.compressed_size() < 0 || !inside(start) || !end.is_some_and(inside) {
+            return Err(ParquetError::General("a column lies outside the file".into()));
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a dictionary of more entries than it has bytes, for which the library would ask for
+/// any amount of memory.
+pub(super) fn check_dictionary(
+    file: &SerializedFileReader<Bytes>,
+    group: usize,
+    index: usize,
+) -> Result<(), ParquetError> {
+    let first = file.get_row_group(group)?.get_column_page_reader(index)?.get_next_page()?;
+    match first {
+        Some(Page::DictionaryPage { buf, num_values, .. }) if buf.len() < num_values as usize => {
+            Err(ParquetError::General("a dictionary is cut off".into()))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Refuses what would need yet another library to unpack.
+pub(super) fn check_compression(
+    file: &SerializedFileReader<Bytes>,
+    index: usize,
+    name: &str,
+    path: &Path,
+) -> Result<(), TraceError> {
+    for column in file.metadata().row_groups().iter().filter_map(|group| group.columns().get(index))
+    {
+        let found = match column.compression() {
+            Compression::BROTLI(_) => "brotli",
+            Compression::LZO => "lzo",
+            _ => continue,
+        };
+        return Err(TraceError::Compression { path: path.into(), name: name.into(), found });
+    }
+    Ok(())
+}
+
+fn is_plain(logical: Option<&LogicalType>) -> bool {
+    matches!(logical, None | Some(LogicalType::Integer(_)))
+}
+
+/// Refuses columns of unequal length, infinite values, and a table without rows.
+pub(super) fn check_rows(table: &Table) -> Result<(), TraceError> {
+    let rows = table.rows();
+    let broken = |message: String| TraceError::Parquet { path: table.path.clone(), message };
+    for Column { name, values } in &table.columns {
+        if values.len() != rows {
+            return Err(broken(format!("column `{name}` has {} rows of {rows}", values.len())));
+        }
+        if let Some(row) = values.iter().position(|value| value.is_infinite()) {
+            return Err(TraceError::ColumnType {
+                path: table.path.clone(),
+                name: name.clone(),
+                found: format!("infinity in row {}", row + 1),
+            });
+        }
+    }
+    if rows == 0 {
+        return Err(TraceError::Empty { at: At::file(&table.path), found: "no rows" });
+    }
+    Ok(())
+}
