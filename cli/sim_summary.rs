@@ -77,6 +77,9 @@ pub(crate) struct PlaybackSummary {
     pub(crate) steps_left: i64,
 }
 
+/// A number of a pass.
+type Quantity = fn(&PassSummary) -> f64;
+
 impl Summary {
     pub(crate) fn new(file: &Path, machine: &Machine, simulation: &Simulation) -> Self {
         let findings = simulation.findings();
@@ -134,7 +137,7 @@ impl Summary {
     fn print_errors(&self, out: &mut impl Write) -> io::Result<()> {
         let (before, after) = (&self.without_correction, &self.with_correction);
         writeln!(out, "peak to peak, um          without correction   with")?;
-        let rows: [(&str, fn(&PassSummary) -> f64); 3] = [
+        let rows: [(&str, Quantity); 3] = [
             ("periodic lead error", |pass| pass.periodic_error_um),
             ("cumulative lead error", |pass| pass.cumulative_error_um),
             ("lead error in all", |pass| pass.lead_error_peak_to_peak_um),

@@ -24,11 +24,11 @@ pub(crate) fn page(
     let mut parts = vec![Part::Numbers(numbers(summary))];
     parts.extend(summary.notes.iter().cloned().map(Part::Note));
     parts.extend([
-        picture(lead_error(simulation), LEAD_CAPTION),
+        picture(&lead_error(simulation), LEAD_CAPTION),
         Part::Table(table(summary)),
         Part::Heading("Recorder, steps and hunting".into()),
-        picture(recorder(simulation), RECORDER_CAPTION),
-        picture(hunting(simulation), HUNTING_CAPTION),
+        picture(&recorder(simulation), RECORDER_CAPTION),
+        picture(&hunting(simulation), HUNTING_CAPTION),
         Part::Heading("Wave-forms of the simulated device".into()),
         Part::Picture {
             svg: comparison_picture(&illustrations.comparison, clock_hz),
@@ -137,7 +137,7 @@ fn table(summary: &Summary) -> Table {
     table
 }
 
-fn picture(figure: Figure, caption: &str) -> Part {
+fn picture(figure: &Figure, caption: &str) -> Part {
     Part::Picture { svg: figure.svg(), caption: caption.into() }
 }
 
