@@ -315,8 +315,7 @@ fn truncated(e: Expression, width: u32) -> Expression {
     match e.node {
         Node::Add(a, b) => add(slice(*a, 0, width), slice(*b, 0, width)),
         Node::Subtract(a, b) => subtract(slice(*a, 0, width), slice(*b, 0, width)),
-        Node::ShiftUp(a, by) if by.as_constant().is_some_and(|by| by >= u64::from(width)) => {
-            let _ = a;
+        Node::ShiftUp(_, by) if by.as_constant().is_some_and(|by| u64::from(width) <= by) => {
             Expression::constant(width, 0)
         }
         Node::ShiftUp(a, by) if significant(&by) <= width => {
