@@ -7,7 +7,7 @@
 mod icarus;
 mod post_synthesis;
 mod records;
-mod stimulus;
+pub(crate) mod stimulus;
 mod verilator;
 
 use std::sync::LazyLock;
