@@ -1,12 +1,12 @@
 //! The `helixlock` command: reads files, calls the libraries, prints and writes what they say.
 
 mod add;
+mod challenge;
 mod compare;
 mod diagnose;
 mod diagnosis_json;
 mod dividers;
 mod effects;
-mod r#gen;
 mod gen_summary;
 mod gen_vectors;
 mod learn;
@@ -31,6 +31,7 @@ mod straightness_summary;
 mod transmission;
 mod transmission_summary;
 mod wheels;
+mod r#gen;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -42,6 +43,7 @@ use clap::Parser;
 #[command(name = "helixlock", version, arg_required_else_help = true)]
 enum Command {
     Add(add::Add),
+    Challenge(challenge::Challenge),
     Compare(compare::Compare),
     Diagnose(diagnose::Diagnose),
     Dividers(dividers::Dividers),
@@ -71,6 +73,7 @@ fn main() -> ExitCode {
 fn run(command: Command, out: &mut impl Write) -> anyhow::Result<ExitCode> {
     match command {
         Command::Add(command) => command.run(out),
+        Command::Challenge(command) => command.run(out),
         Command::Compare(command) => command.run(out),
         Command::Diagnose(command) => command.run(out),
         Command::Dividers(command) => command.run(out),

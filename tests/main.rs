@@ -18,6 +18,7 @@ mod example_data;
 mod examples;
 mod fuzz_corpus;
 mod golden_verilog;
+mod hidden_effects;
 mod initial_phase_selector;
 mod layers;
 mod linuxcnc;

@@ -107,6 +107,11 @@ pub fn search(problem: &mut Problem) -> Vec<Step> {
         let now = &steps[last].state;
         let tried = tried(problem, now);
         let best = tried.iter().find(|judged| acceptable(problem, now, judged)).cloned();
+        if let Some(members) = known_together(problem, now, &tried) {
+            steps[last].tried = tried;
+            add_together(problem, &mut steps, members);
+            continue;
+        }
         let mut components = now.components.clone();
         steps[last].tried = tried;
         let Some(best) = best else { break };
@@ -120,6 +125,20 @@ pub fn search(problem: &mut Problem) -> Vec<Step> {
     steps
 }
 
+/// Adds the members of a set one a step.
+fn add_together(problem: &mut Problem, steps: &mut Vec<Step>, members: Vec<Component>) {
+    for member in members {
+        let before = &steps[steps.len() - 1].state;
+        let components = [before.components.clone(), vec![member.clone()]].concat();
+        let bare = State::bare(problem).fit.noises;
+        let Some(state) = State::of(problem, components, &bare) else { return };
+        let added = Some(member.term.name);
+        steps.push(Step { state, tried: Vec::new(), added, dropped: Vec::new() });
+    }
+    let left = steps[steps.len() - 1].state.fit.left.clone();
+    problem.mark_outliers(&left);
+}
+
 /// True when an effect is beyond chance, helps on unseen data and is large enough to matter.
 fn acceptable(problem: &Problem, now: &State, judged: &Judged) -> bool {
     let before = rms(&problem.layout, &now.fit.left);
@@ -127,7 +146,7 @@ fn acceptable(problem: &Problem, now: &State, judged: &Judged) -> bool {
     let unseen = holdout_rms(problem, &now.columns, &now.fit.noises);
     matters(size, judged.rms_um, judged.p_value)
         && judged.holdout_rms_um < unseen
-        && plausible(judged, now)
+        && plausible(judged)
         && repeats(judged, now)
         && locked_to_time(problem, now, judged)
 }
@@ -163,19 +182,67 @@ fn repeats(judged: &Judged, now: &State) -> bool {
 }
 
 /// True when all parameters lie in their plausible ranges, to within two standard errors.
-fn plausible(judged: &Judged, now: &State) -> bool {
-    let from = now.columns.raw.len();
+#[must_use]
+pub fn plausible(judged: &Judged) -> bool {
     let component = &judged.component;
+    let from = judged.fit.linear.coefficients.len() - component.width();
     let covariance =
         crate::fit::covariance_rows(&judged.fit.linear.covariance, from, component.width());
     let used = &judged.fit.linear.coefficients[from..];
     component.estimates(used, &covariance).iter().all(|estimate| {
+        // A square that would have to be negative is fitted as 0.
+        if component.term.parameters[estimate.parameter].role == Role::Squared
+            && estimate.value <= 0.0
+        {
+            return false;
+        }
         let range = &component.term.parameters[estimate.parameter].range;
         let slack = 2.0 * estimate.stderr;
         range.start() >= range.end()
             || (*range.start() <= estimate.value + slack && estimate.value - slack <= *range.end())
     })
 }
+
+/// Two or three effects of known size that together beat every single effect.
+///
+/// Logged physics comes together: a warm day has weather too, and one part of it alone may fit
+/// worse than none. Their coefficients are known, so a set of them has hardly any freedom.
+fn known_together(problem: &Problem, now: &State, tried: &[Judged]) -> Option<Vec<Component>> {
+    let known: Vec<Component> = candidates(&Stage::new(problem, &now.columns, &now.fit.noises))
+        .into_iter()
+        .map(|candidate| Component::new(candidate.term))
+        .filter(|component| {
+            component.term.parameters.iter().any(|what| matches!(what.role, Role::Known { .. }))
+                && now.components.iter().all(|other| other.term.name != component.term.name)
+        })
+        .collect();
+    let price = libm::log(count(problem.rows.len()).max(3.0));
+    let single = tried.first().map_or(0.0, |best| best.evidence);
+    let sets = (1_usize..1 << known.len().min(5)).filter(|set| 1 < set.count_ones());
+    let best = sets
+        .filter_map(|set| {
+            let members: Vec<Component> = (0..known.len().min(5))
+                .filter(|index| set & (1 << index) != 0)
+                .map(|index| known[index].clone())
+                .collect();
+            let all = [now.components.clone(), members.clone()].concat();
+            let columns = Columns::of(problem, &all).ok()?;
+            let rough = crate::fit::with_noise(
+                &problem.layout,
+                &columns,
+                &problem.residual(),
+                &plain_noises(problem, &now.fit),
+            );
+            let state = State::of(problem, all, &noises_of(problem, &rough.left))?;
+            let gain = 2.0 * (state.fit.log_likelihood - now.fit.log_likelihood);
+            Some((gain - price * count(members.len()), members))
+        })
+        .max_by(|a, b| a.0.total_cmp(&b.0))?;
+    (single.max(0.0) + TOGETHER < best.0).then_some(best.1)
+}
+
+/// Evidence by which a set of known effects must beat the best single one.
+const TOGETHER: f64 = 10.0;
 
 /// All candidates on what a model leaves, best evidence first.
 #[must_use]

@@ -1,6 +1,7 @@
 //! Which effects can be tried on a measurement, and where their nonlinear parameters may lie.
 
-use helixlock_plant::{CATALOGUE, Entry, Machine, Parameter, Search, Term};
+use helixlock_plant::units::{ARCSEC, UM};
+use helixlock_plant::{CATALOGUE, Entry, Formula, Machine, Parameter, Search, Term};
 
 use crate::count;
 use crate::measurement::spread;
@@ -40,16 +41,28 @@ pub fn candidates(stage: &Stage<'_>) -> Vec<Candidate> {
         .iter()
         .filter(|card| card.candidate && !card.random && problem.sees(card.entry))
         .filter(|card| card.entry != Entry::Actuator || corrector_moves(problem))
-        .map(|card| Term::candidate(card))
+        .map(|card| in_unit_of(problem, Term::candidate(card)))
         .chain(problem.extra.iter().cloned())
         .filter(|term| logged(problem, term))
         .filter_map(|term| candidate(stage, term))
         .collect()
 }
 
+/// Parameters in µm are in seconds of arc on a rotary chain.
+fn in_unit_of(problem: &Problem, mut term: Term) -> Term {
+    let lengths = term.parameters.iter_mut().filter(|what| what.unit.suffix() == UM.suffix());
+    for what in lengths.filter(|_| problem.machine.rotary) {
+        what.unit = ARCSEC;
+    }
+    term
+}
+
 /// An effect with its grid; `None` when there is no place to look for it.
 #[must_use]
 pub fn candidate(stage: &Stage<'_>, term: Term) -> Option<Candidate> {
+    if matches!(term.formula, Formula::Custom(_)) {
+        return Some(near_its_values(term));
+    }
     let axes: Vec<Vec<f64>> = term
         .parameters
         .iter()
@@ -77,6 +90,13 @@ pub fn candidate(stage: &Stage<'_>, term: Term) -> Option<Candidate> {
     }
     let candidate = Candidate { term, grid, steps, looks };
     stage.problem.design(&candidate.at(0)).is_ok().then_some(candidate)
+}
+
+/// A user's own effect is looked for near the values the user gave.
+fn near_its_values(term: Term) -> Candidate {
+    let values = term.nonlinear();
+    let steps = values.iter().map(|value| if *value == 0.0 { 0.01 } else { 0.01 * value.abs() });
+    Candidate { steps: steps.collect(), grid: vec![values], looks: 1.0, term }
 }
 
 impl Candidate {

@@ -27,6 +27,9 @@ struct Experiment {
     change: fn(&mut Measurement),
 }
 
+/// Separation below which an experiment is not proposed, µm (arcsec).
+const WORTHWHILE_UM: f64 = 0.01;
+
 const EXPERIMENTS: [Experiment; 5] = [
     Experiment {
         action: "measure once more at half the spindle speed",
@@ -88,7 +91,7 @@ fn pair_advice(problem: &Problem, a: &Term, b: &Term) -> Vec<Advice> {
                 separation_um,
             })
         })
-        .filter(|advice| 0.0 < advice.separation_um)
+        .filter(|advice| WORTHWHILE_UM < advice.separation_um)
         .collect()
 }
 

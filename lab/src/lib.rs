@@ -3,6 +3,7 @@
 pub mod adding;
 pub mod analysis;
 pub mod candidates;
+pub mod challenge;
 pub mod compare;
 pub mod component;
 pub mod diagnosis;

@@ -40,14 +40,18 @@ pub const SIGNIFICANCE: f64 = 1e-4;
 /// Structure weaker than this share of the noise is left alone: it changes no figure.
 const SHARE_OF_NOISE: f64 = 0.25;
 
-/// Share and chance of what is small but beyond any doubt about the noise model.
+/// Share of the noise and chance of a line that is small but beyond doubt.
 const CLEAR: (f64, f64) = (0.08, 1e-12);
 
-/// True for something large enough to matter, or too clear to be a flaw of the noise model.
+/// True for something beyond chance and large enough to change a figure.
 #[must_use]
 pub fn matters(size_um: f64, noise_um: f64, p_value: f64) -> bool {
-    (p_value < SIGNIFICANCE && SHARE_OF_NOISE * noise_um < size_um)
-        || (p_value < CLEAR.1 && CLEAR.0 * noise_um < size_um)
+    p_value < SIGNIFICANCE && SHARE_OF_NOISE * noise_um < size_um
+}
+
+/// True for a line so clear that no flaw of a noise model or of a smooth formula makes it.
+fn clear_line(structure: &Structure, noise_um: f64) -> bool {
+    structure.line.is_some() && structure.p_value < CLEAR.1 && CLEAR.0 * noise_um < structure.rms_um
 }
 
 /// Everything a fit leaves that is not noise, clearest first.
@@ -55,7 +59,7 @@ pub fn matters(size_um: f64, noise_um: f64, p_value: f64) -> bool {
 pub fn structures(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
     let noise = rms(&problem.layout, &fit.left);
     let mut found = all_structures(problem, model, fit);
-    found.retain(|s| matters(s.rms_um, noise, s.p_value));
+    found.retain(|s| matters(s.rms_um, noise, s.p_value) || clear_line(s, noise));
     found
 }
 

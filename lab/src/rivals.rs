@@ -1,6 +1,6 @@
 //! Who explains the data as well as an effect that was found, so that no name is safe.
 
-use crate::analysis::{Judged, State, pattern, tried};
+use crate::analysis::{Judged, State, pattern, plausible, tried};
 use crate::component::Component;
 use crate::least_squares::dot;
 use crate::noise::Whitener;
@@ -65,11 +65,13 @@ fn confused(problem: &Problem, state: &State, index: usize, tried: &[Judged]) ->
     tried
         .iter()
         .filter(|judged| judged.component.term.name != *name && 0.0 < judged.gain)
+        .filter(|judged| plausible(judged))
         .filter(|judged| {
             let behind = own.evidence - judged.evidence;
             behind < MARGIN
                 || (behind < CLEAR_MARGIN
                     && judged.looks < COINCIDENCE * own.looks
+                    && name != "wrong-setting"
                     && INFLATION < inflation(problem, judged, &whitener, &shape))
         })
         .map(|judged| judged.component.term.name.clone())

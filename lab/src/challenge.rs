@@ -1,0 +1,170 @@
+//! Machines with something hidden, to see whether the diagnosis finds it.
+
+mod outside;
+mod recipe;
+mod scene;
+
+use helixlock_plant::{EffectError, Machine, MachineError, MachineFile, Record, Term};
+use helixlock_traces::{Column, Table};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use crate::diagnosis::Verdict;
+use recipe::{RECIPES, Recipe};
+
+/// What is hidden in a challenge.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Hidden {
+    /// Nothing: only noise.
+    Nothing,
+    /// One or two effects of the catalogue, by name.
+    Effects(Vec<String>),
+    /// A shape that is in no catalogue.
+    Outside(&'static str),
+}
+
+/// A machine file, what was measured on the true machine, and the truth.
+#[derive(Debug, Clone)]
+pub struct Challenge {
+    /// The machine file, without what is hidden.
+    pub machine: MachineFile,
+    /// What was measured.
+    pub table: Table,
+    /// What is hidden.
+    pub hidden: Hidden,
+    /// The hidden effects with their true values.
+    pub terms: Vec<Term>,
+    /// Root mean square of the noise, µm.
+    pub noise_um: f64,
+    /// Root mean square of the hidden part on its clearest sensor, µm.
+    pub hidden_um: f64,
+}
+
+/// Why a challenge could not be made.
+#[derive(Debug, thiserror::Error)]
+pub enum ChallengeError {
+    /// The machine file is wrong, which is a flaw of the program.
+    #[error(transparent)]
+    Machine(#[from] MachineError),
+    /// An effect does not fit the machine, which is a flaw of the program.
+    #[error(transparent)]
+    Effect(#[from] EffectError),
+}
+
+/// Makes the challenge of a seed: one in five hides nothing, one in five something outside the
+/// catalogue, one in five two effects, the others one.
+///
+/// # Errors
+///
+/// [`ChallengeError`] if the recipe does not fit the machine.
+pub fn challenge(seed: u64) -> Result<Challenge, ChallengeError> {
+    let mut chance = ChaCha8Rng::seed_from_u64(seed);
+    let recipe = &RECIPES[chance.random_range(0..RECIPES.len())];
+    let kind = chance.random_range(0..10);
+    let machine = scene::machine(&mut chance)?;
+    let record = scene::record(&machine.machine, recipe, &mut chance);
+    let noise_um = 0.05;
+    let mut terms = Vec::new();
+    let mut hidden = Hidden::Nothing;
+    let mut extra = vec![0.0; record.len()];
+    match kind {
+        0 | 1 => {}
+        2 | 3 => {
+            let (name, deltas) = outside::shape(&record, &mut chance);
+            let size =
+                chance.random_range(4.0..12.0) * noise_um / rms_about_passes(&record, &deltas);
+            extra = deltas.iter().map(|delta| delta * size).collect();
+            hidden = Hidden::Outside(name);
+        }
+        _ => {
+            terms.push(hidden_term(&machine.machine, &record, recipe, noise_um, &mut chance)?);
+            if kind < 6 {
+                let gear = &RECIPES[recipe::COMPANION];
+                if recipe.kind != gear.kind {
+                    terms.push(hidden_term(
+                        &machine.machine,
+                        &record,
+                        gear,
+                        noise_um,
+                        &mut chance,
+                    )?);
+                }
+            }
+            hidden = Hidden::Effects(terms.iter().map(|term| term.name.clone()).collect());
+        }
+    }
+    let truth = Machine { effects: terms.clone(), ..machine.machine.clone() };
+    let (table, hidden_um) =
+        scene::measured(&machine.machine, &truth, &record, recipe, &extra, noise_um, &mut chance)?;
+    Ok(Challenge { machine, table, hidden, terms, noise_um, hidden_um })
+}
+
+/// An effect of a recipe at a size of three to fifteen times the noise.
+fn hidden_term(
+    machine: &Machine,
+    record: &Record,
+    recipe: &Recipe,
+    noise_um: f64,
+    chance: &mut ChaCha8Rng,
+) -> Result<Term, ChallengeError> {
+    let term = recipe::term(machine, record, recipe, chance);
+    let effect = term.effect(machine, &record.columns)?;
+    let deltas = helixlock_plant::Effect::deltas_um(&effect, record);
+    if recipe.fixed_size {
+        return Ok(term);
+    }
+    let wanted = chance.random_range(3.0..15.0) * noise_um;
+    let factor = wanted / rms_about_passes(record, &deltas).max(1e-12);
+    let scaled: Vec<f64> = term.coefficients().iter().map(|c| c * factor).collect();
+    Ok(term.with_coefficients(&scaled))
+}
+
+/// Root mean square about the mean of each pass.
+fn rms_about_passes(record: &Record, values: &[f64]) -> f64 {
+    let mut square = 0.0;
+    for rows in record.passes() {
+        let part = &values[rows];
+        let mean = part.iter().sum::<f64>() / crate::count(part.len().max(1));
+        square += part.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>();
+    }
+    (square / crate::count(record.len().max(1))).sqrt()
+}
+
+/// How a diagnosis did on a challenge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// The hidden effects by name, or nothing where nothing is.
+    Right,
+    /// No name, and none to be had; or a group with the right one in it.
+    Abstained,
+    /// A wrong name, and the verdict `explained`.
+    FalselyNamed,
+    /// Something was missed: no name although one could be had.
+    Missed,
+}
+
+/// Judges a verdict and the names of the final model.
+#[must_use]
+pub fn judge(hidden: &Hidden, verdict: Verdict, names: &[String]) -> Outcome {
+    let right = match hidden {
+        Hidden::Nothing => verdict == Verdict::NothingMissing,
+        Hidden::Outside(_) => verdict == Verdict::Unexplained,
+        Hidden::Effects(effects) => {
+            verdict == Verdict::Explained
+                && effects.iter().all(|effect| names.contains(effect))
+                && names.iter().all(|name| effects.contains(name))
+        }
+    };
+    match (right, verdict) {
+        (true, _) if matches!(hidden, Hidden::Outside(_)) => Outcome::Abstained,
+        (true, _) => Outcome::Right,
+        (false, Verdict::Explained) => Outcome::FalselyNamed,
+        (false, Verdict::Ambiguous) => Outcome::Abstained,
+        (false, _) => Outcome::Missed,
+    }
+}
+
+/// A column of a table.
+fn column(name: &str, values: Vec<f64>) -> Column {
+    Column { name: name.to_owned(), values }
+}

@@ -1,0 +1,127 @@
+//! Hidden effects are found, and nothing is named that is not there.
+
+use std::path::{Path, PathBuf};
+
+use helixlock_lab::challenge::{Outcome, challenge, judge};
+use helixlock_lab::compare::compare;
+use helixlock_lab::diagnosis::{Diagnosis, Verdict, diagnose};
+use helixlock_lab::measurement::{Measurement, Nominal};
+use helixlock_lab::problem::Problem;
+use helixlock_plant::{Machine, MachineFile};
+use helixlock_traces::{Column, Table, read_table};
+
+fn example(file: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("examples").join(file)
+}
+
+fn problem(machine: &Machine, table: &Table) -> Problem {
+    let measurement =
+        Measurement::from_table(table, &Nominal::from(machine)).expect("a measurement");
+    Problem::new(machine, &measurement).expect("all columns are there")
+}
+
+fn of_example(folder: &str) -> (Machine, Table) {
+    let machine = Machine::read(&example(&format!("{folder}/machine.toml"))).expect("a machine");
+    let table = read_table(&example(&format!("{folder}/data.csv"))).expect("a table");
+    (machine, table)
+}
+
+fn names(diagnosis: &Diagnosis) -> Vec<&str> {
+    let last = diagnosis.rounds.last().expect("there is always a round 0");
+    last.effects.iter().map(|effect| effect.name.as_str()).collect()
+}
+
+/// The examples' data come from a generator that shares no code with this program.
+#[test]
+fn examples_tell_their_stories() {
+    for (folder, verdict, expected) in [
+        ("hidden-gear", Verdict::Explained, vec!["gear-error"]),
+        ("thermal-day", Verdict::Explained, vec!["air-temperature", "air-pressure"]),
+        ("recorder-and-screw", Verdict::Explained, vec!["screw-periodic", "workpiece-expansion"]),
+        ("outside-the-catalogue", Verdict::Unexplained, vec![]),
+        ("encoder-1000-1024", Verdict::Explained, vec!["wrong-setting"]),
+    ] {
+        let (machine, table) = of_example(folder);
+        let diagnosis = diagnose(&problem(&machine, &table));
+        assert_eq!(diagnosis.verdict, verdict, "{folder}: {:?}", names(&diagnosis));
+        assert_eq!(names(&diagnosis), expected, "{folder}");
+    }
+}
+
+/// Worm periods from mount tables: 481 s, 382.95 s, 382.95 s, 239.34 s; see the example's README.
+#[test]
+fn worm_periods_come_out_of_real_logs_untold() {
+    let folder = "real-worm-drive";
+    let machine = Machine::read(&example(&format!("{folder}/machine.toml"))).expect("a machine");
+    for (log, period_s) in [
+        ("dataset01", 481.0),
+        ("performance_dataset03", 382.95),
+        ("performance_dataset04", 382.95),
+        ("performance_dataset07", 239.34),
+    ] {
+        let table = read_table(&example(&format!("{folder}/{log}.csv"))).expect("a table");
+        let lines = compare(&problem(&machine, &table)).lines;
+        let found = lines.iter().take(3).find(|line| {
+            (line.period_s - period_s).abs() < 3.0 * line.period_stderr_s
+                && line.period_stderr_s < 0.02 * period_s
+        });
+        let periods: Vec<f64> = lines.iter().map(|line| line.period_s).collect();
+        assert!(found.is_some(), "{log}: {periods:?}");
+    }
+}
+
+#[test]
+fn challenges_are_named_rightly_or_not_at_all() {
+    let mut right = 0;
+    for seed in 9000..9006 {
+        let task = challenge(seed).expect("a recipe that fits");
+        let diagnosis = diagnose(&problem(&task.machine.machine, &task.table));
+        let names: Vec<String> = names(&diagnosis).into_iter().map(str::to_owned).collect();
+        let outcome = judge(&task.hidden, diagnosis.verdict, &names);
+        assert_ne!(outcome, Outcome::FalselyNamed, "seed {seed}: {:?}, not {names:?}", task.hidden);
+        right += usize::from(outcome != Outcome::Missed);
+    }
+    assert!(4 < right, "{right} of 6");
+}
+
+/// The same file in nanometres, with its passes in another order.
+#[test]
+fn neither_units_nor_the_order_of_passes_change_the_verdict() {
+    let (machine, table) = of_example("hidden-gear");
+    let rows = table.rows();
+    let order: Vec<usize> = (rows / 2..rows).chain(0..rows / 2).collect();
+    let moved = table.columns.iter().map(|column| Column {
+        name: column.name.clone(),
+        values: order.iter().map(|&row| column.values[row]).collect(),
+    });
+    let diagnosis = diagnose(&problem(&machine, &Table::new(moved.collect())));
+    assert_eq!(names(&diagnosis), ["gear-error"]);
+
+    let bare = MachineFile::read(&example("hidden-gear/machine.toml")).expect("a machine");
+    let bare = bare.without_effect(0).and_then(|file| file.without_effect(0)).expect("two effects");
+    let verdict = |factor: f64| {
+        let mut scaled = Table::new(table.columns.clone());
+        for column in scaled.columns.iter_mut().filter(|column| column.name == "error_um") {
+            column.values.iter_mut().for_each(|value| *value *= factor);
+        }
+        let diagnosis = diagnose(&problem(&bare.machine, &scaled));
+        names(&diagnosis).iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    assert_eq!(verdict(1.0), verdict(2.0));
+}
+
+#[test]
+fn a_column_of_noise_is_never_named() {
+    let (machine, table) = of_example("hidden-gear");
+    let mut columns = table.columns.clone();
+    for name in ["bed_pitch_arcsec", "air_temperature_c", "force_n"] {
+        let noise = |row: usize| {
+            let whole = u32::try_from(row).expect("few rows").wrapping_mul(2_654_435_761);
+            f64::from(whole.wrapping_add(u32::from(name.as_bytes()[0]) * 7919) >> 8) / 1e7
+        };
+        let values = (0..table.rows()).map(noise).collect();
+        columns.push(Column { name: name.to_owned(), values });
+    }
+    let diagnosis = diagnose(&problem(&machine, &Table::new(columns)));
+    assert_eq!(names(&diagnosis), ["gear-error"]);
+}
