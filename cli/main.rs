@@ -1,6 +1,7 @@
 //! The `helixlock` command: reads files, calls the libraries, prints and writes what they say.
 
 mod add;
+mod certify;
 mod challenge;
 mod compare;
 mod diagnose;
@@ -43,6 +44,7 @@ use clap::Parser;
 #[command(name = "helixlock", version, arg_required_else_help = true)]
 enum Command {
     Add(add::Add),
+    Certify(certify::Certify),
     Challenge(challenge::Challenge),
     Compare(compare::Compare),
     Diagnose(diagnose::Diagnose),
@@ -73,6 +75,7 @@ fn main() -> ExitCode {
 fn run(command: Command, out: &mut impl Write) -> anyhow::Result<ExitCode> {
     match command {
         Command::Add(command) => command.run(out),
+        Command::Certify(command) => command.run(out),
         Command::Challenge(command) => command.run(out),
         Command::Compare(command) => command.run(out),
         Command::Diagnose(command) => command.run(out),

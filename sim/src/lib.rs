@@ -1,6 +1,7 @@
 //! Cycle-accurate simulation of the device in closed loop with the machine.
 
 mod appraisal;
+mod certify;
 mod circuit;
 mod closed_loop;
 mod compiled;
@@ -10,6 +11,8 @@ mod engine;
 mod error;
 mod findings;
 mod grinder;
+mod historic_cell;
+mod historic_device;
 mod illustrate;
 mod interpreted_pieces;
 mod interpreter;
@@ -38,6 +41,7 @@ mod words;
 pub use appraisal::{
     Hunting, LeadAppraisal, appraise_lead, fastest_um_per_s, measure_hunting, peak_to_peak,
 };
+pub use certify::{Certificate, FLIP_FLOP, FlipFlop, certify, mtbf_log10_years};
 pub use circuit::Circuit;
 pub use closed_loop::{ClosedLoop, Place, Process, Sample};
 pub use compiled::{Compiled, DenseKernel};
@@ -47,6 +51,7 @@ pub use engine::{Engine, Stop};
 pub use error::Error;
 pub use findings::{Findings, PassFindings};
 pub use grinder::Grinder;
+pub use historic_cell::{Delays, TTL};
 pub use illustrate::{Illustrations, illustrate};
 pub use interpreted_pieces::InterpretedPieces;
 pub use interpreter::Interpreter;

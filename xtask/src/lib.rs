@@ -1,0 +1,3 @@
+//! Work on the project itself: proofs of the emitted Verilog; nothing a user needs.
+
+pub mod prove;

@@ -1,0 +1,172 @@
+//! One block in Icarus, clock by clock against the reference engine.
+//!
+//! The engine runs the block on drawn inputs and writes down inputs and outputs; a test bench in
+//! Icarus feeds the Verilog the same inputs and compares its outputs before every clock edge.
+
+use std::path::Path;
+use std::process::Command;
+
+use anyhow::Context;
+use helixlock_netlist::{Library, Netlist, SignalId, elaborate, mask};
+use helixlock_rtl::BLOCKS;
+use helixlock_sim::{Engine, Interpreter};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::tools::{Sources, run, write_scratch};
+
+/// A drawn history of a block: what goes in and, by the engine, what comes out.
+#[derive(Debug)]
+pub struct History {
+    block: String,
+    inputs: Vec<Port>,
+    outputs: Vec<Port>,
+    /// A clock a line: inputs, then outputs, in bits.
+    lines: Vec<String>,
+}
+
+#[derive(Debug)]
+struct Port {
+    id: SignalId,
+    name: String,
+    width: u32,
+}
+
+impl History {
+    /// Runs a block for a number of clocks on inputs drawn from a seed.
+    ///
+    /// # Errors
+    ///
+    /// When there is no such block.
+    pub fn draw(block: &str, clocks: usize, seed: u64) -> anyhow::Result<Self> {
+        let card = BLOCKS.iter().find(|card| card.name == block).context("a block of the list")?;
+        let netlist = Netlist::new(&elaborate(block, &*(card.build)(), &Library::new())?)?;
+        let (inputs, outputs) =
+            (ports(&netlist, &netlist.inputs), ports(&netlist, &netlist.outputs));
+        let mut engine = Interpreter::new(&netlist);
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let mut lines = Vec::with_capacity(clocks);
+        for clock in 0..clocks {
+            for input in &inputs {
+                let now = engine.value(input.id);
+                engine.set_input(input.id, next_level(input, now, clock, &mut random));
+            }
+            let bits = inputs.iter().chain(&outputs).map(|port| {
+                format!("{:0width$b}", engine.value(port.id), width = port.width as usize)
+            });
+            lines.push(bits.collect());
+            engine.step();
+        }
+        Ok(Self { block: block.to_owned(), inputs, outputs, lines })
+    }
+
+    /// The first clock at which the Verilog differs, if it does.
+    ///
+    /// # Errors
+    ///
+    /// When Icarus cannot be started.
+    pub fn first_difference(&self, sources: &Sources) -> anyhow::Result<Option<String>> {
+        let folder = tempfile::tempdir()?;
+        let (bench, program) = (folder.path().join("bench.v"), folder.path().join("bench.vvp"));
+        let history = folder.path().join("history.txt");
+        write_scratch(&bench, &self.test_bench(&history))?;
+        write_scratch(&history, &self.lines.join("\n"))?;
+        let mut compile = Command::new("iverilog");
+        compile.args(["-g2005", "-o"]).arg(&program).arg("-y").arg(&sources.verilog).arg(&bench);
+        let (content, said) = run(&mut compile, "iverilog")?;
+        if !content {
+            return Ok(Some(said));
+        }
+        let (_, said) = run(Command::new("vvp").arg("-n").arg(&program), "iverilog")?;
+        Ok(said.lines().find(|line| line.starts_with("DIFFERS")).map(str::to_owned))
+    }
+
+    fn test_bench(&self, history: &Path) -> String {
+        let (ins, outs) = (bits(&self.inputs), bits(&self.outputs));
+        let (inputs, outputs) = (names(&self.inputs), names(&self.outputs));
+        let pins = self.inputs.iter().chain(&self.outputs);
+        let pins: Vec<_> = pins.map(|port| format!(", .{0}({0})", port.name)).collect();
+        let pins = pins.concat();
+        let lines = self.lines.len();
+        [
+            "module bench;".to_owned(),
+            declare("reg", &self.inputs),
+            declare("wire", &self.outputs),
+            format!("reg clock; {} dut(.clock(clock){pins});", self.block),
+            format!("reg [{}:0] history [1:{lines}];", ins + outs - 1),
+            format!("reg [{}:0] expected; integer i;", outs - 1),
+            format!("initial begin $readmemb(\"{}\", history); clock = 0;", history.display()),
+            format!("for (i = 1; i <= {lines}; i = i + 1) begin"),
+            format!("{{{inputs}, expected}} = history[i]; #1"),
+            format!("if ({{{outputs}}} !== expected) begin"),
+            format!("$display(\"DIFFERS at clock %0d: %b for %b\", i, {{{outputs}}}, expected);"),
+            "$finish; end clock = 1; #1 clock = 0; end end endmodule".to_owned(),
+        ]
+        .join("\n")
+    }
+}
+
+fn ports(netlist: &Netlist, ids: &[SignalId]) -> Vec<Port> {
+    let port = |id: &SignalId| {
+        let signal = netlist.signal(*id);
+        Port { id: *id, name: signal.path.clone(), width: signal.width }
+    };
+    ids.iter().map(port).collect()
+}
+
+fn bits(ports: &[Port]) -> u32 {
+    ports.iter().map(|port| port.width).sum()
+}
+
+fn names(ports: &[Port]) -> String {
+    ports.iter().map(|port| port.name.as_str()).collect::<Vec<_>>().join(", ")
+}
+
+fn declare(kind: &str, ports: &[Port]) -> String {
+    let declare = |port: &Port| format!("{kind} [{}:0] {};", port.width - 1, port.name);
+    ports.iter().map(declare).collect::<Vec<_>>().join(" ")
+}
+
+/// What an input does next: wheels are turned now and then and to small numbers, switches thrown
+/// seldom, resets are rare, and pulses come in bursts of changing density.
+fn next_level(input: &Port, now: u64, clock: usize, random: &mut ChaCha8Rng) -> u64 {
+    let mut one_in = |n: u32| random.random_range(0..n) == 0;
+    let seldom = clock > 0 && !one_in(512);
+    match input.name.as_str() {
+        "clear" | "master_reset" => u64::from(clock < 4 || one_in(4096)),
+        "divide_a" | "divide_b" | "preset" | "initial_phase" | "compensation" if !seldom => {
+            wheel(input, random)
+        }
+        "step_period" | "period" if !seldom => random.random_range(1..12),
+        "start" => u64::from(clock > 8 && !one_in(2048)),
+        "calibrate"
+        | "range_x2"
+        | "insert"
+        | "correct"
+        | "playback"
+        | "manual_enable"
+        | "hold"
+        | "correcting"
+        | "compensation_insert"
+            if !seldom =>
+        {
+            random.random_range(0..=mask(input.width))
+        }
+        "forward" | "manual_forward" | "automatic_forward" if one_in(6000) || clock == 0 => 1 - now,
+        "grating" | "laser" | "pulse" | "count" | "step" | "request" | "tick" | "divided"
+        | "line" | "pin" | "manual_step" | "half" | "meter" | "standard" => {
+            let density = 2 + u32::try_from(clock / 700 % 5).unwrap_or(0);
+            u64::from(one_in(density))
+        }
+        _ => now,
+    }
+}
+
+/// A number on thumb wheels: often a small one, so that it is reached.
+fn wheel(input: &Port, random: &mut ChaCha8Rng) -> u64 {
+    let digits = input.width / 4;
+    let shown = if input.width == 16 || random.random_range(0..4) > 0 { 1 } else { digits };
+    let number = (0..shown).fold(0, |number, _| number << 4 | random.random_range(0..10));
+    // Four digits are F/1000: 1 to 3, for a burst of a few thousand pulses to reach it.
+    if input.width == 16 { 1 + number % 3 } else { number }
+}
