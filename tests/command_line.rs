@@ -41,8 +41,8 @@ fn workplace() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let machine = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/sg7430-6mm/machine.toml");
     let machine = std::fs::read(machine).expect("the example is there");
-    let rows: String = (0..400).map(|i| format!("{}.0,{}\n", i, f64::from(i % 7) / 8.0)).collect();
-    let data = format!("position_mm,lead_error_um\n{rows}");
+    let rows: Vec<_> = (0..400).map(|i| format!("{i},{}\n", f64::from(i % 7) / 8.0)).collect();
+    let data = format!("position_mm,lead_error_um\n{}", rows.concat());
     let files: [(&str, &[u8]); 8] = [
         ("machine.toml", &machine),
         ("data.csv", data.as_bytes()),
