@@ -36,7 +36,7 @@ fn names(diagnosis: &Diagnosis) -> Vec<&str> {
 fn examples_tell_their_stories() {
     for (folder, verdict, expected) in [
         ("hidden-gear", Verdict::Explained, vec!["gear-error"]),
-        ("thermal-day", Verdict::Explained, vec!["air-temperature", "air-pressure"]),
+        ("thermal-day", Verdict::Explained, vec!["air-pressure", "air-temperature"]),
         ("recorder-and-screw", Verdict::Explained, vec!["screw-periodic", "workpiece-expansion"]),
         ("outside-the-catalogue", Verdict::Unexplained, vec![]),
         ("encoder-1000-1024", Verdict::Explained, vec!["wrong-setting"]),
@@ -44,7 +44,9 @@ fn examples_tell_their_stories() {
         let (machine, table) = of_example(folder);
         let diagnosis = diagnose(&problem(&machine, &table));
         assert_eq!(diagnosis.verdict, verdict, "{folder}: {:?}", names(&diagnosis));
-        assert_eq!(names(&diagnosis), expected, "{folder}");
+        let mut found = names(&diagnosis);
+        found.sort_unstable();
+        assert_eq!(found, expected, "{folder}");
     }
 }
 

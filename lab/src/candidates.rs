@@ -77,9 +77,12 @@ pub fn candidate(stage: &Stage<'_>, term: Term) -> Option<Candidate> {
         .iter()
         .filter(|parameter| parameter.is_nonlinear())
         .zip(&axes)
-        .map(|(parameter, axis)| match is_frequency(parameter) {
-            true => 0.3 / spread(&stage.problem.record.time_s).max(f64::MIN_POSITIVE),
-            false => step(parameter, axis),
+        .map(|(parameter, axis)| {
+            if is_frequency(parameter) {
+                0.3 / spread(&stage.problem.record.time_s).max(f64::MIN_POSITIVE)
+            } else {
+                step(parameter, axis)
+            }
         })
         .collect();
     let grid = product(&thinned(axes));

@@ -15,6 +15,9 @@ pub struct Component {
     pub whole: Vec<Option<f64>>,
 }
 
+/// Mean and standard deviation of each coefficient that physics or counting fixes.
+pub type Priors = Vec<Option<(f64, f64)>>;
+
 /// Standard deviation that holds a count at its whole number.
 const WHOLE_STDERR: f64 = 1e-4;
 
@@ -68,10 +71,7 @@ impl Component {
     /// # Errors
     ///
     /// [`EffectError`] when a column or a section of the machine file is missing.
-    pub fn design(
-        &self,
-        problem: &Problem,
-    ) -> Result<(Design, Vec<Option<(f64, f64)>>), EffectError> {
+    pub fn design(&self, problem: &Problem) -> Result<(Design, Priors), EffectError> {
         let Design { columns, fixed } = problem.design(&self.term)?;
         let held = self.term.priors().into_iter().zip(&self.whole);
         let priors = held.map(|(prior, whole)| whole.map(|w| (w, WHOLE_STDERR)).or(prior));

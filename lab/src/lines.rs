@@ -41,6 +41,10 @@ pub struct LineSearch<'a> {
     pub coordinate: &'a [f64],
 }
 
+#[allow(
+    clippy::redundant_closure_for_method_calls,
+    reason = "the methods' own paths are not general enough over the lifetime of a scan"
+)]
 impl LineSearch<'_> {
     /// The strongest line there is.
     #[must_use]

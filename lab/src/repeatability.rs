@@ -92,7 +92,9 @@ fn correlation(a: &[(f64, f64)], b: &[(f64, f64)]) -> Option<(f64, f64)> {
 
 fn centre(values: &mut [f64]) {
     let mean = values.iter().sum::<f64>() / count(values.len());
-    values.iter_mut().for_each(|value| *value -= mean);
+    for value in values.iter_mut() {
+        *value -= mean;
+    }
 }
 
 /// Autocorrelations at lags 1 … a tenth of the series.

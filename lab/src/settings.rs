@@ -80,10 +80,10 @@ fn line_counts(lines: u32) -> Vec<u32> {
         counts.extend((lines == a).then_some(b));
         counts.extend((lines == b).then_some(a));
     }
-    counts.extend([2, 4].into_iter().filter(|n| lines % n == 0).map(|n| lines / n));
+    counts.extend([2, 4].into_iter().filter(|n| lines.is_multiple_of(*n)).map(|n| lines / n));
     // Decimal for binary at any size: 1000 for 1024, 500 for 512, interpolated or not.
-    counts.extend((lines % 128 == 0).then_some(lines / 128 * 125));
-    counts.extend((lines % 125 == 0).then_some(lines / 125 * 128));
+    counts.extend((lines.is_multiple_of(128)).then_some(lines / 128 * 125));
+    counts.extend((lines.is_multiple_of(125)).then_some(lines / 125 * 128));
     distinct(counts, lines, u32::MAX)
 }
 

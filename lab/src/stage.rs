@@ -89,7 +89,9 @@ fn orthonormal(columns: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
         let after = dot(&column, &column);
         if 1e-12 * before < after {
             let scale = 1.0 / after.sqrt();
-            column.iter_mut().for_each(|value| *value *= scale);
+            for value in &mut column {
+                *value *= scale;
+            }
             basis.push(column);
         }
     }

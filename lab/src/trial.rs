@@ -176,6 +176,8 @@ pub fn reduced(stage: &Stage<'_>, component: Component) -> Component {
 
 fn without(component: &Component, atom: &[usize]) -> Component {
     let mut smaller = component.clone();
-    atom.iter().for_each(|&column| smaller.kept[column] = false);
+    for &column in atom {
+        smaller.kept[column] = false;
+    }
     smaller
 }

@@ -8,6 +8,7 @@ use crate::measurement::spread;
 
 /// An effect with the experiment that shows it.
 #[derive(Debug, Clone, Copy)]
+#[expect(clippy::struct_excessive_bools, reason = "each is one thing an experiment has or lacks")]
 pub(super) struct Recipe {
     pub(super) kind: &'static str,
     pub(super) passes: usize,

@@ -147,6 +147,7 @@ fn logs(
 }
 
 /// The data file of a true machine, and how large the hidden part is on its clearest sensor.
+#[expect(clippy::too_many_arguments, reason = "one caller, and each is a thing of its own")]
 pub(super) fn measured(
     known: &Machine,
     truth: &Machine,

@@ -49,12 +49,11 @@ pub(crate) fn complete(table: &Table, nominal: &Nominal) -> Result<Coordinates, 
         Some(position) => position.to_vec(),
         None => scaled(&angle_rev, if nominal.rotary { 0.0 } else { nominal.lead_mm }),
     };
-    let time_s = match time {
-        Some(time) => from_start(time),
-        None => {
-            notes.push("time follows from travel and the spindle speed".to_owned());
-            elapsed(&angle_rev, turns_per_second)
-        }
+    let time_s = if let Some(time) = time {
+        from_start(time)
+    } else {
+        notes.push("time follows from travel and the spindle speed".to_owned());
+        elapsed(&angle_rev, turns_per_second)
     };
     let placed = position.is_some() || angle.is_some();
     Ok(Coordinates { time_s, position_mm, angle_rev, timed: time.is_some(), placed, notes })

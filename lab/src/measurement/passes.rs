@@ -176,8 +176,8 @@ fn bridge(values: &mut [f64], overall: f64) {
     for pair in known.windows(2) {
         let (a, b) = (values[pair[0]], values[pair[1]]);
         let width = crate::count(pair[1] - pair[0]);
-        for row in pair[0] + 1..pair[1] {
-            values[row] = a + (b - a) * crate::count(row - pair[0]) / width;
+        for (step, value) in values[pair[0]..pair[1]].iter_mut().enumerate().skip(1) {
+            *value = a + (b - a) * crate::count(step) / width;
         }
     }
 }
