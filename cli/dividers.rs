@@ -17,7 +17,8 @@ use serde_json::{Value, json};
 #[derive(Debug, clap::Args)]
 pub(crate) struct Dividers {
     /// Lead to grind, such as "6 mm", "1/6 in", "10 tpi" or "0.5 pi mm"; may be repeated
-    #[arg(long, value_name = "LEAD", required_unless_present_any = ["table", "find_lines"])]
+    #[arg(long, value_name = "LEAD", allow_hyphen_values = true,
+        required_unless_present_any = ["table", "find_lines"])]
     lead: Vec<Lead>,
 
     /// Lines of the grating [default: 13906, for module leads 11060]

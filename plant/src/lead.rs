@@ -42,19 +42,19 @@ pub struct Lead {
 #[non_exhaustive]
 pub enum LeadError {
     /// The number cannot be read.
-    #[error("number `{found}` cannot be read")]
+    #[error("found `{found}`, expected a number such as `6`, `0.5` or `1/6` with its unit")]
     Number {
         /// The text.
         found: String,
     },
     /// It has no unit, or another one.
-    #[error("unit `{found}` is not that of a lead")]
+    #[error("found unit `{found}`, expected `mm`, `in`, `tpi` or `pi mm`")]
     Unit {
         /// The text after the number.
         found: String,
     },
     /// Zero, negative, or out of all proportion.
-    #[error("it must lie between 0.001 mm and 1000 mm")]
+    #[error("out of range, expected 0.001 mm to 1000 mm")]
     Range,
 }
 
@@ -180,7 +180,7 @@ mod tests {
         assert_eq!("2000 mm".parse::<Lead>(), Err(LeadError::Range));
         assert_eq!(
             "0 tpi".parse::<Lead>().map_err(|e| e.to_string()),
-            Err("unit `tpi` is not that of a lead".into())
+            Err("found unit `tpi`, expected `mm`, `in`, `tpi` or `pi mm`".into())
         );
     }
 }
