@@ -8,6 +8,7 @@ mod diagnose;
 mod diagnosis_json;
 mod dividers;
 mod effects;
+mod faults;
 mod gen_summary;
 mod gen_vectors;
 mod learn;
@@ -29,6 +30,8 @@ mod sim_summary;
 mod sim_table;
 mod straightness;
 mod straightness_summary;
+mod sweep;
+mod sweep_journal;
 mod transmission;
 mod transmission_summary;
 mod wheels;
@@ -50,12 +53,14 @@ enum Command {
     Diagnose(diagnose::Diagnose),
     Dividers(dividers::Dividers),
     Effects(effects::Effects),
+    Faults(faults::FaultsCommand),
     Gen(r#gen::Gen),
     Learn(learn::Learn),
     Scale(Box<scale::ScaleCommand>),
     Screw(screw::Screw),
     Sim(sim::Sim),
     Straightness(Box<straightness::StraightnessCommand>),
+    Sweep(sweep::Sweep),
     Transmission(Box<transmission::TransmissionCommand>),
 }
 
@@ -81,12 +86,14 @@ fn run(command: Command, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         Command::Diagnose(command) => command.run(out),
         Command::Dividers(command) => command.run(out),
         Command::Effects(command) => command.run(out),
+        Command::Faults(faults) => faults.run(out),
         Command::Gen(command) => command.run(out),
         Command::Learn(command) => command.run(out),
         Command::Scale(scale) => scale.run(out),
         Command::Screw(screw) => screw.run(out),
         Command::Sim(sim) => sim.run(out),
         Command::Straightness(straightness) => straightness.run(out),
+        Command::Sweep(sweep) => sweep.run(out),
         Command::Transmission(transmission) => transmission.run(out),
     }
 }

@@ -23,6 +23,13 @@ pub(crate) fn write_whole(
     Ok(())
 }
 
+/// Opens a file that grows line by line and outlives an interruption; makes it if there is none.
+pub(crate) fn open_to_append(path: &Path) -> anyhow::Result<std::fs::File> {
+    let mut options = std::fs::OpenOptions::new();
+    options.read(true).append(true).create(true);
+    options.open(path).with_context(|| format!("{}: cannot be written", path.display()))
+}
+
 /// Makes the folder that `-o` names, with its parents.
 pub(crate) fn folder(path: &Path) -> anyhow::Result<()> {
     std::fs::create_dir_all(path)

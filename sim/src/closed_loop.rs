@@ -149,6 +149,11 @@ impl<E: Engine, P: Process> ClosedLoop<E, P> {
         self.recording.is_some()
     }
 
+    /// Where the machine is now.
+    pub fn place(&mut self) -> Place {
+        self.process.place(time_of(self.engine.clock(), self.clock_hz))
+    }
+
     /// FPGA clock, Hz.
     #[must_use]
     pub fn clock_hz(&self) -> f64 {

@@ -126,7 +126,7 @@ pub(crate) fn reset<E: Engine, P: Process>(device: &mut ClosedLoop<E, P>) -> Res
 
 type Condition<E> = fn(&mut E, crate::DevicePins) -> bool;
 
-fn measuring<E: Engine>(engine: &mut E, pins: crate::DevicePins) -> bool {
+pub(crate) fn measuring<E: Engine>(engine: &mut E, pins: crate::DevicePins) -> bool {
     engine.value(pins.measuring) == 1
 }
 

@@ -1,0 +1,38 @@
+//! Flipped flip-flops: what recovers by itself does, and what cannot is told.
+
+use std::path::Path;
+
+use helixlock_plant::MachineFile;
+use helixlock_sim::faults::{Outcome, Verdict, flip_everything, flip_flops};
+
+#[test]
+fn the_ring_clears_itself_and_the_counter_is_told() {
+    let path = Path::new("examples/sg7430-6mm/machine.toml");
+    // Faster than the example, so that the test is short.
+    let file = MachineFile::read(path).unwrap();
+    let file = file.with_setting("spindle.speed", "\"15 rpm\"").unwrap();
+    let faults = flip_everything(&file.machine, 1, &|| {}).unwrap();
+    assert_eq!(faults.outcomes.len(), flip_flops());
+    let of = |prefix: &str| -> Vec<&Outcome> {
+        faults.outcomes.iter().filter(|flip| flip.flip_flop.starts_with(prefix)).collect()
+    };
+    // A flip leaves the ring in a neighbouring or an illegal state; either way it works on. Only the
+    // state that clearing leads to can come out as it was.
+    let slips: Vec<i64> = of("ring.").iter().map(|flip| flip.ring_slip).collect();
+    assert_eq!(slips.len(), 3);
+    assert!(slips.iter().all(|slip| slip.abs() <= 2), "{slips:?}");
+    assert!(2 <= slips.iter().filter(|slip| **slip != 0).count(), "{slips:?}");
+    for flip in of("ring.") {
+        let expected = if flip.ring_slip == 0 { Verdict::Unseen } else { Verdict::HomeLost };
+        assert_eq!(flip.verdict, expected, "{flip:?}");
+    }
+    // Bit n of the counter is 2ⁿ steps; the table knows nothing of it.
+    for (bit, flip) in of("reset_counter.magnitude_q").into_iter().enumerate() {
+        assert_eq!(flip.home_error.abs(), 1 << bit, "{flip:?}");
+    }
+    // The synchronisers forget.
+    for flip in of("start_input.first_q").into_iter().chain(of("playback_input.first_q")) {
+        assert!(flip.healed_clocks.is_some() || flip.verdict != Verdict::Unseen, "{flip:?}");
+    }
+    assert!(of("reset_counter.refused_q")[0].fault_shown, "the fault output shows its own flip");
+}
