@@ -9,6 +9,7 @@ mod diagnosis_json;
 mod dividers;
 mod effects;
 mod faults;
+mod r#gen;
 mod gen_summary;
 mod gen_vectors;
 mod learn;
@@ -35,7 +36,6 @@ mod sweep_journal;
 mod transmission;
 mod transmission_summary;
 mod wheels;
-mod r#gen;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
