@@ -87,7 +87,7 @@ impl Add {
                     || value.starts_with(['"', '\'', '[', '{'])
                     || matches!(value, "true" | "false");
                 let value = if plain { value.to_owned() } else { format!("\"{value}\"") };
-                text.push_str(&format!("{} = {value}\n", key.trim()));
+                text.extend([key.trim(), " = ", &value, "\n"]);
             }
             text
         } else {

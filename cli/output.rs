@@ -14,12 +14,12 @@ pub(crate) fn write_whole(
     fill: impl FnOnce(&mut dyn Write) -> anyhow::Result<()>,
 ) -> anyhow::Result<()> {
     let cannot = || format!("{}: cannot be written", path.display());
-    let mut file = BufWriter::new(temporary_beside(path).with_context(cannot)?);
-    fill(&mut file).with_context(cannot)?;
-    let file =
-        file.into_inner().map_err(std::io::IntoInnerError::into_error).with_context(cannot)?;
-    file.as_file().sync_all().with_context(cannot)?;
-    file.persist(path).with_context(cannot)?;
+    let mut buffer = BufWriter::new(temporary_beside(path).with_context(cannot)?);
+    fill(&mut buffer).with_context(cannot)?;
+    let whole =
+        buffer.into_inner().map_err(std::io::IntoInnerError::into_error).with_context(cannot)?;
+    whole.as_file().sync_all().with_context(cannot)?;
+    whole.persist(path).with_context(cannot)?;
     Ok(())
 }
 

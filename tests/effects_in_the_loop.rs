@@ -107,11 +107,11 @@ fn machine(kind: &str, values: &str) -> Machine {
     let text = format!("{MACHINE}kind = \"{kind}\"\n{values}\n");
     let folder = scratch();
     put(&folder.path().join("curve.csv"), CURVE);
-    Machine::parse(&text, &folder.path().join("machine.toml")).unwrap()
+    Machine::parse(&text, &folder.path().join("machine.toml")).expect("a machine file")
 }
 
 fn run(machine: &Machine) -> Simulation {
-    simulate(machine, &Options::default(), &mut |_| {}).unwrap()
+    simulate(machine, &Options::default(), &mut |_| {}).expect("a machine that runs")
 }
 
 /// What a sensor should have shown, a moment early or late; the record begins with the pass.
@@ -131,8 +131,8 @@ fn predicted(machine: &Machine, trace: &Trace, sensor: Sensor, shift_s: f64) -> 
         covariates,
         ..Samples::default()
     };
-    let record = Record::new(machine, &samples).unwrap();
-    predict(machine, &record).unwrap().of(sensor)[1..].to_vec()
+    let record = Record::new(machine, &samples).expect("angle or position");
+    predict(machine, &record).expect("every column there").of(sensor)[1..].to_vec()
 }
 
 #[expect(clippy::cast_precision_loss, reason = "the counter holds 4095 steps")]

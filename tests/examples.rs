@@ -31,7 +31,7 @@ fn both_errors_come_within_a_micrometre() {
         let ratio = number("/hunting/ratio");
         assert!((ratio - 0.5).abs() < 0.01, "{example}: hunting at {ratio} of the comparisons");
         assert_eq!(summary.pointer("/slew/limited"), Some(&Value::Bool(false)), "{example}");
-        assert_eq!(number("/playback/steps_left").abs(), 0.0, "{example}");
+        assert!(number("/playback/steps_left").abs() < 0.5, "{example}");
 
         let page = repository().join(format!("examples/{example}/README.md"));
         let page = fs::read_to_string(page).unwrap();

@@ -17,8 +17,15 @@ fn sim(out: &str, words: &[&str]) -> Run {
 }
 
 fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let entries = fs::read_dir(folder).unwrap().map(Result::unwrap);
-    entries.map(|e| (e.file_name().into_string().unwrap(), fs::read(e.path()).unwrap())).collect()
+    let entries = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry"));
+    entries
+        .map(|e| {
+            (
+                e.file_name().into_string().expect("a plain name"),
+                fs::read(e.path()).expect("a file"),
+            )
+        })
+        .collect()
 }
 
 #[test]

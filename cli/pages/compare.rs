@@ -12,7 +12,7 @@ pub(crate) fn page(problem: &Problem, comparison: &Comparison) -> Page {
         let residual = panel(
             "residual",
             x_axis(problem),
-            &format!("{unit}"),
+            unit,
             vec![Series::new(
                 "measured less model",
                 Colour::Orange,

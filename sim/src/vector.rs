@@ -183,18 +183,19 @@ mod tests {
     fn agrees_with_the_array<V: Vector>() {
         let mut dice = Dice(8);
         let mut lane = || std::array::from_fn(|_| dice.roll());
-        let (a, b, c): (Lane, Lane, Lane) = (lane(), lane(), lane());
-        let [x, y, z] = [a, b, c].map(|lane| V::load(&lane));
+        let lanes: [Lane; 3] = [lane(), lane(), lane()];
+        let [a, b, c] = lanes;
+        let [first, second, third] = lanes.map(|lane| V::load(&lane));
         let bits = |vector: V| {
             let mut lane = [0; 8];
             vector.store(&mut lane);
             lane
         };
-        assert_eq!(bits(x.and(y)), a.and(b));
-        assert_eq!(bits(x.or(y)), a.or(b));
-        assert_eq!(bits(x.xor(y)), a.xor(b));
-        assert_eq!(bits(x.not()), a.map(|word| !word));
-        assert_eq!(bits(x.choose(y, z)), a.choose(b, c));
+        assert_eq!(bits(first.and(second)), a.and(b));
+        assert_eq!(bits(first.or(second)), a.or(b));
+        assert_eq!(bits(first.xor(second)), a.xor(b));
+        assert_eq!(bits(first.not()), a.map(|word| !word));
+        assert_eq!(bits(first.choose(second, third)), a.choose(b, c));
         assert_eq!(bits(V::of(true)), [u64::MAX; 8]);
         assert_eq!(a.choose(b, c)[3], (a[3] & b[3]) | (!a[3] & c[3]));
     }

@@ -26,6 +26,7 @@ fn worked_examples() {
 
 /// Nothing that the wheels can show is nearer: every pair, by whole numbers.
 #[test]
+#[allow(clippy::cast_precision_loss, reason = "a rounding of 1e-16 against a bound of 1e-9")]
 fn no_other_pair_leaves_less() {
     for lead in ["6 mm", "7.3 mm", "1/11 in", "12.345 mm"] {
         let found = setting(lead, METRIC_TRACK).expect(lead);

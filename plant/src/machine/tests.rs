@@ -192,8 +192,8 @@ mod properties {
 
         /// A lead that is written is read as the same lead.
         #[test]
-        fn leads_come_back(n in 1_i64..100_000, d in 1_i64..10_000, kind in 0..3) {
-            let unit = [LeadUnit::Mm, LeadUnit::Inch, LeadUnit::PiMm][kind as usize];
+        fn leads_come_back(n in 1_i64..100_000, d in 1_i64..10_000, kind in 0_usize..3) {
+            let unit = [LeadUnit::Mm, LeadUnit::Inch, LeadUnit::PiMm][kind];
             let lead = Lead { ratio: num_rational::Ratio::new(n, d), unit };
             if (0.001..=1000.0).contains(&lead.mm()) {
                 prop_assert_eq!(lead.to_string().parse(), Ok(lead));
@@ -243,6 +243,7 @@ mod properties {
 
     /// Section 4 of the design, row by row.
     #[test]
+    #[allow(clippy::float_cmp, reason = "the gains are constants, not results")]
     fn the_sign_table() {
         let step = 0.0125;
         let table = [
