@@ -8,13 +8,13 @@ use expect_test::expect_file;
 #[test]
 fn headline_picture_is_fresh() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let status = Command::new(env!("CARGO_BIN_EXE_helixlock"))
+    let run = Command::new(env!("CARGO_BIN_EXE_helixlock"))
         .args(["sim", "examples/sg7430-6mm/machine.toml", "-o"])
         .arg(folder.path())
         .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .status()
+        .output()
         .expect("the command starts");
-    assert!(status.success());
+    assert!(run.status.success(), "{run:?}");
     let page = std::fs::read_to_string(folder.path().join("report.html")).expect("a report");
     let start = page.find("<svg").expect("a picture");
     let length = page[start..].find("</svg>").expect("its end") + "</svg>".len();
