@@ -1,26 +1,56 @@
 //! Files a command leaves behind: each whole or not at all.
 
 use std::io::{BufWriter, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use tempfile::NamedTempFile;
 
+/// Files that belong together: all of them appear, or none.
+#[derive(Debug, Default)]
+pub(crate) struct Batch {
+    written: Vec<(NamedTempFile, PathBuf)>,
+}
+
+impl Batch {
+    /// Writes one file under a temporary name beside its own.
+    ///
+    /// `fill` gets a buffered writer; when it fails, or the disk is full, nothing is left behind.
+    pub(crate) fn write(
+        &mut self,
+        path: &Path,
+        fill: impl FnOnce(&mut dyn Write) -> anyhow::Result<()>,
+    ) -> anyhow::Result<()> {
+        let cannot = || format!("{}: cannot be written", path.display());
+        let mut buffer = BufWriter::new(temporary_beside(path).with_context(cannot)?);
+        fill(&mut buffer).with_context(cannot)?;
+        let whole = buffer
+            .into_inner()
+            .map_err(std::io::IntoInnerError::into_error)
+            .with_context(cannot)?;
+        whole.as_file().sync_all().with_context(cannot)?;
+        self.written.push((whole, path.to_owned()));
+        Ok(())
+    }
+
+    /// Gives every file its name.
+    pub(crate) fn keep(self) -> anyhow::Result<()> {
+        for (file, path) in self.written {
+            file.persist(&path)
+                .with_context(|| format!("{}: cannot be written", path.display()))?;
+        }
+        Ok(())
+    }
+}
+
 /// Writes one file through a temporary one beside it, so that nobody ever sees half of it.
-///
-/// `fill` gets a buffered writer; when it fails, or the disk is full, the old file stays.
 pub(crate) fn write_whole(
     path: &Path,
     fill: impl FnOnce(&mut dyn Write) -> anyhow::Result<()>,
 ) -> anyhow::Result<()> {
-    let cannot = || format!("{}: cannot be written", path.display());
-    let mut buffer = BufWriter::new(temporary_beside(path).with_context(cannot)?);
-    fill(&mut buffer).with_context(cannot)?;
-    let whole =
-        buffer.into_inner().map_err(std::io::IntoInnerError::into_error).with_context(cannot)?;
-    whole.as_file().sync_all().with_context(cannot)?;
-    whole.persist(path).with_context(cannot)?;
-    Ok(())
+    let mut batch = Batch::default();
+    batch.write(path, fill)?;
+    batch.keep()
 }
 
 /// Opens a file that grows line by line and outlives an interruption; makes it if there is none.

@@ -9,7 +9,7 @@ use helixlock_plant::Machine;
 use helixlock_sim::{Course, Error, Options, Simulation, simulate, write_vcd};
 use helixlock_traces::csv::write_csv;
 
-use crate::output::{folder, write_whole};
+use crate::output::{Batch, folder};
 use crate::pages;
 use crate::progress;
 use crate::quantity::length_mm;
@@ -88,16 +88,18 @@ fn write_files(
 ) -> anyhow::Result<()> {
     let page = pages::sim::page(machine, simulation, summary)?;
     folder(output)?;
-    write_whole(&output.join("trace.csv"), |mut file| {
+    let mut files = Batch::default();
+    files.write(&output.join("trace.csv"), |mut file| {
         Ok(write_csv(&sim_table::table(machine, simulation), &mut file)?)
     })?;
     if let Some(waveform) = &simulation.closed.waveform {
         let clock_hz = simulation.course.clock_hz;
-        write_whole(&output.join("wave.vcd"), |file| Ok(write_vcd(file, waveform, clock_hz)?))?;
+        files.write(&output.join("wave.vcd"), |file| Ok(write_vcd(file, waveform, clock_hz)?))?;
         let view = sim_table::gtkwave_view(waveform);
-        write_whole(&output.join("wave.gtkw"), |file| Ok(file.write_all(view.as_bytes())?))?;
+        files.write(&output.join("wave.gtkw"), |file| Ok(file.write_all(view.as_bytes())?))?;
     }
     let json = summary.json()?;
-    write_whole(&output.join("summary.json"), |file| Ok(writeln!(file, "{json}")?))?;
-    write_whole(&output.join("report.html"), |file| Ok(file.write_all(page.as_bytes())?))
+    files.write(&output.join("summary.json"), |file| Ok(writeln!(file, "{json}")?))?;
+    files.write(&output.join("report.html"), |file| Ok(file.write_all(page.as_bytes())?))?;
+    files.keep()
 }
