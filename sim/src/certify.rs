@@ -40,8 +40,8 @@ use crate::{set_wheels, settings_for};
 /// Clocks from a laser pulse at the selector to the open gate, and those of the synchronisers.
 const GATE_CLOCKS: f64 = 2.0;
 
-/// What is assumed of a flip-flop of the FPGA: the maker prints no figures, and these are slower
-/// than published ones of comparable 40 nm parts.
+/// What is assumed of a flip-flop of the FPGA: the maker prints no figures, so these have no source,
+/// and the result says that they are assumed.
 pub const FLIP_FLOP: FlipFlop = FlipFlop { tau_s: 0.2e-9, window_s: 0.2e-9, overhead_s: 3e-9 };
 
 /// Metastability parameters of a flip-flop.
