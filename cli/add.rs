@@ -97,7 +97,7 @@ impl Add {
     }
 
     fn write(&self, file: &MachineFile) -> anyhow::Result<()> {
-        output::write_whole(&self.output, |out| Ok(out.write_all(file.text().as_bytes())?))
+        output::write_content(&self.output, file.text())
     }
 }
 

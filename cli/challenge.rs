@@ -13,7 +13,8 @@ use helixlock_lab::problem::Problem;
 use helixlock_traces::csv::write_csv;
 use serde_json::{Value, json};
 
-use crate::{output, progress};
+use crate::output::Batch;
+use crate::progress;
 
 /// Make a machine and data with something hidden, or score the diagnosis on many of them
 #[derive(Debug, Args)]
@@ -52,14 +53,11 @@ impl Challenge {
 }
 
 fn write(task: &Task, seed: u64, folder: &Path) -> anyhow::Result<()> {
-    output::folder(folder)?;
-    let text = task.machine.text();
-    output::write_whole(&folder.join("machine.toml"), |file| Ok(file.write_all(text.as_bytes())?))?;
-    output::write_whole(&folder.join("data.csv"), |mut file| {
-        Ok(write_csv(&task.table, &mut file)?)
-    })?;
-    let answer = serde_json::to_string_pretty(&answer(task, seed))? + "\n";
-    output::write_whole(&folder.join("answer.json"), |file| Ok(file.write_all(answer.as_bytes())?))
+    let mut files = Batch::new(folder)?;
+    files.write_content("machine.toml", task.machine.text())?;
+    files.write("data.csv", |mut file| Ok(write_csv(&task.table, &mut file)?))?;
+    files.write_json("answer.json", &answer(task, seed))?;
+    files.keep()
 }
 
 fn answer(task: &Task, seed: u64) -> Value {

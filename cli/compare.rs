@@ -11,7 +11,8 @@ use helixlock_lab::measurement::{Measurement, sensor_column};
 use serde_json::{Value, json};
 
 use crate::measured::{self, Files};
-use crate::{diagnosis_json, output, pages};
+use crate::output::Batch;
+use crate::{diagnosis_json, pages};
 
 /// Show where a machine file and a measurement part
 #[derive(Debug, Args)]
@@ -33,11 +34,10 @@ impl Compare {
         let problem = measured::problem(&file.machine, &measurement, &self.files.data)?;
         let comparison = compare(&problem);
         if let Some(folder) = &self.output {
-            output::folder(folder)?;
             let page = pages::compare::page(&problem, &comparison).html();
-            output::write_whole(&folder.join("report.html"), |file| {
-                Ok(file.write_all(page.as_bytes())?)
-            })?;
+            let mut files = Batch::new(folder)?;
+            files.write_content("report.html", page)?;
+            files.keep()?;
         }
         if self.json {
             let value = as_json(&comparison, &measurement);

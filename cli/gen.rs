@@ -15,7 +15,7 @@ use helixlock_sim::settings_for;
 
 use crate::gen_summary::Summary;
 use crate::gen_vectors::vectors;
-use crate::output::{folder, write_whole};
+use crate::output::Batch;
 
 /// Name of the top module.
 const TOP: &str = "board_shell";
@@ -100,16 +100,16 @@ impl Gen {
     fn build(&self, project: &Project, board: &Board) -> anyhow::Result<Option<Synthesis>> {
         let products = tempfile::tempdir()?;
         let synthesis = if self.synth {
-            write_project(products.path(), project)?;
+            project_files(products.path(), project)?.keep()?;
             Some(synthesise(products.path(), project, board)?)
         } else {
             None
         };
-        write_project(&self.output, project)?;
+        let mut files = project_files(&self.output, project)?;
         for name in synthesis.iter().flat_map(|synthesis| &synthesis.products) {
-            let made = std::fs::read(products.path().join(name))?;
-            write_in(&self.output, name, &made)?;
+            files.write_content(name, std::fs::read(products.path().join(name))?)?;
         }
+        files.keep()?;
         Ok(synthesis)
     }
 }
@@ -127,12 +127,8 @@ fn describe(design: &mut helixlock_netlist::Design, machine: &Machine, board: &B
     }
 }
 
-fn write_project(root: &Path, project: &Project) -> anyhow::Result<()> {
-    project.files.iter().try_for_each(|(name, text)| write_in(root, name, text.as_bytes()))
-}
-
-fn write_in(root: &Path, name: &str, content: &[u8]) -> anyhow::Result<()> {
-    let path = root.join(name);
-    folder(path.parent().unwrap_or(root))?;
-    write_whole(&path, |file| Ok(file.write_all(content)?))
+fn project_files(root: &Path, project: &Project) -> anyhow::Result<Batch> {
+    let mut files = Batch::new(root)?;
+    project.files.iter().try_for_each(|(name, text)| files.write_content(name, text))?;
+    Ok(files)
 }

@@ -11,7 +11,8 @@ use helixlock_lab::learn::{fingerprint, ledger};
 use helixlock_plant::MachineFile;
 use serde_json::Value;
 
-use crate::{add, diagnose as words, diagnosis_json, measured, output, pages};
+use crate::output::Batch;
+use crate::{add, diagnose as words, diagnosis_json, measured, pages};
 
 /// Find what a machine file lacks and write the better file, its ledger and a report
 #[derive(Debug, Args)]
@@ -65,13 +66,13 @@ impl Learn {
         let bytes = std::fs::read(data).with_context(|| format!("{}", data.display()))?;
         let book = ledger(&file, &diagnosis, &bytes)?;
         if let Some(folder) = folder {
-            output::folder(folder)?;
+            let mut files = Batch::new(folder)?;
             let last = book.entries.last().map(|entry| entry.machine.as_str()).unwrap_or_default();
-            write(&folder.join("machine.toml"), last)?;
-            let value = diagnosis_json::ledger(&book, &diagnosis, data);
-            write(&folder.join("ledger.json"), &(serde_json::to_string_pretty(&value)? + "\n"))?;
+            files.write_content("machine.toml", last)?;
+            files.write_json("ledger.json", &diagnosis_json::ledger(&book, &diagnosis, data))?;
             let page = pages::learn::page(&file.machine.title, &problem, &diagnosis);
-            write(&folder.join("report.html"), &page.html())?;
+            files.write_content("report.html", page.html())?;
+            files.keep()?;
         }
         if self.json {
             let mut value = diagnosis_json::diagnosis(&diagnosis, &measurement);
@@ -82,10 +83,6 @@ impl Learn {
         }
         Ok(ExitCode::SUCCESS)
     }
-}
-
-fn write(path: &Path, text: &str) -> anyhow::Result<()> {
-    output::write_whole(path, |file| Ok(file.write_all(text.as_bytes())?))
 }
 
 /// Goes back to the machine file before the last round that still stands.
@@ -110,8 +107,10 @@ fn undo(folder: &Path, out: &mut impl Write) -> anyhow::Result<ExitCode> {
     };
     last["taken_back"] = Value::from(true);
     let added = last["added"].as_str().unwrap_or("nothing").to_owned();
-    write(&folder.join("machine.toml"), &machine)?;
-    write(&path, &(serde_json::to_string_pretty(&book)? + "\n"))?;
+    let mut files = Batch::new(folder)?;
+    files.write_content("machine.toml", machine)?;
+    files.write_json("ledger.json", &book)?;
+    files.keep()?;
     writeln!(out, "{added} taken back")?;
     Ok(ExitCode::SUCCESS)
 }

@@ -4,41 +4,83 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
+use serde::Serialize;
 use tempfile::NamedTempFile;
 
-/// Files that belong together: all of them appear, or none.
-#[derive(Debug, Default)]
+/// Files of one folder that belong together: all of them appear, or none.
+#[derive(Debug)]
 pub(crate) struct Batch {
-    written: Vec<(NamedTempFile, PathBuf)>,
+    folder: PathBuf,
+    written: Vec<Written>,
+}
+
+/// A file that is whole, still under its temporary name.
+#[derive(Debug)]
+struct Written {
+    file: NamedTempFile,
+    path: PathBuf,
 }
 
 impl Batch {
-    /// Writes one file under a temporary name beside its own.
+    /// Starts with nothing; makes the folder, with its parents.
+    pub(crate) fn new(folder: &Path) -> anyhow::Result<Self> {
+        make_folder(folder)?;
+        Ok(Self { folder: folder.to_owned(), written: Vec::new() })
+    }
+
+    /// Writes one file under a temporary name; `name` may lead through folders below.
     ///
-    /// `fill` gets a buffered writer; when it fails, or the disk is full, nothing is left behind.
+    /// `fill` gets a buffered writer; when it fails, or the disk is full, no file is left behind.
     pub(crate) fn write(
         &mut self,
-        path: &Path,
+        name: &str,
         fill: impl FnOnce(&mut dyn Write) -> anyhow::Result<()>,
     ) -> anyhow::Result<()> {
+        let path = self.folder.join(name);
+        make_folder(path.parent().unwrap_or(&self.folder))?;
+        self.written.push(Written::new(path, fill)?);
+        Ok(())
+    }
+
+    /// Writes text or bytes under a temporary name.
+    pub(crate) fn write_content(
+        &mut self,
+        name: &str,
+        content: impl AsRef<[u8]>,
+    ) -> anyhow::Result<()> {
+        self.write(name, |file| Ok(file.write_all(content.as_ref())?))
+    }
+
+    /// Writes JSON for people and programs under a temporary name.
+    pub(crate) fn write_json(&mut self, name: &str, value: &impl Serialize) -> anyhow::Result<()> {
+        self.write_content(name, serde_json::to_string_pretty(value)? + "\n")
+    }
+
+    /// Gives every file its name.
+    pub(crate) fn keep(self) -> anyhow::Result<()> {
+        self.written.into_iter().try_for_each(Written::keep)
+    }
+}
+
+impl Written {
+    fn new(
+        path: PathBuf,
+        fill: impl FnOnce(&mut dyn Write) -> anyhow::Result<()>,
+    ) -> anyhow::Result<Self> {
         let cannot = || format!("{}: cannot be written", path.display());
-        let mut buffer = BufWriter::new(temporary_beside(path).with_context(cannot)?);
+        let mut buffer = BufWriter::new(temporary_beside(&path).with_context(cannot)?);
         fill(&mut buffer).with_context(cannot)?;
         let whole = buffer
             .into_inner()
             .map_err(std::io::IntoInnerError::into_error)
             .with_context(cannot)?;
         whole.as_file().sync_all().with_context(cannot)?;
-        self.written.push((whole, path.to_owned()));
-        Ok(())
+        Ok(Self { file: whole, path })
     }
 
-    /// Gives every file its name.
-    pub(crate) fn keep(self) -> anyhow::Result<()> {
-        for (file, path) in self.written {
-            file.persist(&path)
-                .with_context(|| format!("{}: cannot be written", path.display()))?;
-        }
+    fn keep(self) -> anyhow::Result<()> {
+        let Self { file, path } = self;
+        file.persist(&path).with_context(|| format!("{}: cannot be written", path.display()))?;
         Ok(())
     }
 }
@@ -48,9 +90,12 @@ pub(crate) fn write_whole(
     path: &Path,
     fill: impl FnOnce(&mut dyn Write) -> anyhow::Result<()>,
 ) -> anyhow::Result<()> {
-    let mut batch = Batch::default();
-    batch.write(path, fill)?;
-    batch.keep()
+    Written::new(path.to_owned(), fill)?.keep()
+}
+
+/// Writes text or bytes as [`write_whole`] does.
+pub(crate) fn write_content(path: &Path, content: impl AsRef<[u8]>) -> anyhow::Result<()> {
+    write_whole(path, |file| Ok(file.write_all(content.as_ref())?))
 }
 
 /// Opens a file that grows line by line and outlives an interruption; makes it if there is none.
@@ -60,8 +105,7 @@ pub(crate) fn open_to_append(path: &Path) -> anyhow::Result<std::fs::File> {
     options.open(path).with_context(|| format!("{}: cannot be written", path.display()))
 }
 
-/// Makes the folder that `-o` names, with its parents.
-pub(crate) fn folder(path: &Path) -> anyhow::Result<()> {
+fn make_folder(path: &Path) -> anyhow::Result<()> {
     std::fs::create_dir_all(path)
         .with_context(|| format!("{}: the folder cannot be made", path.display()))
 }

@@ -13,7 +13,7 @@ use helixlock_metrology::scale::{
 use helixlock_traces::csv::RowWriter;
 use serde_json::{Value, json};
 
-use crate::output::{folder, write_whole};
+use crate::output::{Batch, write_content};
 use crate::pages;
 use crate::quantity::{length_mm, length_um, position_mm};
 use crate::scale_model::Model;
@@ -233,7 +233,7 @@ impl Export {
             Format::Csv => (nominal_actual_csv(&table), 1),
             Format::Siemens => (siemens_file(&table, &self.axis), 1),
         };
-        write_whole(&self.output, |file| Ok(file.write_all(text.as_bytes())?))?;
+        write_content(&self.output, text)?;
         if 1 < every {
             writeln!(out, "note: every {every}th place, as this control takes no more rows")?;
         }
@@ -263,10 +263,9 @@ impl Iso230 {
 pub(crate) fn write_image(path: &Path, table: &CorrectionTable) -> anyhow::Result<()> {
     let image = to_image(table)?;
     if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("hex")) {
-        let text = to_hex(&image)?;
-        return write_whole(path, |file| Ok(file.write_all(text.as_bytes())?));
+        return write_content(path, to_hex(&image)?);
     }
-    write_whole(path, |file| Ok(file.write_all(&image)?))
+    write_content(path, image)
 }
 
 /// Reads an image, Intel HEX or binary by its first byte.
@@ -286,25 +285,26 @@ fn read_image(path: &Path) -> anyhow::Result<CorrectionTable> {
 fn write_applied(output: &Path, comparison: &Comparison, result: &Value) -> anyhow::Result<()> {
     let page = pages::scale::page(comparison);
     let figure = pages::scale::figure(comparison).svg();
-    folder(output)?;
-    write_whole(&output.join("figure.svg"), |file| Ok(file.write_all(figure.as_bytes())?))?;
-    write_whole(&output.join("result.json"), |file| {
-        Ok(serde_json::to_writer_pretty(file, result)?)
-    })?;
-    write_whole(&output.join("report.html"), |file| Ok(file.write_all(page.html().as_bytes())?))?;
+    let mut files = Batch::new(output)?;
+    files.write_content("figure.svg", figure)?;
+    files.write_json("result.json", result)?;
+    files.write_content("report.html", page.html())?;
+    files.write("corrected.csv", |file| write_corrected(file, comparison))?;
+    files.keep()
+}
+
+fn write_corrected(file: &mut dyn Write, comparison: &Comparison) -> anyhow::Result<()> {
     let names = ["position_mm", "error_um", "direction", "correction_um", "steps", "left_um"];
-    write_whole(&output.join("corrected.csv"), |file| {
-        let mut rows = RowWriter::new(file, &names)?;
-        for one in &comparison.corrected {
-            let direction = if one.sample.direction == Direction::Forward { 1.0 } else { -1.0 };
-            let correction = one.correction_um.unwrap_or(f64::NAN);
-            #[expect(clippy::cast_precision_loss, reason = "a correction holds few steps")]
-            let steps = one.steps as f64;
-            let (position, error) = (one.sample.position_mm, one.sample.error_um);
-            rows.row(&[position, error, direction, correction, steps, one.left_um])?;
-        }
-        Ok(())
-    })
+    let mut rows = RowWriter::new(file, &names)?;
+    for one in &comparison.corrected {
+        let direction = if one.sample.direction == Direction::Forward { 1.0 } else { -1.0 };
+        let correction = one.correction_um.unwrap_or(f64::NAN);
+        #[expect(clippy::cast_precision_loss, reason = "a correction holds few steps")]
+        let steps = one.steps as f64;
+        let (position, error) = (one.sample.position_mm, one.sample.error_um);
+        rows.row(&[position, error, direction, correction, steps, one.left_um])?;
+    }
+    Ok(())
 }
 
 /// The spread of errors as JSON.

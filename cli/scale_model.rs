@@ -13,7 +13,7 @@ use helixlock_report::{Axis, Colour, Figure, Page, Panel, Part, Series, Style, T
 use helixlock_traces::csv::RowWriter;
 use serde_json::json;
 
-use crate::output::{folder, write_whole};
+use crate::output::Batch;
 use crate::quantity::{length_mm, length_um};
 use crate::scale::spread_json;
 use crate::series::print_json;
@@ -122,12 +122,12 @@ impl Model {
         budget: &[Residual],
     ) -> anyhow::Result<()> {
         let page = self.page(scale, budget);
-        folder(output)?;
+        let mut files = Batch::new(output)?;
         for (name, step_mm, run) in
             [("table-run.csv", self.step, 1), ("check-run.csv", self.step / 10.0, 2)]
         {
             let samples = scale.samples(step_mm, detector, run);
-            write_whole(&output.join(name), |file| {
+            files.write(name, |file| {
                 let mut rows = RowWriter::new(file, &["position_mm", "error_um", "direction"])?;
                 for sample in &samples {
                     let way = if sample.direction == Direction::Forward { 1.0 } else { -1.0 };
@@ -136,8 +136,10 @@ impl Model {
                 Ok(())
             })?;
         }
-        write_whole(&output.join("report.html"), |file| Ok(file.write_all(page.html().as_bytes())?))
+        files.write_content("report.html", page.html())?;
+        files.keep()
     }
+
     /// The budget as a page.
     fn page(&self, scale: &ModelledScale, budget: &[Residual]) -> Page {
         let mut table = Table::new(["without", "left ± in µm", "rms in µm"]);

@@ -14,7 +14,7 @@ use helixlock_metrology::screw::{
 };
 use serde_json::{Map, Value, json};
 
-use crate::output::{folder, write_whole};
+use crate::output::Batch;
 use crate::pages;
 use crate::quantity::{deviation_um, lead_mm, length_mm, length_um, position_mm};
 use crate::series::{Series, print_json};
@@ -238,12 +238,11 @@ impl Evaluation {
 fn write_files(output: &Path, evaluation: &Evaluation, result: &Value) -> anyhow::Result<()> {
     let page = pages::screw::page(evaluation);
     let figure = pages::screw::figure(evaluation).svg();
-    folder(output)?;
-    write_whole(&output.join("figure.svg"), |file| Ok(file.write_all(figure.as_bytes())?))?;
-    write_whole(&output.join("result.json"), |file| {
-        Ok(serde_json::to_writer_pretty(file, result)?)
-    })?;
-    write_whole(&output.join("report.html"), |file| Ok(file.write_all(page.html().as_bytes())?))
+    let mut files = Batch::new(output)?;
+    files.write_content("figure.svg", figure)?;
+    files.write_json("result.json", result)?;
+    files.write_content("report.html", page.html())?;
+    files.keep()
 }
 
 /// A grade as a number, or as text where a table names it otherwise.

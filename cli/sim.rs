@@ -9,7 +9,7 @@ use helixlock_plant::Machine;
 use helixlock_sim::{Course, Error, Options, Simulation, simulate, write_vcd};
 use helixlock_traces::csv::write_csv;
 
-use crate::output::{Batch, folder};
+use crate::output::Batch;
 use crate::pages;
 use crate::progress;
 use crate::quantity::length_mm;
@@ -87,19 +87,15 @@ fn write_files(
     summary: &Summary,
 ) -> anyhow::Result<()> {
     let page = pages::sim::page(machine, simulation, summary)?;
-    folder(output)?;
-    let mut files = Batch::default();
-    files.write(&output.join("trace.csv"), |mut file| {
-        Ok(write_csv(&sim_table::table(machine, simulation), &mut file)?)
-    })?;
+    let mut files = Batch::new(output)?;
+    let trace = sim_table::table(machine, simulation);
+    files.write("trace.csv", |mut file| Ok(write_csv(&trace, &mut file)?))?;
     if let Some(waveform) = &simulation.closed.waveform {
         let clock_hz = simulation.course.clock_hz;
-        files.write(&output.join("wave.vcd"), |file| Ok(write_vcd(file, waveform, clock_hz)?))?;
-        let view = sim_table::gtkwave_view(waveform);
-        files.write(&output.join("wave.gtkw"), |file| Ok(file.write_all(view.as_bytes())?))?;
+        files.write("wave.vcd", |file| Ok(write_vcd(file, waveform, clock_hz)?))?;
+        files.write_content("wave.gtkw", sim_table::gtkwave_view(waveform))?;
     }
-    let json = summary.json()?;
-    files.write(&output.join("summary.json"), |file| Ok(writeln!(file, "{json}")?))?;
-    files.write(&output.join("report.html"), |file| Ok(file.write_all(page.as_bytes())?))?;
+    files.write_content("summary.json", summary.json()? + "\n")?;
+    files.write_content("report.html", page)?;
     files.keep()
 }

@@ -13,7 +13,7 @@ use helixlock_metrology::straightness::{
 };
 use helixlock_traces::csv::RowWriter;
 
-use crate::output::{folder, write_whole};
+use crate::output::Batch;
 use crate::pages;
 use crate::probe_readings::read_readings;
 use crate::quantity::{length_mm, length_um};
@@ -282,20 +282,19 @@ fn write_files(
 ) -> anyhow::Result<()> {
     let page = pages::straightness::page(evaluation);
     let figure = pages::straightness::figure(evaluation).svg();
-    folder(output)?;
-    write_whole(&output.join("figure.svg"), |file| Ok(file.write_all(figure.as_bytes())?))?;
-    write_whole(&output.join("result.json"), |file| {
-        Ok(serde_json::to_writer_pretty(file, result)?)
-    })?;
-    write_whole(&output.join("report.html"), |file| Ok(file.write_all(page.html().as_bytes())?))?;
-    write_whole(&output.join("separated.csv"), |file| write_separated(file, evaluation.chosen()))?;
-    write_whole(&output.join("correction.csv"), |file| {
+    let mut files = Batch::new(output)?;
+    files.write_content("figure.svg", figure)?;
+    files.write_json("result.json", result)?;
+    files.write_content("report.html", page.html())?;
+    files.write("separated.csv", |file| write_separated(file, evaluation.chosen()))?;
+    files.write("correction.csv", |file| {
         let mut rows = RowWriter::new(file, &["position_mm", "correction_um"])?;
         for point in &evaluation.correction {
             rows.row(&[point.position_mm, point.correction_um])?;
         }
         Ok(())
-    })
+    })?;
+    files.keep()
 }
 
 fn write_separated(file: &mut dyn Write, outcome: &Outcome) -> anyhow::Result<()> {

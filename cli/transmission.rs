@@ -13,7 +13,7 @@ use helixlock_metrology::transmission::{
 use helixlock_plant::Machine;
 use helixlock_traces::csv::RowWriter;
 
-use crate::output::{folder, write_whole};
+use crate::output::Batch;
 use crate::pages;
 use crate::pulse_capture::{Names, read_pulses};
 use crate::quantity::{frequency_hz, lead_mm, time_s};
@@ -242,23 +242,15 @@ impl TransmissionCommand {
     ) -> anyhow::Result<()> {
         let page = pages::transmission::page(evaluation);
         let figure = pages::transmission::figure(evaluation).svg();
-        folder(output)?;
-        write_whole(&output.join("figure.svg"), |file| Ok(file.write_all(figure.as_bytes())?))?;
-        write_whole(&output.join("result.json"), |file| {
-            Ok(serde_json::to_writer_pretty(file, result)?)
-        })?;
-        write_whole(&output.join("report.html"), |file| {
-            Ok(file.write_all(page.html().as_bytes())?)
-        })?;
-        let Some(best) = evaluation.best() else { return Ok(()) };
-        write_whole(&output.join("error.csv"), |file| {
-            let mut rows = RowWriter::new(file, &["time_s", "output_turns", "delta_arcsec"])?;
-            for one in &best.reading.samples {
-                rows.row(&[one.time_s, one.output_turns, one.error_rad * ARCSEC])?;
-            }
-            Ok(())
-        })?;
-        write_whole(&output.join("compare.csv"), |file| self.hand_over(file, &best.reading))
+        let mut files = Batch::new(output)?;
+        files.write_content("figure.svg", figure)?;
+        files.write_json("result.json", result)?;
+        files.write_content("report.html", page.html())?;
+        if let Some(best) = evaluation.best() {
+            files.write("error.csv", |file| write_error(file, &best.reading))?;
+            files.write("compare.csv", |file| self.hand_over(file, &best.reading))?;
+        }
+        files.keep()
     }
 
     /// What `helixlock compare` reads. Its recorder counts an output that lags as positive: −δ.
@@ -278,6 +270,14 @@ impl TransmissionCommand {
         }
         Ok(())
     }
+}
+
+fn write_error(file: &mut dyn Write, reading: &Reading) -> anyhow::Result<()> {
+    let mut rows = RowWriter::new(file, &["time_s", "output_turns", "delta_arcsec"])?;
+    for one in &reading.samples {
+        rows.row(&[one.time_s, one.output_turns, one.error_rad * ARCSEC])?;
+    }
+    Ok(())
 }
 
 /// The true error, linear between its rows.
