@@ -190,6 +190,9 @@ impl TransmissionCommand {
             recorder_s: self.recorder,
         };
         let pulses = read_pulses(&self.capture, &names)?;
+        pulses
+            .check_ratio(&gearing)
+            .map_err(|error| anyhow!("{}: {error}", self.capture.display()))?;
         let shafts = self.named_shafts()?;
         let truth = self.truth.as_deref().map(read_truth).transpose()?;
         let evaluate = |method: Method| {

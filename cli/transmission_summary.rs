@@ -97,7 +97,7 @@ pub(crate) fn print(out: &mut impl Write, evaluation: &Evaluation) -> anyhow::Re
     )?;
     writeln!(
         out,
-        "\nmethod               samples    p-p ″   resolution ″      range ″   from truth ″ (rms, largest)"
+        "\nmethod               samples    p-p ″   resolution ″      range ″   counters  products   from truth ″ (rms, largest)"
     )?;
     for result in &evaluation.results {
         match &result.found {
@@ -141,12 +141,16 @@ fn print_method(out: &mut impl Write, name: &str, found: &Found) -> anyhow::Resu
     let truth = found.against_truth.map_or(String::new(), |(largest, rms)| {
         format!("{:.4}, {:.4}", rms * ARCSEC, largest * ARCSEC)
     });
+    let cost = found.reading.cost;
+    let recorder = if cost.analog { "  and a recorder" } else { "" };
     writeln!(
         out,
-        "{name:<20} {:7} {:8.3} {:14.5} {range:>12}   {truth}",
+        "{name:<20} {:7} {:8.3} {:14.5} {range:>12} {:10} {:9}   {truth}{recorder}",
         found.reading.samples.len(),
         found.peak_to_peak_rad() * ARCSEC,
         limits.resolution_rad * ARCSEC,
+        cost.counters,
+        cost.multiplications,
     )?;
     Ok(())
 }

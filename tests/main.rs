@@ -7,6 +7,7 @@ mod boards;
 mod calibrator;
 mod certify;
 mod command_line;
+mod compensation_exports;
 mod cumulative_compensator;
 mod decade_counter;
 mod device;

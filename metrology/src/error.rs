@@ -44,6 +44,16 @@ pub enum Error {
         /// The instant before it, s.
         previous_s: f64,
     },
+    /// Pulse trains whose rates cannot come from the transmission described.
+    #[error(
+        "{found:.4} input pulses for each output pulse, expected about {expected:.4} from the lines and the ratio"
+    )]
+    WrongRatio {
+        /// Input pulses for each output pulse over the whole run.
+        found: f64,
+        /// What lines and ratio say.
+        expected: f64,
+    },
     /// Too little is left to evaluate.
     #[error("{found} usable samples, expected {expected} or more at different places")]
     TooFewSamples {

@@ -1,6 +1,12 @@
 //! Two pulse trains on one time axis.
 
+use super::gearing::{Gearing, float};
 use crate::Error;
+use crate::number::number;
+
+/// Part by which the mean ratio may be off before lines or ratio must be wrong: far more than any
+/// transmission error over a run, less than one tooth of a hundred.
+const RATIO_TOLERANCE: f64 = 0.01;
 
 /// Rising edges of both givers, s, each in increasing order.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,6 +37,29 @@ impl Pulses {
     #[must_use]
     pub fn output_s(&self) -> &[f64] {
         &self.output_s
+    }
+
+    /// Refuses trains that cannot come from these lines and this ratio.
+    ///
+    /// Input pulses between the first and the last placed output pulse are counted; one pulse
+    /// either way is allowed beside one part in a hundred.
+    ///
+    /// # Errors
+    ///
+    /// When the trains do not overlap, or their mean ratio is another one.
+    pub fn check_ratio(&self, gearing: &Gearing) -> Result<(), Error> {
+        let placed = self.placed();
+        let (Some(first), Some(last)) = (placed.first(), placed.last()) else {
+            return Err(Error::TooFewSamples { found: 0, expected: 2 });
+        };
+        let (over, under) = gearing.pulses_per_pulse();
+        let expected = float(over) / float(under);
+        let outputs = number((last.0 - first.0).max(1));
+        let found = number(last.1 - first.1) / outputs;
+        if (found - expected).abs() <= RATIO_TOLERANCE * expected + 1.0 / outputs {
+            return Ok(());
+        }
+        Err(Error::WrongRatio { found, expected })
     }
 
     /// Output pulses that lie between two input pulses: their numbers, and the number of the last
@@ -65,5 +94,21 @@ fn check(train_s: &[f64], column: &'static str) -> Result<(), Error> {
             found_s: train_s[row + 1],
             previous_s: train_s[row],
         }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_of_another_transmission_are_refused() {
+        let train = |count: usize, period: f64| (0..count).map(|k| number(k) * period).collect();
+        let pulses = Pulses::new(train(1001, 0.001), train(101, 0.01)).unwrap();
+        let gearing = |ratio| Gearing { input_lines: 100, output_lines: 100, ratio };
+        assert_eq!(pulses.check_ratio(&gearing((10, 1))), Ok(()));
+        assert_eq!(pulses.check_ratio(&gearing((10_001, 1000))), Ok(()));
+        let refused = pulses.check_ratio(&gearing((11, 1)));
+        assert!(matches!(refused, Err(Error::WrongRatio { .. })), "{refused:?}");
     }
 }
