@@ -60,7 +60,8 @@ fn between(rows: &[(f64, f64)], position_mm: f64) -> f64 {
 fn left_um(added_mm: impl Fn(&Sample) -> f64) -> (f64, f64) {
     let left: Vec<f64> =
         check_run().iter().map(|sample| sample.error_um + 1000.0 * added_mm(sample)).collect();
-    let mean_square = left.iter().map(|one| one * one).sum::<f64>() / left.len() as f64;
+    let count: f64 = left.iter().map(|_| 1.0).sum();
+    let mean_square = left.iter().map(|one| one * one).sum::<f64>() / count;
     (left.iter().fold(0.0, |most, one| one.abs().max(most)), mean_square.sqrt())
 }
 
