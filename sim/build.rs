@@ -1,21 +1,63 @@
-//! Writes the device as Rust source, `device.rs` in Cargo's output folder.
+//! Writes designs as Rust source into Cargo's output folder: the device, `device.rs`, and what the
+//! generator is tested on, `samples.rs`.
 
 use std::error::Error;
+use std::fmt::Write as _;
 use std::path::Path;
 
 use helixlock_netlist::{Library, Netlist, elaborate, rust_source};
+use helixlock_rtl::{APART, BLOCKS, BlockCard};
+use random_design::{Dice, random_design};
+
+#[path = "src/random_design.rs"]
+mod random_design;
+
+/// Random designs compiled into the tests: they take a minute to compile.
+const RANDOM_DESIGNS: u64 = 32;
+
+/// How many of them run in lanes too, which take longest to compile.
+const RANDOM_LANES: u64 = 6;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let card = helixlock_rtl::BLOCKS
-        .iter()
-        .find(|card| card.name == "device")
-        .ok_or("no block is called `device`")?;
-    let design = elaborate(card.name, (card.build)().as_ref(), &Library::new())?;
-    let source = rust_source::generate(&Netlist::new(&design)?, "DeviceKernel");
-    let path = Path::new(&std::env::var("OUT_DIR")?).join("device.rs");
-    write(&path, &source)?;
+    let folder = std::env::var("OUT_DIR")?;
+    let device = BLOCKS.iter().find(|card| card.name == "device");
+    let device = flat(device.ok_or("no block is called `device`")?)?;
+    let name = "DeviceKernel";
+    let source = rust_source::generate(&device, name) + &rust_source::generate_lanes(&device, name);
+    write(&Path::new(&folder).join("device.rs"), &source)?;
+    write(&Path::new(&folder).join("samples.rs"), &samples()?)?;
     println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=src/random_design.rs");
     Ok(())
+}
+
+fn flat(card: &BlockCard) -> Result<Netlist, Box<dyn Error>> {
+    let design = elaborate(card.name, (card.build)().as_ref(), &Library::new())?;
+    Ok(Netlist::new(&design)?)
+}
+
+/// Kernels of random designs and of every block, and a list of each.
+fn samples() -> Result<String, Box<dyn Error>> {
+    let mut source = String::new();
+    let [mut random, mut lanes, mut blocks] = [const { String::new() }; 3];
+    for seed in 0..RANDOM_DESIGNS {
+        let (name, design) = (format!("Random{seed}"), random_design(&mut Dice(seed)));
+        source += &rust_source::generate(&design, &name);
+        write!(random, "check::<{name}>, ")?;
+        if seed < RANDOM_LANES {
+            source += &rust_source::generate_lanes(&design, &name);
+            write!(lanes, "check_lanes::<{name}>, ")?;
+        }
+    }
+    for (index, card) in BLOCKS.iter().chain(APART).enumerate() {
+        let name = format!("Block{index}");
+        source += &rust_source::generate(&flat(card)?, &name);
+        write!(blocks, "check::<{name}>, ")?;
+    }
+    for (list, checks) in [("RANDOM", random), ("LANES", lanes), ("BLOCKS", blocks)] {
+        writeln!(source, "pub(super) const {list}: &[Check] = &[{checks}];")?;
+    }
+    Ok(source)
 }
 
 #[expect(clippy::disallowed_methods, reason = "a build script writes where Cargo tells it to")]

@@ -12,13 +12,23 @@ pub trait DenseKernel {
     type Inputs: AsRef<[u64]> + AsMut<[u64]> + Clone + std::fmt::Debug;
     /// One word a register.
     type Registers: AsRef<[u64]> + AsMut<[u64]> + Clone + std::fmt::Debug;
+    /// One word for each that is kept from clock to clock: it depends on inputs that `KEPT_FROM`
+    /// names and registers that rarely change.
+    type Kept: AsRef<[u64]> + Clone + std::fmt::Debug;
     /// All inputs low.
     const INPUTS: Self::Inputs;
     /// Power-up.
     const REGISTERS: Self::Registers;
+    /// Nothing computed yet.
+    const KEPT: Self::Kept;
+    /// One an input: words kept are to be computed anew when it has changed.
+    const KEPT_FROM: &'static [bool];
 
-    /// Takes one rising edge, from `registers` to `next`.
-    fn step(inputs: &Self::Inputs, registers: &Self::Registers, next: &mut Self::Registers);
+    /// Takes one rising edge; `kept` must be of these inputs and registers, and is afterwards.
+    fn step(inputs: &Self::Inputs, registers: &mut Self::Registers, kept: &mut Self::Kept);
+
+    /// Computes the words kept.
+    fn keep(inputs: &Self::Inputs, registers: &Self::Registers, kept: &mut Self::Kept);
 
     /// Writes the outputs, in port order.
     fn outputs(inputs: &Self::Inputs, registers: &Self::Registers, values: &mut [u64]);
@@ -31,8 +41,9 @@ pub struct Compiled<'a, K: DenseKernel> {
     clock: u64,
     inputs: K::Inputs,
     registers: K::Registers,
-    /// Written by the next edge, then exchanged with `registers`.
-    next: K::Registers,
+    kept: K::Kept,
+    /// `kept` is of other inputs or registers.
+    stale: bool,
     watched: Vec<SignalId>,
     /// Indices of the watched signals among the outputs, if they all are.
     watched_outputs: Option<Vec<usize>>,
@@ -51,12 +62,26 @@ impl<'a, K: DenseKernel> Compiled<'a, K> {
             clock: 0,
             inputs: K::INPUTS,
             registers: K::REGISTERS,
-            next: K::REGISTERS,
+            kept: K::KEPT,
+            stale: true,
             watched: Vec::new(),
             watched_outputs: Some(Vec::new()),
             outputs: vec![0; netlist.outputs.len()],
             evaluated: None,
         }
+    }
+
+    #[inline]
+    fn edges(&mut self, clocks: u64) {
+        if self.stale {
+            K::keep(&self.inputs, &self.registers, &mut self.kept);
+            self.stale = false;
+        }
+        for _ in 0..clocks {
+            K::step(&self.inputs, &mut self.registers, &mut self.kept);
+        }
+        self.clock += clocks;
+        self.evaluated = None;
     }
 
     fn watched_values(&mut self) -> Vec<u64> {
@@ -81,7 +106,8 @@ impl<K: DenseKernel> Engine for Compiled<'_, K> {
 
     fn set_input(&mut self, input: SignalId, value: u64) {
         let index = self.circuit.input_index(input, value);
-        self.inputs.as_mut()[index] = value;
+        let before = std::mem::replace(&mut self.inputs.as_mut()[index], value);
+        self.stale |= before != value && K::KEPT_FROM[index];
         self.evaluated = None;
     }
 
@@ -99,10 +125,7 @@ impl<K: DenseKernel> Engine for Compiled<'_, K> {
     }
 
     fn step(&mut self) {
-        K::step(&self.inputs, &self.registers, &mut self.next);
-        std::mem::swap(&mut self.registers, &mut self.next);
-        self.clock += 1;
-        self.evaluated = None;
+        self.edges(1);
     }
 
     fn watch(&mut self, signals: &[SignalId]) {
@@ -114,17 +137,7 @@ impl<K: DenseKernel> Engine for Compiled<'_, K> {
 
     fn run_until(&mut self, clock: u64) -> Stop {
         if self.watched.is_empty() {
-            let clocks = clock.saturating_sub(self.clock);
-            // To and fro, so that nothing is copied.
-            for _ in 0..clocks / 2 {
-                K::step(&self.inputs, &self.registers, &mut self.next);
-                K::step(&self.inputs, &self.next, &mut self.registers);
-            }
-            self.clock += clocks / 2 * 2;
-            if clocks % 2 == 1 {
-                self.step();
-            }
-            self.evaluated = None;
+            self.edges(clock.saturating_sub(self.clock));
             return Stop::Reached;
         }
         let before = self.watched_values();
@@ -151,6 +164,7 @@ impl<K: DenseKernel> Engine for Compiled<'_, K> {
         let registers = unpack(self.circuit.netlist(), &snapshot.flip_flops);
         self.registers.as_mut().copy_from_slice(&registers);
         self.clock = snapshot.clock;
+        self.stale = true;
         self.evaluated = None;
     }
 }

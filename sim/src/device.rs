@@ -69,7 +69,8 @@ mod tests {
     use helixlock_netlist::{SignalId, mask};
 
     use super::*;
-    use crate::random_design::{Dice, compare};
+    use crate::agreement::compare;
+    use crate::random_design::Dice;
     use crate::{
         ClosedLoop, Engine, Interpreter, LANES, Probe, Progress, Swing, signals_of, write_vcd,
     };

@@ -212,7 +212,8 @@ impl<K: Kernel> Engine for Leap<'_, K> {
 mod tests {
     use super::*;
     use crate::InterpretedPieces;
-    use crate::random_design::{Dice, compare, random_design};
+    use crate::agreement::compare;
+    use crate::random_design::{Dice, random_design};
 
     #[test]
     fn leaping_is_stepping_every_clock() {

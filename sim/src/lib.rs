@@ -1,5 +1,7 @@
 //! Cycle-accurate simulation of the device in closed loop with the machine.
 
+#[cfg(test)]
+mod agreement;
 mod appraisal;
 mod certify;
 mod circuit;
@@ -28,6 +30,8 @@ mod probe;
 #[cfg(test)]
 mod random_design;
 mod recorder;
+#[cfg(test)]
+mod samples;
 mod settings;
 mod simulate;
 mod state;

@@ -1,7 +1,6 @@
 //! Designs and stimulus nobody would think of, for tests: registers in several instances, counters
-//! with odd steps and thresholds, logic of every operator.
-
-use crate::{Engine, Interpreter};
+//! with odd steps and thresholds, registers that change under conditions within conditions, logic
+//! of every operator.
 
 use helixlock_netlist::{Assignment, Expression, Netlist, Node, Register, Signal, SignalId, mask};
 
@@ -23,41 +22,14 @@ impl Dice {
     }
 
     pub(crate) fn pick<T: Copy>(&mut self, from: &[T]) -> T {
-        from[usize::try_from(self.below(from.len() as u64)).unwrap()]
-    }
-}
-
-/// Holds inputs for a while, now and then a long one, and compares everything with the reference
-/// engine at every stop.
-pub(crate) fn compare(netlist: &Netlist, engine: &mut dyn Engine, dice: &mut Dice) {
-    let mut reference = Interpreter::new(netlist);
-    let all: Vec<SignalId> = (0..).map(SignalId).take(netlist.signals.len()).collect();
-    for _ in 0..30 {
-        for input in &netlist.inputs {
-            let value = dice.roll() & mask(netlist.signal(*input).width);
-            if dice.below(2) == 0 {
-                reference.set_input(*input, value);
-                engine.set_input(*input, value);
-            }
-        }
-        let watched: Vec<SignalId> = (0..dice.below(3)).map(|_| dice.pick(&all)).collect();
-        reference.watch(&watched);
-        engine.watch(&watched);
-        let span = dice.pick(&[0, 1, 2, 3, 17, 300]);
-        let until = reference.clock() + dice.below(span + 1);
-        assert_eq!(engine.run_until(until), reference.run_until(until), "{watched:?}");
-        assert_eq!(engine.clock(), reference.clock(), "{watched:?}");
-        assert_eq!(engine.snapshot(), reference.snapshot(), "clock {}", reference.clock());
-        for signal in &all {
-            let path = &netlist.signal(*signal).path;
-            assert_eq!(engine.value(*signal), reference.value(*signal), "`{path}`");
-        }
+        from[usize::try_from(self.below(from.len() as u64)).expect("an index fits")]
     }
 }
 
 /// A design of a few registers.
 pub(crate) fn random_design(dice: &mut Dice) -> Netlist {
-    let mut draft = Draft { dice, netlist: Netlist::default(), known: Vec::new() };
+    let mut draft =
+        Draft { dice, netlist: Netlist::default(), known: Vec::new(), enables: Vec::new() };
     for width in [1, 1, 8] {
         let input = draft.signal("input", width);
         draft.netlist.inputs.push(input);
@@ -86,6 +58,8 @@ struct Draft<'a> {
     netlist: Netlist,
     /// Signals that may be read.
     known: Vec<SignalId>,
+    /// Conditions under which registers change.
+    enables: Vec<SignalId>,
 }
 
 impl Draft<'_> {
@@ -93,7 +67,7 @@ impl Draft<'_> {
         let index = self.netlist.signals.len();
         let instance = self.dice.pick(&["", "one.", "two.", "two.inner."]);
         self.netlist.signals.push(Signal { path: format!("{instance}{name}{index}"), width });
-        SignalId(u32::try_from(index).unwrap())
+        SignalId(u32::try_from(index).expect("a design has few signals"))
     }
 
     fn register_output(&mut self) -> SignalId {
@@ -129,9 +103,10 @@ impl Draft<'_> {
 
     fn register_input(&mut self, output: SignalId) {
         let width = self.netlist.signal(output).width;
-        let value = match self.dice.below(3) {
+        let value = match self.dice.below(5) {
             0 => self.expression(width, 3),
             1 => self.synchroniser(width),
+            2 | 3 => self.held(output, width),
             _ => self.counter(output, width),
         };
         let input = self.signal("next", width);
@@ -150,6 +125,39 @@ impl Draft<'_> {
 
     fn synchroniser(&mut self, width: u32) -> Expression {
         self.leaf(width)
+    }
+
+    /// Anything under a condition, and rest otherwise.
+    fn held(&mut self, output: SignalId, width: u32) -> Expression {
+        let own = || Box::new(read(output, width));
+        let enable = self.enable();
+        let enable = || Box::new(read(enable, 1));
+        let value = Box::new(self.expression(width, 3));
+        if self.dice.below(3) == 0 {
+            let stall = Box::new(Expression { width: 1, node: Node::Not(enable()) });
+            return select(width, stall, own(), value);
+        }
+        let moved = select(width, enable(), value, own());
+        if self.dice.below(2) == 0 {
+            return moved;
+        }
+        let clear = self.enable();
+        let cleared = Box::new(constant(0, width));
+        select(width, Box::new(read(clear, 1)), cleared, Box::new(moved))
+    }
+
+    /// A condition, at times a part of one that another register has, so that they nest.
+    fn enable(&mut self) -> SignalId {
+        let mut value = self.expression(1, 2);
+        if !self.enables.is_empty() && self.dice.below(3) != 0 {
+            let wider = read(self.dice.pick(&self.enables.clone()), 1);
+            value = Expression { width: 1, node: Node::And(Box::new(wider), Box::new(value)) };
+        }
+        let target = self.signal("enable", 1);
+        self.netlist.assignments.push(Assignment { target, value });
+        self.known.push(target);
+        self.enables.push(target);
+        target
     }
 
     /// A step up or down while a condition holds, and a load or rest otherwise.
@@ -212,6 +220,10 @@ impl Draft<'_> {
             _ => Expression { width, node: Node::Slice { of: Box::new(read), low: 0 } },
         }
     }
+}
+
+fn read(signal: SignalId, width: u32) -> Expression {
+    Expression { width, node: Node::Signal(signal) }
 }
 
 fn constant(value: u64, width: u32) -> Expression {

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use super::dense::indented;
-use super::words::Words;
+use super::words::{Operand, Words};
 use crate::Netlist;
 use crate::partition::{CounterPiece, Group, Net, Partition, Readers, Source, Task};
 
@@ -95,22 +95,22 @@ impl Pieces<'_> {
         let slot = self.net_slot(index);
         let mut marks = self.marks(Source::Net(index));
         marks.push(format!("now.changed[{}] |= {:#x};", index / 64, 1_u64 << (index % 64)));
-        let mut lines = words.lines;
-        lines.push(update(slot, &value, &marks));
+        let mut lines = words.lines();
+        lines.push(update(slot, value, &marks));
         lines
     }
 
     fn group(&self, group: &Group) -> Vec<String> {
         let mut words = self.words(&group.task);
-        let next: Vec<(usize, String)> = group
+        let next: Vec<(usize, Operand)> = group
             .registers
             .iter()
             .map(|index| (*index, words.signal(self.netlist.registers[*index].input)))
             .collect();
-        let mut lines = words.lines;
+        let mut lines = words.lines();
         lines.extend(next.into_iter().map(|(register, value)| {
             let marks = self.marks(Source::Register(register));
-            update(self.register_slot(register), &value, &marks)
+            update(self.register_slot(register), value, &marks)
         }));
         lines
     }
@@ -120,9 +120,10 @@ impl Pieces<'_> {
         let mut words = self.words(&piece.mode);
         let counting = words.value(&piece.counter.counting);
         let step = words.value(&piece.counter.step);
+        let thresholds = piece.counter.thresholds.iter();
         let thresholds: Vec<String> =
-            piece.counter.thresholds.iter().map(|threshold| words.value(threshold)).collect();
-        let mut lines = words.lines;
+            thresholds.map(|threshold| words.value(threshold).to_string()).collect();
+        let mut lines = words.lines();
         lines.push(format!(
             "now.count({index}, choose({counting}, {step}, 0), &[{}]);",
             thresholds.join(", "),
@@ -137,7 +138,7 @@ impl Pieces<'_> {
         let register = piece.counter.register;
         let mut words = self.words(&piece.load);
         let value = words.signal(self.netlist.registers[register].input);
-        let mut lines = words.lines;
+        let mut lines = words.lines();
         lines.push(format!("now.load({index}, {value});"));
         lines
     }
@@ -195,7 +196,7 @@ impl Pieces<'_> {
 }
 
 /// Stores a value and calls upon its readers if it is a new one.
-fn update(slot: usize, value: &str, marks: &[String]) -> String {
+fn update(slot: usize, value: Operand, marks: &[String]) -> String {
     let marks = marks.join(" ");
     format!("if now.slots[{slot}] != {value} {{ now.slots[{slot}] = {value}; {marks} }}")
 }

@@ -1,6 +1,7 @@
 //! Expressions as Rust on `u64` words: three-address code, each value computed once.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use crate::drivers::Drivers;
 use crate::{Expression, Netlist, Node, SignalId, mask};
@@ -9,12 +10,47 @@ use crate::{Expression, Netlist, Node, SignalId, mask};
 pub(super) struct Words<'a> {
     netlist: &'a Netlist,
     drivers: Drivers<'a>,
-    /// Words that hold signals.
-    signals: BTreeMap<SignalId, String>,
-    /// Names of values computed already, by what computes them.
-    known: BTreeMap<String, String>,
-    /// Statements so far.
-    pub(super) lines: Vec<String>,
+    /// Values that signals have.
+    signals: BTreeMap<SignalId, Operand>,
+    /// Words computed already, by what computes them.
+    known: BTreeMap<String, usize>,
+    /// By number: a word is computed from words before it.
+    computed: Vec<Word>,
+}
+
+/// What a word is computed from; prints as Rust.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Operand {
+    Constant(u64),
+    /// Number of the word.
+    Word(usize),
+}
+
+impl fmt::Display for Operand {
+    fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Constant(value) => write!(formatter, "{value:#x}_u64"),
+            Self::Word(index) => write!(formatter, "w{index}"),
+        }
+    }
+}
+
+/// A value with a name, `w0`, `w1`, ….
+pub(super) struct Word {
+    /// Rust that computes it.
+    text: String,
+    /// Words it is computed from; none when it is read from somewhere.
+    pub(super) operands: Vec<usize>,
+    /// The gate it is, when it is one of one bit.
+    pub(super) gate: Option<Gate>,
+}
+
+/// Gates of one bit, which conditions are made of.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Gate {
+    Not(Operand),
+    And(Operand, Operand),
+    Or(Operand, Operand),
 }
 
 impl<'a> Words<'a> {
@@ -24,26 +60,26 @@ impl<'a> Words<'a> {
             drivers: Drivers::new(netlist),
             signals: BTreeMap::new(),
             known: BTreeMap::new(),
-            lines: Vec::new(),
+            computed: Vec::new(),
         }
     }
 
     /// Says where the value of a signal is found; it is read there once.
     pub(super) fn place(&mut self, signal: SignalId, place: &str) {
-        let word = self.word(place.to_owned());
+        let word = self.word(place.to_owned(), &[], None);
         self.signals.insert(signal, word);
     }
 
-    /// The word with the value of a signal: placed, or computed from what is.
-    pub(super) fn signal(&mut self, signal: SignalId) -> String {
+    /// The value of a signal: placed, or computed from what is.
+    pub(super) fn signal(&mut self, signal: SignalId) -> Operand {
         if let Some(word) = self.signals.get(&signal) {
-            return word.clone();
+            return *word;
         }
         let word = match self.drivers.logic(signal) {
             Some(expression) => self.value(expression),
-            None => "0_u64".to_owned(),
+            None => Operand::Constant(0),
         };
-        self.signals.insert(signal, word.clone());
+        self.signals.insert(signal, word);
         word
     }
 
@@ -55,36 +91,96 @@ impl<'a> Words<'a> {
         }
     }
 
-    /// The word with the value of an expression.
-    pub(super) fn value(&mut self, expression: &Expression) -> String {
+    /// The value of an expression.
+    pub(super) fn value(&mut self, expression: &Expression) -> Operand {
         match &expression.node {
-            Node::Constant(value) => return format!("{value:#x}_u64"),
+            Node::Constant(value) => return Operand::Constant(*value),
             Node::Signal(id) => return self.signal(*id),
             Node::Extend(a) => return self.value(a),
             _ => {}
         }
         let operands = expression.operands();
-        let words: Vec<String> = operands.iter().map(|operand| self.value(operand)).collect();
-        let computed = computed(expression, &words, operands[0].width);
-        self.word(computed)
+        let words: Vec<Operand> = operands.iter().map(|operand| self.value(operand)).collect();
+        let text = computed(expression, &words, operands[0].width);
+        let gate = (expression.width == 1).then(|| gate(&expression.node, &words)).flatten();
+        self.word(text, &words, gate)
+    }
+
+    /// Complement of one bit.
+    pub(super) fn not(&mut self, a: Operand) -> Operand {
+        match a {
+            Operand::Constant(bit) => Operand::Constant(bit ^ 1),
+            Operand::Word(_) => self.word(format!("{a} ^ 0x1"), &[a], Some(Gate::Not(a))),
+        }
+    }
+
+    /// Both bits.
+    pub(super) fn and(&mut self, a: Operand, b: Operand) -> Operand {
+        match (a, b) {
+            (Operand::Constant(0), _) | (_, Operand::Constant(0)) => Operand::Constant(0),
+            (Operand::Constant(_), other) | (other, Operand::Constant(_)) => other,
+            _ => self.word(format!("{a} & {b}"), &[a, b], Some(Gate::And(a, b))),
+        }
+    }
+
+    /// Either bit.
+    pub(super) fn or(&mut self, a: Operand, b: Operand) -> Operand {
+        match (a, b) {
+            (Operand::Constant(0), other) | (other, Operand::Constant(0)) => other,
+            (Operand::Constant(_), _) | (_, Operand::Constant(_)) => Operand::Constant(1),
+            _ => self.word(format!("{a} | {b}"), &[a, b], Some(Gate::Or(a, b))),
+        }
+    }
+
+    /// All words so far.
+    pub(super) fn all(&self) -> &[Word] {
+        &self.computed
+    }
+
+    /// The statement that computes a word.
+    pub(super) fn line(&self, index: usize) -> String {
+        format!("let w{index} = {};", self.computed[index].text)
+    }
+
+    /// The statements that compute all words.
+    pub(super) fn lines(&self) -> Vec<String> {
+        (0..self.computed.len()).map(|index| self.line(index)).collect()
     }
 
     /// A word holding what is computed, new unless the same has been computed before.
-    fn word(&mut self, computed: String) -> String {
-        if let Some(word) = self.known.get(&computed) {
-            return word.clone();
+    fn word(&mut self, text: String, operands: &[Operand], gate: Option<Gate>) -> Operand {
+        let next = self.computed.len();
+        let index = *self.known.entry(text.clone()).or_insert(next);
+        if index == next {
+            let operands = operands.iter().copied().filter_map(number).collect();
+            self.computed.push(Word { text, operands, gate });
         }
-        let word = format!("w{}", self.known.len());
-        self.lines.push(format!("let {word} = {computed};"));
-        self.known.insert(computed, word.clone());
-        word
+        Operand::Word(index)
+    }
+}
+
+/// Number of the word, unless it is a constant.
+pub(super) fn number(operand: Operand) -> Option<usize> {
+    match operand {
+        Operand::Constant(_) => None,
+        Operand::Word(index) => Some(index),
+    }
+}
+
+fn gate(node: &Node, operands: &[Operand]) -> Option<Gate> {
+    match (node, operands) {
+        (Node::Not(_), [a]) => Some(Gate::Not(*a)),
+        (Node::And(..), [a, b]) => Some(Gate::And(*a, *b)),
+        (Node::Or(..), [a, b]) => Some(Gate::Or(*a, *b)),
+        _ => None,
     }
 }
 
 /// Rust for one operator; `width` is that of its first operand.
-fn computed(expression: &Expression, words: &[String], width: u32) -> String {
+fn computed(expression: &Expression, operands: &[Operand], width: u32) -> String {
     let kept = mask(expression.width);
-    let [a, b, c] = [0, 1, 2].map(|index| words.get(index).map_or("", String::as_str));
+    let zero = Operand::Constant(0);
+    let [a, b, c] = [0, 1, 2].map(|index| operands.get(index).copied().unwrap_or(zero));
     match &expression.node {
         Node::Not(_) => format!("{a} ^ {kept:#x}"),
         Node::And(..) => format!("{a} & {b}"),
@@ -105,6 +201,6 @@ fn computed(expression: &Expression, words: &[String], width: u32) -> String {
         // One bit chooses by logic, more by a mask: neither can become a branch.
         Node::Select { .. } if expression.width == 1 => format!("{c} ^ (({b} ^ {c}) & {a})"),
         Node::Select { .. } => format!("choose({a}, {b}, {c})"),
-        Node::Constant(_) | Node::Signal(_) | Node::Extend(_) => a.to_owned(),
+        Node::Constant(_) | Node::Signal(_) | Node::Extend(_) => a.to_string(),
     }
 }
