@@ -12,6 +12,7 @@ use helixlock_lab::learn::written;
 use helixlock_plant::{CATALOGUE, MachineFile, Term};
 use serde_json::json;
 
+use crate::captured::Signals;
 use crate::{diagnosis_json, measured, output};
 
 /// Put an effect into a machine file, its parameters fitted to data
@@ -30,6 +31,8 @@ pub(crate) struct Add {
     /// A parameter, such as `amplitude="1.5 um"`; only without `--fit`
     #[arg(long = "set", value_name = "KEY=VALUE", conflicts_with = "fit")]
     values: Vec<String>,
+    #[command(flatten)]
+    signals: Signals,
     /// New machine file
     #[arg(short, long)]
     output: PathBuf,
@@ -50,8 +53,7 @@ impl Add {
         };
         let term = self.term(&file)?;
         let (base, beside) = if self.refit { stripped(&file)? } else { (file, Vec::new()) };
-        let measurement = measured::measurement(&base.machine, data)?;
-        let problem = measured::problem(&base.machine, &measurement, data)?;
+        let problem = measured::problem(&base.machine, data, &self.signals)?;
         let added = add(&problem, &beside, &term)
             .with_context(|| format!("{}: {} cannot be fitted", data.display(), term.name))?;
         let Some(added) = added else {
@@ -62,7 +64,7 @@ impl Add {
         if self.json {
             writeln!(out, "{}", serde_json::to_string_pretty(&as_json(&added))?)?;
         } else {
-            print(out, &added, measurement.unit())?;
+            print(out, &added, problem.measurement.unit())?;
         }
         Ok(ExitCode::SUCCESS)
     }

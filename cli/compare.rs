@@ -10,8 +10,9 @@ use helixlock_lab::lines::NamedLine;
 use helixlock_lab::measurement::{Measurement, sensor_column};
 use serde_json::{Value, json};
 
-use crate::measured::{self, Files};
+use crate::measured::Files;
 use crate::output::Batch;
+use crate::words::with_p;
 use crate::{diagnosis_json, pages};
 
 /// Show where a machine file and a measurement part
@@ -30,8 +31,7 @@ pub(crate) struct Compare {
 impl Compare {
     /// Prints the comparison; exit status 0 whatever it says.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
-        let (file, measurement) = self.files.read()?;
-        let problem = measured::problem(&file.machine, &measurement, &self.files.data)?;
+        let (_, problem) = self.files.read()?;
         let comparison = compare(&problem);
         if let Some(folder) = &self.output {
             let page = pages::compare::page(&problem, &comparison).html();
@@ -40,10 +40,10 @@ impl Compare {
             files.keep()?;
         }
         if self.json {
-            let value = as_json(&comparison, &measurement);
+            let value = as_json(&comparison, &problem.measurement);
             writeln!(out, "{}", serde_json::to_string_pretty(&value)?)?;
         } else {
-            print(out, &comparison, &measurement)?;
+            print(out, &comparison, &problem.measurement)?;
         }
         Ok(ExitCode::SUCCESS)
     }
@@ -67,14 +67,17 @@ fn print(
         )?;
     }
     let says = if comparison.noise_only { "nothing but noise" } else { "more than noise" };
-    writeln!(out, "left: {says} (p = {:.1e})\n", comparison.noise_p_value)?;
+    writeln!(out, "left: {says} ({})\n", with_p(comparison.noise_p_value))?;
     writeln!(out, "where it fails:")?;
     for one in comparison.along.iter().take(10) {
         let at = one.at.map_or(String::new(), |at| format!(" at {at:.4}"));
         writeln!(
             out,
-            "  {:<24} {:<34} {:>9.4} {unit} rms  p = {:.1e}{at}",
-            one.along, one.shape, one.rms_um, one.p_value
+            "  {:<24} {:<44} {:>9.4} {unit} rms  {}{at}",
+            one.along,
+            one.shape,
+            one.rms_um,
+            with_p(one.p_value)
         )?;
     }
     if !comparison.lines.is_empty() {

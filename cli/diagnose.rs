@@ -7,7 +7,8 @@ use std::process::ExitCode;
 use clap::Args;
 use helixlock_lab::diagnosis::{Diagnosis, FittedEffect, diagnose};
 
-use crate::measured::{self, Files};
+use crate::measured::Files;
+use crate::words::with_p;
 use crate::{add, diagnosis_json};
 
 /// Name the effects that a machine file lacks, with evidence, rivals, and the experiment that tells
@@ -26,17 +27,16 @@ pub(crate) struct Diagnose {
 impl Diagnose {
     /// Prints the diagnosis; the verdict does not change the exit status.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
-        let (file, measurement) = self.files.read()?;
-        let mut problem = measured::problem(&file.machine, &measurement, &self.files.data)?;
+        let (file, mut problem) = self.files.read()?;
         if let Some(custom) = &self.custom {
             problem.extra = add::own_effects(&file, custom)?;
         }
         let diagnosis = diagnose(&problem);
         if self.json {
-            let value = diagnosis_json::diagnosis(&diagnosis, &measurement);
+            let value = diagnosis_json::diagnosis(&diagnosis, &problem.measurement);
             writeln!(out, "{}", serde_json::to_string_pretty(&value)?)?;
         } else {
-            print(out, &diagnosis, measurement.unit())?;
+            print(out, &diagnosis, problem.measurement.unit())?;
         }
         Ok(ExitCode::SUCCESS)
     }
@@ -64,8 +64,11 @@ pub(crate) fn print(out: &mut impl Write, diagnosis: &Diagnosis, unit: &str) -> 
         let at = left.at.map_or(String::new(), |at| format!(" at {at:.4}"));
         writeln!(
             out,
-            "left: {} along {}{at}, {:.4} {unit} rms, p = {:.1e}",
-            left.shape, left.along, left.rms_um, left.p_value
+            "left: {} along {}{at}, {:.4} {unit} rms, {}",
+            left.shape,
+            left.along,
+            left.rms_um,
+            with_p(left.p_value)
         )?;
     }
     Ok(())
@@ -88,8 +91,11 @@ fn print_candidates(out: &mut impl Write, diagnosis: &Diagnosis) -> anyhow::Resu
         let mark = if candidate.accepted { "*" } else { " " };
         writeln!(
             out,
-            "{mark} {:<24} rms {:.4}  held out {:.4}  p {:.1e}",
-            candidate.name, candidate.rms_um, candidate.holdout_rms_um, candidate.p_value
+            "{mark} {:<24} rms {:.4}  held out {:.4}  {}",
+            candidate.name,
+            candidate.rms_um,
+            candidate.holdout_rms_um,
+            with_p(candidate.p_value)
         )?;
         if !candidate.confounded_with.is_empty() {
             writeln!(out, "    cannot be told from: {}", candidate.confounded_with.join(", "))?;

@@ -6,11 +6,15 @@ use std::process::ExitCode;
 
 use anyhow::{Context, bail};
 use clap::Args;
-use helixlock_lab::diagnosis::diagnose;
-use helixlock_lab::learn::{fingerprint, ledger};
+use helixlock_lab::diagnosis::{Diagnosis, diagnose};
+use helixlock_lab::learn::{Ledger, fingerprint, ledger, written};
+use helixlock_lab::problem::Problem;
 use helixlock_plant::MachineFile;
+use helixlock_report::Page;
 use serde_json::Value;
 
+use crate::captured::Signals;
+use crate::closed_loop_check::Checked;
 use crate::output::Batch;
 use crate::{add, diagnose as words, diagnosis_json, measured, pages};
 
@@ -32,6 +36,8 @@ pub(crate) struct Learn {
     /// Take the last round in the folder's ledger back
     #[arg(long, requires = "output", conflicts_with_all = ["machine", "data"])]
     undo: bool,
+    #[command(flatten)]
+    signals: Signals,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -57,32 +63,53 @@ impl Learn {
         out: &mut impl Write,
     ) -> anyhow::Result<ExitCode> {
         let file = MachineFile::read(machine)?;
-        let measurement = measured::measurement(&file.machine, data)?;
-        let mut problem = measured::problem(&file.machine, &measurement, data)?;
+        let mut problem = measured::problem(&file.machine, data, &self.signals)?;
         if let Some(custom) = &self.custom {
             problem.extra = add::own_effects(&file, custom)?;
         }
         let diagnosis = diagnose(&problem);
+        let check = checked(&file, &problem, &diagnosis)?;
         let bytes = std::fs::read(data).with_context(|| format!("{}", data.display()))?;
         let book = ledger(&file, &diagnosis, &bytes)?;
         if let Some(folder) = folder {
-            let mut files = Batch::new(folder)?;
-            let last = book.entries.last().map(|entry| entry.machine.as_str()).unwrap_or_default();
-            files.write_content("machine.toml", last)?;
-            files.write_json("ledger.json", &diagnosis_json::ledger(&book, &diagnosis, data))?;
-            let page = pages::learn::page(&file.machine.title, &problem, &diagnosis);
-            files.write_content("report.html", page.html())?;
-            files.keep()?;
+            let page = pages::learn::page(&file.machine.title, &problem, &diagnosis, &check);
+            let mut value = diagnosis_json::ledger(&book, &diagnosis, data);
+            value["final_check"] = check.json();
+            write_folder(folder, &book, &value, &page)?;
         }
         if self.json {
-            let mut value = diagnosis_json::diagnosis(&diagnosis, &measurement);
+            let mut value = diagnosis_json::diagnosis(&diagnosis, &problem.measurement);
             value["data_hash"] = Value::from(fingerprint(&bytes));
+            value["final_check"] = check.json();
             writeln!(out, "{}", serde_json::to_string_pretty(&value)?)?;
         } else {
-            words::print(out, &diagnosis, measurement.unit())?;
+            words::print(out, &diagnosis, problem.measurement.unit())?;
+            check.print(out)?;
         }
         Ok(ExitCode::SUCCESS)
     }
+}
+
+fn write_folder(folder: &Path, book: &Ledger, value: &Value, page: &Page) -> anyhow::Result<()> {
+    let mut files = Batch::new(folder)?;
+    let last = book.entries.last().map(|entry| entry.machine.as_str()).unwrap_or_default();
+    files.write_content("machine.toml", last)?;
+    files.write_json("ledger.json", value)?;
+    files.write_content("report.html", page.html())?;
+    files.keep()
+}
+
+/// The learned machine in the closed loop, where the machine file says that the loop is closed.
+fn checked(
+    file: &MachineFile,
+    problem: &Problem,
+    diagnosis: &Diagnosis,
+) -> anyhow::Result<Checked> {
+    let learned = match diagnosis.rounds.last() {
+        Some(last) => written(file, &last.effects)?,
+        None => file.clone(),
+    };
+    Ok(Checked::run(problem, &file.machine, &learned.machine))
 }
 
 /// Goes back to the machine file before the last round that still stands.

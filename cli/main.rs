@@ -1,8 +1,10 @@
 //! The `helixlock` command: reads files, calls the libraries, prints and writes what they say.
 
 mod add;
+mod captured;
 mod certify;
 mod challenge;
+mod closed_loop_check;
 mod compare;
 mod diagnose;
 mod diagnosis_json;
@@ -36,6 +38,7 @@ mod sweep_journal;
 mod transmission;
 mod transmission_summary;
 mod wheels;
+mod words;
 
 use std::io::{self, Write};
 use std::process::ExitCode;

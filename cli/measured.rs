@@ -2,44 +2,72 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::Context;
+use anyhow::{Context, bail};
 use clap::Args;
 use helixlock_lab::measurement::{Measurement, Nominal};
 use helixlock_lab::problem::Problem;
 use helixlock_plant::{Machine, MachineFile};
 use helixlock_traces::read_table;
 
+use crate::captured::Signals;
+use crate::pulse_capture::is_dump;
+
 /// The two files every comparison begins with.
 #[derive(Debug, Args)]
 pub(crate) struct Files {
     /// Machine file
     pub(crate) machine: PathBuf,
-    /// Measured data, CSV or Parquet: `error_um`, `lead_error_um`, `steps` or `error_arcsec` over
-    /// `position_mm`, `time_s` or `angle_rev`
+    /// Measured data: CSV or Parquet with `error_um`, `lead_error_um`, `steps` or `error_arcsec`
+    /// over `position_mm`, `time_s` or `angle_rev`; or a VCD capture of grating and laser
     pub(crate) data: PathBuf,
+    #[command(flatten)]
+    signals: Signals,
 }
 
 impl Files {
-    /// Reads both.
-    pub(crate) fn read(&self) -> anyhow::Result<(MachineFile, Measurement)> {
+    /// Reads both and lays the data out against the machine.
+    pub(crate) fn read(&self) -> anyhow::Result<(MachineFile, Problem)> {
         let file = MachineFile::read(&self.machine)?;
-        let measurement = measurement(&file.machine, &self.data)?;
-        Ok((file, measurement))
+        let problem = problem(&file.machine, &self.data, &self.signals)?;
+        Ok((file, problem))
     }
 }
 
-/// Reads measured data for a machine.
-pub(crate) fn measurement(machine: &Machine, data: &Path) -> anyhow::Result<Measurement> {
-    let table = read_table(data)?;
-    Ok(Measurement::from_table(&table, &Nominal::from(machine))?)
-}
-
-/// Lays a measurement out against a machine.
+/// Reads measured data and lays them out against a machine.
 pub(crate) fn problem(
     machine: &Machine,
-    measurement: &Measurement,
     data: &Path,
+    signals: &Signals,
 ) -> anyhow::Result<Problem> {
-    Problem::new(machine, measurement)
+    let (machine, measurement) = if is_dump(data)? {
+        captured(machine, data, signals)?
+    } else if signals.named() {
+        bail!("{}: found a table, expected a VCD capture with the named signals", data.display());
+    } else {
+        let table = read_table(data)?;
+        (machine.clone(), Measurement::from_table(&table, &Nominal::from(machine))?)
+    };
+    Problem::new(&machine, &measurement)
         .with_context(|| format!("{}: does not carry the machine's effects", data.display()))
+}
+
+/// The samples of a capture, and the machine as the capture shows it.
+///
+/// Captured steps are known moves of the table: with them a closed loop is an open one whose motor
+/// was turned by hand, and its hunting is no part of the error.
+fn captured(
+    machine: &Machine,
+    data: &Path,
+    signals: &Signals,
+) -> anyhow::Result<(Machine, Measurement)> {
+    let trains = signals.read(machine, data)?;
+    let (table, mut notes) = trains.table(machine)?;
+    let mut machine = machine.clone();
+    if trains.steps.is_some() {
+        machine.loop_closed = false;
+        notes.push("the captured steps are taken off: the error is that without them".to_owned());
+    }
+    let mut measurement = Measurement::from_table(&table, &Nominal::from(&machine))?;
+    measurement.notes.splice(0..0, notes);
+    Ok((machine, measurement))
 }

@@ -27,7 +27,7 @@ pub(crate) fn read_pulses(path: &Path, names: &Names<'_>) -> anyhow::Result<Puls
 }
 
 /// True for a value change dump, by its beginning.
-fn is_dump(path: &Path) -> anyhow::Result<bool> {
+pub(crate) fn is_dump(path: &Path) -> anyhow::Result<bool> {
     use std::io::Read;
     let unreadable = |error| anyhow!("{}: cannot be read: {error}", path.display());
     let mut start = [0; 256];

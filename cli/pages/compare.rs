@@ -1,16 +1,20 @@
 //! Report of `helixlock compare`: the residual, its spectrum, and where it fails.
 
-use helixlock_lab::compare::Comparison;
+use helixlock_lab::compare::{Comparison, SensorResidual};
+use helixlock_lab::measurement::sensor_column;
 use helixlock_lab::problem::Problem;
-use helixlock_report::{Axis, Colour, Figure, Label, Page, Panel, Part, Series, Style, Table};
+use helixlock_report::{Axis, Colour, Figure, Page, Panel, Part, Series, Style, Table};
+
+use crate::pages::spectrum;
+use crate::words::chance;
 
 /// The page.
 pub(crate) fn page(problem: &Problem, comparison: &Comparison) -> Page {
     let unit = problem.measurement.unit();
-    let mut parts = vec![Part::Numbers(numbers(comparison, unit))];
+    let mut parts = vec![Part::Numbers(numbers(comparison, problem))];
     for (index, sensor) in comparison.sensors.iter().enumerate() {
         let residual = panel(
-            "residual",
+            &format!("{}: residual", sensor_column(sensor.sensor, problem.measurement.rotary)),
             x_axis(problem),
             unit,
             vec![Series::new(
@@ -21,25 +25,17 @@ pub(crate) fn page(problem: &Problem, comparison: &Comparison) -> Page {
             )],
         );
         let mut spectrum = panel(
-            "order spectrum",
+            "Order spectrum",
             "cycles a spindle turn".into(),
             &format!("amplitude in {unit}"),
             vec![Series::new(
                 "residual",
                 Colour::Blue,
                 Style::Line,
-                sensor.spectrum.iter().map(|point| [point.frequency, point.amplitude]),
+                sensor.spectrum.iter().copied(),
             )],
         );
-        spectrum.labels = comparison
-            .lines
-            .iter()
-            .filter(|line| line.sensor == index)
-            .map(|line| Label {
-                at: [line.line.frequency, line.line.amplitude],
-                text: line.name.clone().unwrap_or_else(|| format!("{:.3}?", line.line.frequency)),
-            })
-            .collect();
+        spectrum.labels = spectrum::labels(&comparison.lines, index);
         let svg = Figure { width_px: 900, panels: vec![residual, spectrum] }.svg();
         parts.push(Part::Picture {
             svg,
@@ -54,19 +50,30 @@ pub(crate) fn page(problem: &Problem, comparison: &Comparison) -> Page {
     let says = if comparison.noise_only { "noise" } else { "more than noise" };
     Page {
         title: format!("{}: model against measurement", problem.machine.title),
-        summary: format!("What the model leaves is {says} (p = {:.1e}).", comparison.noise_p_value),
+        summary: format!(
+            "What the model leaves is {says} (chance of noise alone: {}).",
+            chance(comparison.noise_p_value)
+        ),
         parts,
     }
 }
 
-fn numbers(comparison: &Comparison, unit: &str) -> Vec<(String, String)> {
+fn numbers(comparison: &Comparison, problem: &Problem) -> Vec<(String, String)> {
+    let unit = problem.measurement.unit();
+    let column = |sensor: &SensorResidual| sensor_column(sensor.sensor, problem.measurement.rotary);
     comparison
         .sensors
         .iter()
         .flat_map(|sensor| {
             [
-                (format!("{:.3} {unit}", sensor.rms_um), "residual, rms".to_owned()),
-                (format!("{:.3} {unit}", sensor.peak_to_peak_um), "peak to peak".to_owned()),
+                (
+                    format!("{:.3} {unit}", sensor.rms_um),
+                    format!("{}, residual, rms", column(sensor)),
+                ),
+                (
+                    format!("{:.3} {unit}", sensor.peak_to_peak_um),
+                    format!("{}, peak to peak", column(sensor)),
+                ),
             ]
         })
         .collect()
@@ -80,7 +87,7 @@ fn along(comparison: &Comparison, unit: &str) -> Table {
             one.along.clone(),
             one.shape.clone(),
             format!("{:.4}", one.rms_um),
-            format!("{:.1e}", one.p_value),
+            chance(one.p_value),
             one.at.map_or(String::new(), |at| format!("{at:.4}")),
         ]);
     }

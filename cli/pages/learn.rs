@@ -1,56 +1,82 @@
-//! Report of `helixlock learn`: the error falling round by round, before and after.
+//! Report of `helixlock learn`: the verdict, the error falling, before and after, what to do next.
 
-use helixlock_lab::diagnosis::{Diagnosis, Verdict};
-use helixlock_lab::lines::LineSearch;
+use helixlock_lab::diagnosis::{Diagnosis, FittedEffect, Verdict};
 use helixlock_lab::problem::Problem;
-use helixlock_report::{Colour, Figure, Page, Part, Series, Style, Table};
+use helixlock_report::{Page, Part, Table};
 
-use crate::pages::compare::{panel, points, x_axis};
+use crate::closed_loop_check::Checked;
+use crate::pages::learn_pictures::{before_and_after, closed_loop, falling};
+use crate::words::chance;
 
 /// The page.
-pub(crate) fn page(title: &str, problem: &Problem, diagnosis: &Diagnosis) -> Page {
+pub(crate) fn page(title: &str, problem: &Problem, diagnosis: &Diagnosis, check: &Checked) -> Page {
     let unit = problem.measurement.unit();
-    let mut parts = vec![Part::Numbers(numbers(diagnosis, unit)), falling(diagnosis, unit)];
-    for sensor in 0..problem.sensors.len() {
-        parts.push(Part::Picture {
-            svg: before_and_after(problem, diagnosis, sensor).svg(),
-            caption: "Measured and model over each other, each pass about its own zero; what the file's model leaves and what the learned one leaves; both spectra.".into(),
-        });
-    }
+    let mut parts = vec![Part::Numbers(numbers(diagnosis, unit))];
+    parts.extend(diagnosis.residual.iter().map(|left| {
+        Part::Note(format!(
+            "Left: {} along {}, {:.4} {unit} rms, chance {}.",
+            left.shape,
+            left.along,
+            left.rms_um,
+            chance(left.p_value)
+        ))
+    }));
+    parts.push(falling(diagnosis, unit));
+    parts.extend((0..problem.sensors.len()).map(|i| before_and_after(problem, diagnosis, i)));
+    parts.extend(closed_loop(check));
+    parts.extend(next(diagnosis, unit));
     parts.push(Part::Heading("Rounds".into()));
-    parts.push(Part::Table(rounds(diagnosis, unit)));
+    parts.push(Part::Table(rounds(diagnosis, unit).without_empty_columns()));
     parts.push(Part::Heading("Parameters".into()));
-    parts.push(Part::Table(parameters(diagnosis)));
+    parts.push(Part::Table(parameters(diagnosis).without_empty_columns()));
     parts.push(Part::Heading("What was tried".into()));
-    parts.push(Part::Table(tried(diagnosis, unit)));
-    for left in &diagnosis.residual {
-        parts.push(Part::Note(format!(
-            "left: {} along {}, {:.4} {unit} rms, p = {:.1e}",
-            left.shape, left.along, left.rms_um, left.p_value
-        )));
+    parts.push(Part::Table(tried(diagnosis, unit).without_empty_columns()));
+    if !problem.measurement.notes.is_empty() {
+        parts.push(Part::Heading("How the data were read".into()));
     }
-    parts.extend(problem.measurement.notes.iter().cloned().map(Part::Note));
-    Page { title: format!("{title}: what the model lacked"), summary: sentence(diagnosis), parts }
+    parts.extend(problem.measurement.notes.iter().cloned().map(Part::Text));
+    let summary = sentence(diagnosis, unit);
+    Page { title: format!("{title}: what the model lacked"), summary, parts }
 }
 
-fn sentence(diagnosis: &Diagnosis) -> String {
-    let names: Vec<&str> = diagnosis
-        .rounds
-        .last()
-        .map(|round| round.effects.iter().map(|effect| effect.name.as_str()).collect())
-        .unwrap_or_default();
+/// The verdict in words.
+fn sentence(diagnosis: &Diagnosis, unit: &str) -> String {
+    let effects = diagnosis.rounds.last().map_or(&[][..], |round| &round.effects);
+    let names: Vec<String> = effects.iter().map(described).collect();
+    let names = names.join("; ");
+    let [before, after] = [diagnosis.rounds.first(), diagnosis.rounds.last()]
+        .map(|round| round.map_or(0.0, |round| round.rms_um));
     match diagnosis.verdict {
-        Verdict::Explained => {
-            format!("Explained by {}: what is left is noise.", names.join(" and "))
-        }
-        Verdict::Ambiguous => format!(
-            "Ambiguous: {} fits, but other effects fit as well; see what would tell them apart.",
-            names.join(" and ")
+        Verdict::Explained => format!(
+            "The model lacked {names}. With that the error falls from {before:.3} to {after:.3} {unit} rms, and what is left is noise."
         ),
-        Verdict::Unexplained => {
-            "Unexplained: structure is left that no effect of the catalogue accounts for.".into()
+        Verdict::Ambiguous => format!(
+            "The data fit {names}, but other effects fit them as well: see what would tell them apart. The error falls from {before:.3} to {after:.3} {unit} rms."
+        ),
+        Verdict::Unexplained if names.is_empty() => {
+            format!("{before:.3} {unit} rms are left that no effect of the catalogue accounts for.")
         }
-        Verdict::NothingMissing => "Nothing is missing: the model leaves nothing but noise.".into(),
+        Verdict::Unexplained => format!(
+            "The model lacked {names}, but something is left that no effect of the catalogue accounts for. The error falls from {before:.3} to {after:.3} {unit} rms."
+        ),
+        Verdict::NothingMissing => {
+            format!("Nothing is missing: what the model leaves, {before:.3} {unit} rms, is noise.")
+        }
+    }
+}
+
+/// An effect with its first parameters.
+fn described(effect: &FittedEffect) -> String {
+    const MOST: usize = 2;
+    let value = |parameter: &helixlock_lab::diagnosis::Parameter| {
+        let stderr = parameter.stderr.map_or(String::new(), |stderr| format!(" ± {stderr:.3}"));
+        format!("{} {:.3}{stderr}", parameter.key, parameter.value)
+    };
+    let shown: Vec<String> = effect.parameters.iter().take(MOST).map(value).collect();
+    if shown.is_empty() {
+        effect.name.clone()
+    } else {
+        format!("{} ({})", effect.name, shown.join(", "))
     }
 }
 
@@ -60,96 +86,47 @@ fn numbers(diagnosis: &Diagnosis, unit: &str) -> Vec<(String, String)> {
     vec![
         (diagnosis.verdict.word().to_owned(), "verdict".to_owned()),
         (format!("{first:.3} {unit}"), "error before, rms".to_owned()),
-        (format!("{:.3} {unit}", last.map_or(0.0, |r| r.rms_um)), "error after".to_owned()),
+        (format!("{:.3} {unit}", last.map_or(0.0, |r| r.rms_um)), "error after, rms".to_owned()),
         (
             format!("{:.3} {unit}", last.map_or(0.0, |r| r.holdout_rms_um)),
-            "on held-out data".to_owned(),
+            "the same on held-out data".to_owned(),
         ),
     ]
 }
 
-fn falling(diagnosis: &Diagnosis, unit: &str) -> Part {
-    let line = |name, colour, value: fn(&helixlock_lab::diagnosis::Round) -> f64| {
-        let points =
-            (0_u32..).zip(&diagnosis.rounds).map(|(n, round)| [f64::from(n), value(round)]);
-        Series::new(name, colour, Style::Line, points)
-    };
-    let series = vec![
-        line("seen", Colour::Orange, |round| round.rms_um),
-        line("held out", Colour::Blue, |round| round.holdout_rms_um),
-    ];
-    let panel = panel("the error falls", "round".into(), &format!("rms in {unit}"), series);
-    Part::Picture {
-        svg: Figure { width_px: 900, panels: vec![panel] }.svg(),
-        caption: "Root mean square of what each round's model leaves.".into(),
+/// Experiments that would tell rivals apart.
+fn next(diagnosis: &Diagnosis, unit: &str) -> Vec<Part> {
+    if diagnosis.experiments.is_empty() {
+        return Vec::new();
     }
-}
-
-fn before_and_after(problem: &Problem, diagnosis: &Diagnosis, sensor: usize) -> Figure {
-    let unit = problem.measurement.unit();
-    let model: Vec<f64> = problem
-        .observed
-        .iter()
-        .zip(&diagnosis.state.fit.left)
-        .map(|(observed, left)| observed - left)
-        .collect();
-    let over = vec![
-        Series::new(
-            "measured",
-            Colour::Orange,
-            Style::Line,
-            points(problem, sensor, &problem.observed),
-        ),
-        Series::new("learned model", Colour::Blue, Style::Line, points(problem, sensor, &model)),
-    ];
-    let left = vec![
-        Series::new(
-            "before",
-            Colour::Orange,
-            Style::Line,
-            points(problem, sensor, &diagnosis.before),
-        ),
-        Series::new(
-            "after",
-            Colour::Blue,
-            Style::Line,
-            points(problem, sensor, &diagnosis.state.fit.left),
-        ),
-    ];
-    let turns: Vec<f64> = problem.record.turns().collect();
-    let spectrum = |name, colour, values: &[f64]| {
-        let mut fit = diagnosis.state.fit.clone();
-        fit.left = values.to_vec();
-        let search = LineSearch { problem, fit: &fit, sensor, coordinate: &turns };
-        let points = search.spectrum().into_iter().map(|p| [p.frequency, p.amplitude]);
-        Series::new(name, colour, Style::Line, points)
-    };
-    let spectra = vec![
-        spectrum("before", Colour::Orange, &diagnosis.before),
-        spectrum("after", Colour::Blue, &diagnosis.state.fit.left),
-    ];
-    Figure {
-        width_px: 900,
-        panels: vec![
-            panel("measured and model", x_axis(problem), unit, over),
-            panel("residual", x_axis(problem), unit, left),
-            panel("order spectrum of the residual", "cycles a spindle turn".into(), unit, spectra),
-        ],
+    let size = format!("predictions then differ by, {unit} rms");
+    let mut table = Table::new(["experiment", "tells", "from", size.as_str()]);
+    for advice in diagnosis.experiments.iter().take(5) {
+        table.row([
+            advice.action.clone(),
+            advice.between.0.clone(),
+            advice.between.1.clone(),
+            format!("{:.3}", advice.separation_um),
+        ]);
     }
+    vec![Part::Heading("What to measure next".into()), Part::Table(table)]
 }
 
 fn rounds(diagnosis: &Diagnosis, unit: &str) -> Table {
     let (seen, unseen) = (format!("rms in {unit}"), format!("held out in {unit}"));
     let mut table =
-        Table::new(["round", "added", seen.as_str(), unseen.as_str(), "chance", "dropped"]);
+        Table::new(["round", "added", &seen, &unseen, "chance", "dropped", "tried and not taken"]);
     for round in &diagnosis.rounds {
+        let reason = |(effect, why): &(String, String)| format!("{effect}: {why}");
+        let rejected: Vec<String> = round.rejected.iter().take(3).map(reason).collect();
         table.row([
             round.round.to_string(),
             round.added.clone().unwrap_or_else(|| "the file's model".into()),
             format!("{:.4}", round.rms_um),
             format!("{:.4}", round.holdout_rms_um),
-            round.p_value.map_or(String::new(), |p| format!("{p:.1e}")),
+            round.p_value.map_or(String::new(), chance),
             round.dropped.join(", "),
+            rejected.join("; "),
         ]);
     }
     table
@@ -189,7 +166,7 @@ fn tried(diagnosis: &Diagnosis, unit: &str) -> Table {
             if one.accepted { "yes" } else { "" }.to_owned(),
             format!("{:.4}", one.rms_um),
             format!("{:.4}", one.holdout_rms_um),
-            format!("{:.1e}", one.p_value),
+            chance(one.p_value),
             one.confounded_with.join(", "),
             one.separate_by.clone().unwrap_or_default(),
         ]);

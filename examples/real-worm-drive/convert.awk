@@ -7,7 +7,8 @@
 #
 #     error_arcsec = scale · (RARawDistance + sum of earlier RAGuideDistance)
 #
-# A lost star leaves its cell empty. A new mark, or a pause, begins a new pass.
+# A lost star leaves its cell empty. A new mark, a pause, or another session of guiding begins a new
+# pass; a session counts its seconds anew, so they go on after those of the one before.
 BEGIN {
     FS = ","
     scale = 1
@@ -20,6 +21,8 @@ BEGIN {
     scale = words[2] + 0
 }
 
+/^Guiding Begins/ && rows { fresh = 1; before = last + 60 }
+
 /^INFO: (SET LOCK POSITION|Server received PAUSE)/ && rows { fresh = 1 }
 
 /^Frame,/ { for (field = 1; field <= NF; field++) { gsub(/"/, "", $field); place[$field] = field } }
@@ -29,6 +32,7 @@ BEGIN {
     rows++
     raw = $place["RARawDistance"]
     error = raw == "" ? "" : sprintf("%.4f", scale * (raw + pushed))
-    printf "%.3f,%s,%d\n", $place["Time"], error, pass
+    last = before + $place["Time"]
+    printf "%.3f,%s,%d\n", last, error, pass
     pushed += $place["RAGuideDistance"]
 }

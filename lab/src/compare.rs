@@ -2,11 +2,11 @@
 
 use helixlock_plant::prediction::Sensor;
 
+use crate::amplitude_spectrum::amplitude_spectrum;
 use crate::analysis::State;
-use crate::lines::{LineSearch, NamedLine, lines};
+use crate::lines::{NamedLine, lines};
 use crate::measurement::spread;
 use crate::noise::{Noise, Whitener};
-use crate::order_spectrum::Point;
 use crate::probes::{SIGNIFICANCE, Structure, all_structures};
 use crate::problem::Problem;
 
@@ -44,8 +44,8 @@ pub struct SensorResidual {
     pub interval_s: f64,
     /// Outliers that were weighed down.
     pub outliers: usize,
-    /// Spectrum over the spindle angle.
-    pub spectrum: Vec<Point>,
+    /// Order and amplitude over the spindle angle.
+    pub spectrum: Vec<[f64; 2]>,
 }
 
 /// A comparison of a model with a measurement.
@@ -109,8 +109,6 @@ fn sensor_residual(
     let samples: usize = passes.iter().map(|pass| pass.samples).sum();
     let square: f64 =
         passes.iter().map(|pass| pass.rms_um * pass.rms_um * crate::count(pass.samples)).sum();
-    let turns: Vec<f64> = problem.record.turns().collect();
-    let search = LineSearch { problem, fit: &state.fit, sensor, coordinate: &turns };
     SensorResidual {
         sensor: problem.sensors[sensor],
         samples,
@@ -124,7 +122,7 @@ fn sensor_residual(
             .flat_map(|block| block.rows.clone())
             .filter(|&row| 1.0 < problem.layout.inflation[row])
             .count(),
-        spectrum: search.spectrum(),
+        spectrum: amplitude_spectrum(problem, residual, sensor),
     }
 }
 

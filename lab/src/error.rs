@@ -61,4 +61,29 @@ pub enum LabError {
         /// Fewest that can be analysed.
         expected: usize,
     },
+    /// A captured pulse train is too short.
+    #[error("{path}: found {found} {train} pulses, expected at least {expected}")]
+    FewPulses {
+        /// The capture.
+        path: String,
+        /// `grating` or `laser`.
+        train: &'static str,
+        /// Rising edges of it.
+        found: usize,
+        /// Fewest that can be used.
+        expected: usize,
+    },
+    /// Two captured trains are not those of the machine.
+    #[error(
+        "{path}: found {found:.4} laser pulses a grating pulse, expected {expected:.4} by the \
+         machine's dividers\n\nhint: exchange `--grating-signal` and `--laser-signal`, or check A and B"
+    )]
+    PulseRatio {
+        /// The capture.
+        path: String,
+        /// Laser pulses over grating pulses.
+        found: f64,
+        /// B/A, or 1 behind the dividers.
+        expected: f64,
+    },
 }

@@ -1,6 +1,7 @@
 //! Model against measurement.
 
 pub mod adding;
+pub mod amplitude_spectrum;
 pub mod analysis;
 pub mod candidates;
 pub mod challenge;
@@ -9,6 +10,7 @@ pub mod component;
 pub mod diagnosis;
 pub mod error;
 pub mod experiment;
+pub mod final_check;
 pub mod fit;
 pub mod fourier;
 pub mod holdout;
@@ -22,6 +24,7 @@ pub mod noise_fit;
 pub mod order_spectrum;
 pub mod probes;
 pub mod problem;
+pub mod pulse_trains;
 pub mod repeatability;
 pub mod rivals;
 pub mod setting_trial;

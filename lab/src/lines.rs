@@ -6,7 +6,7 @@ use crate::candidates::highest_order;
 use crate::fit::{Columns, Fit, settle};
 use crate::measurement::spread;
 use crate::noise::Whitener;
-use crate::order_spectrum::{Line, Point, Scan};
+use crate::order_spectrum::{Line, Scan};
 use crate::problem::Problem;
 
 /// A line with what is known of it.
@@ -50,12 +50,6 @@ impl LineSearch<'_> {
     #[must_use]
     pub fn strongest(&self) -> Option<Line> {
         self.with_scan(|scan, white| scan.strongest(white))
-    }
-
-    /// The whole spectrum.
-    #[must_use]
-    pub fn spectrum(&self) -> Vec<Point> {
-        self.with_scan(|scan, white| scan.spectrum(white))
     }
 
     /// Hands a scan and the whitened residual of this sensor to a function.

@@ -1,6 +1,7 @@
 //! Measured samples in order: coordinates, sensors and covariates, pass by pass.
 
 mod coordinates;
+mod headers;
 mod passes;
 mod thinning;
 
@@ -107,13 +108,24 @@ const FEWEST: usize = 16;
 impl Measurement {
     /// Orders and completes the samples of a table.
     ///
-    /// Rows without a coordinate or without any observation are left out and counted in `notes`.
+    /// Columns such as `Position [m]` are converted where name and unit leave no doubt. Rows without
+    /// a coordinate or without any observation are left out and counted in `notes`.
     ///
     /// # Errors
     ///
     /// A missing observation or coordinate, an observation of the other kind of machine,
     /// a direction that is no sign, or fewer than 16 usable samples.
     pub fn from_table(table: &Table, nominal: &Nominal) -> Result<Self, LabError> {
+        if let Some((understood, mut notes)) = headers::understood(table) {
+            let mut measurement = Self::from_named(&understood, nominal)?;
+            notes.append(&mut measurement.notes);
+            return Ok(Self { notes, ..measurement });
+        }
+        Self::from_named(table, nominal)
+    }
+
+    /// As [`Self::from_table`], for columns that have our names.
+    fn from_named(table: &Table, nominal: &Nominal) -> Result<Self, LabError> {
         let path = table.path.display().to_string();
         check_kind(table, nominal, &path)?;
         let observed = observed_columns(table, nominal);

@@ -81,8 +81,18 @@ fn counted(stage: &Stage<'_>, component: Component) -> Option<(Component, f64)> 
 #[must_use]
 pub fn gain_at(stage: &Stage<'_>, component: &Component) -> Option<Gain> {
     let columns = Columns::of(stage.problem, std::slice::from_ref(component)).ok()?;
-    let finite = columns.raw.iter().flatten().all(|value| value.is_finite());
-    finite.then(|| stage.gain(&columns))
+    let usable = columns.raw.iter().all(|column| is_usable(column));
+    usable.then(|| stage.gain(&columns))
+}
+
+/// Smallest swing, µm, of a column that says anything: what lies below is the far end of a bump
+/// outside the data, and would ask for coefficients of hundreds of digits.
+const SMALLEST_SWING_UM: f64 = 1e-12;
+
+fn is_usable(column: &[f64]) -> bool {
+    let swing_um = crate::measurement::spread(column);
+    let finite = column.iter().all(|value| value.is_finite());
+    finite && (swing_um <= 0.0 || SMALLEST_SWING_UM < swing_um)
 }
 
 /// Nonlinear values improved from a grid point, within their ranges.

@@ -60,6 +60,11 @@ impl Axis {
         Self { label: label.into(), scale: Scale::Log, range: None }
     }
 
+    /// A linear axis of whole numbers, such as rounds.
+    pub fn counts(label: impl Into<String>) -> Self {
+        Self { label: label.into(), scale: Scale::Counts, range: None }
+    }
+
     /// The same axis from `low` to `high`.
     #[must_use]
     pub fn between(mut self, low: f64, high: f64) -> Self {
@@ -73,6 +78,8 @@ impl Axis {
 pub enum Scale {
     /// Equal differences are equal lengths.
     Linear,
+    /// As linear, with whole numbers on it only.
+    Counts,
     /// Equal ratios are equal lengths; what is not positive is left out.
     Log,
 }

@@ -25,6 +25,22 @@ impl Table {
         self
     }
 
+    /// The table without the columns in which no row says anything.
+    #[must_use]
+    pub fn without_empty_columns(mut self) -> Self {
+        let says = |column: usize| {
+            self.rows.iter().any(|row| row.get(column).is_some_and(|cell| !cell.is_empty()))
+        };
+        let kept: Vec<bool> = (0..self.header.len()).map(says).collect();
+        let keep = |cells: &mut Vec<String>| {
+            let mut kept = kept.iter();
+            cells.retain(|_| kept.next() == Some(&true));
+        };
+        keep(&mut self.header);
+        self.rows.iter_mut().for_each(keep);
+        self
+    }
+
     /// The table as HTML; columns of numbers are set to the right.
     #[must_use]
     pub fn html(&self) -> String {
@@ -71,5 +87,14 @@ mod tests {
         let html = table.html();
         assert!(html.contains("<td>a&lt;b</td><td class=\"number\">0.06</td>"), "{html}");
         assert!(html.contains("<th class=\"number\">rms in µm</th>"), "{html}");
+    }
+
+    #[test]
+    fn columns_that_say_nothing_are_left_out() {
+        let mut table = Table::new(["a", "b", "c"]);
+        table.row(["1", "", "x"]).row(["2", "", ""]);
+        let table = table.without_empty_columns();
+        assert_eq!(table.header, ["a", "c"]);
+        assert_eq!(table.rows, [["1", "x"], ["2", ""]]);
     }
 }

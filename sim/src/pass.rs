@@ -104,10 +104,11 @@ pub fn run_pass<E: Engine>(
     let pins = device.pins();
     device.engine().set_input(pins.correct, u64::from(plan.correct));
     course.run(&mut device, end, None)?;
+    // A window that ends with the pass must not see the playback.
+    let waveform = course.waveform.or_else(|| device.end_recording());
     device.hold();
     let (steps_taken, steps_net) = (device.steps_taken, device.steps);
     let playback = plan.playback_s.map(|limit_s| play_back(&mut device, limit_s)).transpose()?;
-    let waveform = course.waveform.or_else(|| device.end_recording());
     let (trace, jumps) = read_out(&device, &plan);
     let fault = device.fault_seen;
     let clocks = device.engine().clock();

@@ -1,7 +1,8 @@
 //! Comma-separated text: a header with units in the names, `#` comments, a number a cell.
 //!
-//! An empty cell is a missing value. Text such as `NaN`, `inf`, `1,5` or `5 mm` is refused with
-//! its line and column, because what it stands for would have to be guessed.
+//! Semicolons or tabs may stand for the commas, and a column may hold ISO 8601 instants. An empty
+//! cell is a missing value. Text such as `NaN`, `inf`, `1,5` or `5 mm` is refused with its line and
+//! column, because what it stands for would have to be guessed.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -13,32 +14,38 @@ use crate::number::write_number;
 use crate::table::{Column, Table};
 
 mod place;
+mod stamp;
 
 use place::{Line, Source};
 
 /// Reads comma-separated text; `path` is for messages only.
 ///
 /// A byte-order mark, CRLF, comment lines, blank lines and quoted cells are taken; the header
-/// comes first. Cells are finite decimal numbers or empty.
+/// comes first, and a semicolon or tab in it separates cells instead of the comma. Cells are finite
+/// decimal numbers or empty; a column of instants becomes seconds since 1970, and `time_s` when it
+/// is called `timestamp` or alike.
 ///
 /// # Errors
 ///
-/// Everything else: no header, numbers for a header, a name twice, semicolons or tabs between
-/// cells, a decimal comma, a row too long or too short, a cell that is no finite number.
+/// Everything else: no header, numbers for a header, a name twice, a decimal comma, a row too long
+/// or too short, a cell that is no finite number.
 pub fn read_csv(bytes: &[u8], path: &Path) -> Result<Table, TraceError> {
     let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+    let separator = separator(text);
     let mut reader = ReaderBuilder::new()
+        .delimiter(separator)
         .has_headers(false)
         .flexible(true)
         .comment(Some(b'#'))
         .buffer_capacity(1 << 20)
         .from_reader(text);
-    let source = Source { text, path };
+    let source = Source { text, path, separator };
     let mut record = ByteRecord::new();
     if !source.next(&mut reader, &mut record)? {
         return Err(TraceError::Empty { at: At::file(path), found: "an empty file" });
     }
     let mut table = empty_table(header(&record, &source.line(&reader))?, path);
+    let mut stamped = vec![false; table.columns.len()];
     let mut next_line = 0;
     while source.next(&mut reader, &mut record)? {
         let line = source.line(&reader);
@@ -46,12 +53,33 @@ pub fn read_csv(bytes: &[u8], path: &Path) -> Result<Table, TraceError> {
             table.line_jumps.push((table.rows(), line.number));
         }
         next_line = line.number + 1;
-        push_row(&mut table, &record, &line)?;
+        push_row(&mut table, &mut stamped, &record, &line)?;
     }
     if table.rows() == 0 {
         return Err(TraceError::Empty { at: At::file(path), found: "a header only" });
     }
+    for (column, _) in table.columns.iter_mut().zip(&stamped).filter(|(_, stamped)| **stamped) {
+        column.name = stamp::column_name(&column.name);
+    }
+    if let Some(name) = twice(&table) {
+        return Err(TraceError::DuplicateColumn { at: At::file(path), name });
+    }
     Ok(table)
+}
+
+/// What separates the cells of the first line that is no comment.
+fn separator(text: &[u8]) -> u8 {
+    let mut lines = text.split(|byte| matches!(byte, b'\n' | b'\r'));
+    let header = lines.find(|line| !line.starts_with(b"#") && !line.trim_ascii().is_empty());
+    let has = |separator: &u8| header.is_some_and(|header| header.contains(separator));
+    [b';', b'\t'].into_iter().find(has).unwrap_or(b',')
+}
+
+/// A name that two columns have.
+fn twice(table: &Table) -> Option<String> {
+    let names: Vec<&str> = table.names().collect();
+    let known = |(index, name): &(usize, &&str)| names[..*index].contains(*name);
+    names.iter().enumerate().find(known).map(|(_, name)| (*name).to_owned())
 }
 
 /// Writes a table as comma-separated text; numbers read back to the same bits, NaN is an empty
@@ -126,15 +154,7 @@ fn header(record: &ByteRecord, line: &Line) -> Result<Vec<String>, TraceError> {
     };
     let mut names: Vec<String> = Vec::with_capacity(record.len());
     for (index, cell) in record.iter().enumerate() {
-        let Ok(name) = std::str::from_utf8(cell.trim_ascii()) else {
-            let found = format!("`{}`", String::from_utf8_lossy(cell));
-            return refuse(index, found, "a name in UTF-8");
-        };
-        if let Some(separator) = name.chars().find(|c| matches!(c, ';' | '\t')) {
-            let found = if separator == ';' { "semicolons" } else { "tabs" };
-            let found = format!("{found} between the names");
-            return refuse(index, found, "commas between cells and points in numbers");
-        }
+        let name = text_of(cell.trim_ascii());
         if name.contains(|c: char| c.is_control() || c == '\u{feff}') {
             return refuse(
                 index,
@@ -145,10 +165,10 @@ fn header(record: &ByteRecord, line: &Line) -> Result<Vec<String>, TraceError> {
         if name.is_empty() {
             return refuse(index, "no name".into(), "a name for every column");
         }
-        if names.iter().any(|known| known == name) {
-            return Err(TraceError::DuplicateColumn { at: line.at(index), name: name.into() });
+        if names.contains(&name) {
+            return Err(TraceError::DuplicateColumn { at: line.at(index), name });
         }
-        names.push(name.to_owned());
+        names.push(name);
     }
     match names.iter().position(|name| name.parse::<f64>().is_err()) {
         Some(_) => Ok(names),
@@ -156,12 +176,24 @@ fn header(record: &ByteRecord, line: &Line) -> Result<Vec<String>, TraceError> {
     }
 }
 
+/// A name in UTF-8, or in Latin-1 as older loggers write `µ` and `°`.
+fn text_of(cell: &[u8]) -> String {
+    std::str::from_utf8(cell)
+        .map_or_else(|_| cell.iter().map(|byte| char::from(*byte)).collect(), ToOwned::to_owned)
+}
+
 fn empty_table(names: Vec<String>, path: &Path) -> Table {
     let columns = names.into_iter().map(|name| Column { name, values: Vec::new() }).collect();
     Table { path: path.to_owned(), columns, line_jumps: Vec::new() }
 }
 
-fn push_row(table: &mut Table, record: &ByteRecord, line: &Line) -> Result<(), TraceError> {
+/// Adds a row; `stamped` says which columns hold instants of a clock.
+fn push_row(
+    table: &mut Table,
+    stamped: &mut [bool],
+    record: &ByteRecord,
+    line: &Line,
+) -> Result<(), TraceError> {
     let (found, expected) = (record.len(), table.columns.len());
     if found != expected {
         let hint = ragged_hint(record, expected, line);
@@ -170,13 +202,29 @@ fn push_row(table: &mut Table, record: &ByteRecord, line: &Line) -> Result<(), T
     if line.last && line.is_open() {
         return Err(TraceError::OpenQuote { at: line.whole() });
     }
-    for (index, (cell, column)) in record.iter().zip(&mut table.columns).enumerate() {
-        match number(cell) {
+    let columns = table.columns.iter_mut().zip(stamped);
+    for (index, (cell, (column, stamped))) in record.iter().zip(columns).enumerate() {
+        match value(cell, column, stamped) {
             Some(value) => column.values.push(value),
             None => return Err(bad_cell(cell, &column.name, line, index)),
         }
     }
     Ok(())
+}
+
+/// The next value of a column; its first cell decides whether it holds numbers or instants.
+fn value(cell: &[u8], column: &Column, stamped: &mut bool) -> Option<f64> {
+    let plain = number(cell);
+    if plain.is_some_and(|value| !*stamped || value.is_nan()) {
+        return plain;
+    }
+    let undecided = || column.values.iter().all(|value| value.is_nan());
+    if plain.is_some() || !(*stamped || undecided()) {
+        return None;
+    }
+    let instant = stamp::seconds(cell)?;
+    *stamped = true;
+    Some(instant)
 }
 
 /// The cell as a number, NaN when it is empty; `None` when it is anything but finite.
@@ -213,6 +261,11 @@ fn is_row(text: &str) -> bool {
     text.split_whitespace().all(|word| word.parse::<f64>().is_ok())
 }
 
+/// A number beyond the largest that can be held.
+fn is_too_large(text: &str) -> bool {
+    text.parse::<f64>().is_ok_and(f64::is_infinite)
+}
+
 fn cell_hint(found: &str) -> &'static str {
     let word = found.trim_start_matches(['+', '-']).to_ascii_lowercase();
     let decimal_comma = found.contains(',') && found.replacen(',', ".", 1).parse::<f64>().is_ok();
@@ -224,7 +277,7 @@ fn cell_hint(found: &str) -> &'static str {
         "\n\nhint: leave the cell empty where a value is missing"
     } else if found.starts_with('\u{2212}') {
         "\n\nhint: write minus as `-`"
-    } else if matches!(word.as_str(), "inf" | "infinity") || found.parse::<f64>().is_ok() {
+    } else if matches!(word.as_str(), "inf" | "infinity") || is_too_large(found) {
         "\n\nhint: only finite numbers can be used"
     } else {
         ""

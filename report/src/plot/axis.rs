@@ -29,12 +29,13 @@ impl Settled {
         let given = given.filter(|[low, high]| low < high);
         let [mut low, mut high] =
             given.unwrap_or_else(|| spread(data.map(|value| position(scale, value)), scale, room));
-        let step = round_step((high - low) / count(most));
+        let least = (high - low) / count(most);
+        let step = round_step(if scale == Scale::Counts { least.max(1.0) } else { least });
         if given.is_none() && scale == Scale::Linear {
             [low, high] = rounded([low, high], step);
         }
         let ticks = match scale {
-            Scale::Linear => linear_ticks(low, high, step),
+            Scale::Linear | Scale::Counts => linear_ticks(low, high, step),
             Scale::Log => log_ticks(low, high, most),
         };
         Self { scale, low, high, ticks, step }
@@ -48,9 +49,9 @@ impl Settled {
     /// The round number at a position, as text.
     pub(crate) fn text(&self, position: f64) -> String {
         let shown = match self.scale {
-            Scale::Linear if position.abs() < self.step / 2.0 => "0".into(),
+            Scale::Linear | Scale::Counts if position.abs() < self.step / 2.0 => "0".into(),
             Scale::Linear if self.exponents() => format!("{position:.1e}"),
-            Scale::Linear => format!("{position:.*}", decimals(self.step)),
+            Scale::Linear | Scale::Counts => format!("{position:.*}", decimals(self.step)),
             Scale::Log => {
                 let value = libm::pow(10.0, position);
                 let plain = (-3.5..5.0).contains(&position);
@@ -67,7 +68,7 @@ impl Settled {
 
 fn position(scale: Scale, value: f64) -> f64 {
     match scale {
-        Scale::Linear => value,
+        Scale::Linear | Scale::Counts => value,
         Scale::Log if value > 0.0 => libm::log10(value),
         Scale::Log => f64::NAN,
     }
@@ -155,6 +156,11 @@ mod tests {
         let axis = Axis::linear("error in µm");
         assert_eq!(texts(&axis, &[-0.31, 0.28]), ["\u{2212}0.2", "0", "0.2"]);
         assert_eq!(texts(&axis, &[0.0, 1000.0]), ["0", "200", "400", "600", "800", "1000"]);
+    }
+
+    #[test]
+    fn counts_have_whole_numbers_only() {
+        assert_eq!(texts(&Axis::counts("round").between(-0.4, 2.4), &[]), ["0", "1", "2"]);
     }
 
     #[test]

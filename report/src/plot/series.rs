@@ -1,6 +1,6 @@
 //! Data inside the axes: lines, steps, dots, stems, and words at points.
 
-use plotters::element::{Circle, PathElement, Text};
+use plotters::element::{Circle, EmptyElement, PathElement, Text};
 use plotters::series::DashedLineSeries;
 use plotters::style::Color;
 use plotters::style::text_anchor::{HPos, VPos};
@@ -82,14 +82,38 @@ fn stairs(points: &[[f64; 2]]) -> Vec<(f64, f64)> {
     stairs
 }
 
-/// Writes the labels, each centred above its point.
+/// Height of a line of a label, and half the width of a letter, in units of the drawing.
+const LINE: i32 = 130;
+const HALF_LETTER: i32 = 33;
+
+/// Writes the labels, each centred above its point, or above the labels it would lie on.
 pub(super) fn draw_labels(chart: &mut Chart, panel: &Panel, [x, y]: [&Settled; 2]) -> Drawn {
     let style = anchored(&text(11).color(&INK), HPos::Center, VPos::Bottom);
+    let mut taken: Vec<[i32; 3]> = Vec::new();
     for label in &panel.labels {
         let [across, up] = shown(&label.at, [x, y]);
-        if across.is_finite() && up.is_finite() {
-            chart.draw_series([Text::new(printable(&label.text), (across, up), style.clone())])?;
+        if !(across.is_finite() && up.is_finite()) {
+            continue;
         }
+        let words = printable(&label.text);
+        let half = i32::try_from(words.chars().count()).unwrap_or(0) * HALF_LETTER;
+        let (middle, foot) = chart.backend_coord(&(across, up));
+        let lifted = lifted_clear(&taken, [middle, foot, half]);
+        taken.push([middle, lifted, half]);
+        let text = Text::new(words, (0, lifted - foot), style.clone());
+        chart.draw_series([EmptyElement::at((across, up)) + text])?;
     }
     Ok(())
+}
+
+/// Foot of a label, raised line by line until it lies on no other.
+fn lifted_clear(taken: &[[i32; 3]], [middle, foot, half]: [i32; 3]) -> i32 {
+    let covers = |foot: i32| {
+        let overlaps = |[other, other_foot, other_half]: &[i32; 3]| {
+            (other - middle).abs() < half + other_half && (other_foot - foot).abs() < LINE
+        };
+        taken.iter().any(overlaps)
+    };
+    let tries = (0..8).map(|line| foot - line * LINE);
+    tries.clone().find(|foot| !covers(*foot)).unwrap_or(foot)
 }

@@ -11,6 +11,7 @@ use crate::error::{At, TraceError};
 pub(super) struct Source<'a> {
     pub(super) text: &'a [u8],
     pub(super) path: &'a Path,
+    pub(super) separator: u8,
 }
 
 impl<'a> Source<'a> {
@@ -49,6 +50,7 @@ impl<'a> Source<'a> {
             before_end,
             last: end == self.text.len() && !after_line_feed,
             path: self.path,
+            separator: char::from(self.separator),
         }
     }
 }
@@ -61,6 +63,7 @@ pub(super) struct Line<'a> {
     pub(super) last: bool,
     before_end: &'a [u8],
     path: &'a Path,
+    separator: char,
 }
 
 impl Line<'_> {
@@ -80,21 +83,22 @@ impl Line<'_> {
         let end = self.before_end.trim_ascii_end().len().max(1) - 1;
         let start = self.before_end[..end].iter().rposition(|byte| matches!(byte, b'\n' | b'\r'));
         let line = String::from_utf8_lossy(&self.before_end[start.map_or(0, |at| at + 1)..]);
-        self.whole().at_column(1 + characters_before(&line, cell))
+        self.whole().at_column(1 + self.characters_before(&line, cell))
     }
-}
 
-/// Characters of the line before the content of a cell; commas inside quotes separate nothing.
-fn characters_before(line: &str, cell: usize) -> usize {
-    let (mut quoted, mut commas) = (false, 0);
-    for (index, character) in line.chars().enumerate() {
-        match character {
-            '"' => quoted = !quoted,
-            ',' if !quoted => commas += 1,
-            ' ' | '\t' => {}
-            _ if commas == cell => return index,
-            _ => {}
+    /// Characters of the line before the content of a cell; separators inside quotes separate
+    /// nothing.
+    fn characters_before(&self, line: &str, cell: usize) -> usize {
+        let (mut quoted, mut separators) = (false, 0);
+        for (index, character) in line.chars().enumerate() {
+            match character {
+                '"' => quoted = !quoted,
+                c if c == self.separator && !quoted => separators += 1,
+                ' ' | '\t' => {}
+                _ if separators == cell => return index,
+                _ => {}
+            }
         }
+        line.trim_end().chars().count()
     }
-    line.trim_end().chars().count()
 }

@@ -61,3 +61,24 @@ fn names_that_look_like_comments_read_back() {
         "data.csv:1:1: found `a\\u{1}b`, expected a name that can be printed"
     );
 }
+
+#[test]
+fn semicolons_tabs_and_latin_1_are_read_alike() {
+    for text in [
+        &b"Time [s];error [\xB5m]\n0;0.1\n1;\n"[..],
+        b"# logged\r\nTime [s]\terror [\xB5m]\r\n0\t0.1\r\n1\t\r\n",
+    ] {
+        let table = read_csv(text, Path::new("data.csv")).unwrap();
+        assert_eq!(table.names().collect::<Vec<_>>(), ["Time [s]", "error [\u{b5}m]"]);
+        let values = table.column("error [\u{b5}m]").unwrap();
+        assert!((values[0] - 0.1).abs() < f64::EPSILON && values[1].is_nan());
+    }
+}
+
+#[test]
+fn a_column_of_instants_is_a_time() {
+    let text = "timestamp,error_um\n2033-05-18T03:33:20Z,0\n,1\n2033-05-18T03:33:21.25Z,2\n";
+    let table = read(text).unwrap();
+    let time_s = table.column("time_s").unwrap();
+    assert!((time_s[2] - time_s[0] - 1.25).abs() < 1e-6 && time_s[1].is_nan());
+}

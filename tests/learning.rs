@@ -1,0 +1,187 @@
+//! `add` and `learn` on files: what is written, what is kept, what can be taken back.
+
+use std::fs;
+use std::path::Path;
+
+use helixlock_traces::{parquet::write_parquet, read_table};
+use serde_json::Value;
+
+use crate::support::command::{Run, helixlock, put, repository, scratch, word};
+
+fn example(file: &str) -> String {
+    fs::read_to_string(repository().join("examples").join(file)).expect("the example is there")
+}
+
+fn json(run: &Run) -> Value {
+    assert_eq!((run.status, run.stderr.as_str()), (0, ""));
+    serde_json::from_str(&run.stdout).expect("JSON")
+}
+
+fn names(value: &Value) -> Vec<String> {
+    let effects = value.as_array().expect("a list of effects");
+    effects.iter().map(|effect| effect["effect"].as_str().expect("a name").to_owned()).collect()
+}
+
+fn ledger(folder: &Path) -> Value {
+    let text = fs::read_to_string(folder.join("ledger.json")).expect("a ledger");
+    serde_json::from_str(&text).expect("JSON")
+}
+
+/// Two effects are found one after the other; each round can be gone back to.
+#[test]
+fn rounds_are_kept_and_can_be_taken_back() {
+    let folder = scratch();
+    let (out, out_word) = word(&folder, "learned");
+    let words = ["learn", "examples/thermal-day/machine.toml", "examples/thermal-day/data.csv"];
+    let learned = helixlock(&[&words[..], &["-o", &out_word, "--json"]].concat());
+    let mut found = names(&json(&learned)["effects"]);
+    found.sort_unstable();
+    assert_eq!(found, ["air-pressure", "air-temperature"]);
+
+    let book = ledger(&out);
+    let rounds = book["rounds"].as_array().expect("rounds");
+    assert_eq!(rounds.len(), 3, "{book}");
+    for pair in rounds.windows(2) {
+        assert_eq!(pair[1]["rms_before_um"], pair[0]["rms_um"]);
+    }
+    assert!(rounds[2]["rms_um"].as_f64() < rounds[0]["rms_um"].as_f64(), "{book}");
+    let machine = || fs::read_to_string(out.join("machine.toml")).expect("a machine file");
+    assert_eq!(rounds[2]["machine"], machine().as_str());
+
+    for (left, kept) in [(1, 1), (0, 0)] {
+        let undone = helixlock(&["learn", "--undo", "-o", &out_word]);
+        assert_eq!((undone.status, undone.stderr.as_str()), (0, ""));
+        assert!(undone.stdout.ends_with(" taken back\n"), "{}", undone.stdout);
+        assert_eq!(rounds[kept]["machine"], machine().as_str(), "{left} rounds are left");
+    }
+    assert_eq!(machine(), example("thermal-day/machine.toml"));
+    let undone = helixlock(&["learn", "--undo", "-o", &out_word]);
+    assert_eq!((undone.status, undone.stdout.as_str()), (1, "no round is left to take back\n"));
+    let taken = ledger(&out)["rounds"].as_array().expect("rounds").clone();
+    let taken: Vec<_> = taken.iter().map(|round| round["taken_back"].clone()).collect();
+    assert_eq!(taken, [false, true, true]);
+}
+
+/// The learned file is the old one, to the byte, with tables behind it.
+#[test]
+fn the_new_machine_file_keeps_comments_and_order() {
+    let folder = scratch();
+    let (out, out_word) = word(&folder, "learned");
+    let words = ["learn", "examples/hidden-gear/machine.toml", "examples/hidden-gear/data.csv"];
+    // A folder of an earlier run, with a file of the user's own in it.
+    fs::create_dir(&out).expect("a folder can be made");
+    put(&out.join("machine.toml"), "# of an earlier run\n");
+    put(&out.join("notes.txt"), "mine\n");
+    let learned = helixlock(&[&words[..], &["-o", &out_word]].concat());
+    assert_eq!((learned.status, learned.stderr.as_str()), (0, ""));
+    let new = fs::read_to_string(out.join("machine.toml")).expect("a machine file");
+    let old = example("hidden-gear/machine.toml");
+    assert!(new.starts_with(&old), "expected the old file first:\n{new}");
+    assert!(new[old.len()..].contains("kind = \"gear-error\""), "{new}");
+    assert_eq!(fs::read_to_string(out.join("notes.txt")).expect("kept"), "mine\n");
+    let mut files: Vec<_> = fs::read_dir(&out)
+        .expect("a folder")
+        .map(|entry| entry.expect("an entry").file_name().into_string().expect("text"))
+        .collect();
+    files.sort_unstable();
+    assert_eq!(files, ["ledger.json", "machine.toml", "notes.txt", "report.html"]);
+
+    // What was learned is no longer missing.
+    let machine = out.join("machine.toml").to_str().expect("text").to_owned();
+    let again = json(&helixlock(&["diagnose", &machine, words[2], "--json"]));
+    assert_eq!(again["verdict"], "nothing-missing", "{again}");
+}
+
+/// An effect nobody foresaw is unexplained, then added as the user's own, and explains.
+#[test]
+fn an_effect_of_the_users_own_is_learned() {
+    let data = "examples/outside-the-catalogue/data.csv";
+    let words = ["learn", "examples/outside-the-catalogue/machine.toml", data, "--json"];
+    let without = json(&helixlock(&words));
+    assert_eq!(without["verdict"], "unexplained");
+    let own = ["--custom", "examples/outside-the-catalogue/rack.toml"];
+    let with = json(&helixlock(&[&words[..], &own].concat()));
+    assert_eq!(with["verdict"], "explained", "{with}");
+    let rms = |value: &Value| {
+        let rounds = value["rounds"].as_array().expect("rounds").clone();
+        let of = |round: Option<&Value>| round.and_then(|r| r["holdout_rms_um"].as_f64());
+        of(rounds.first()).zip(of(rounds.last())).expect("two rounds")
+    };
+    let (before, after) = rms(&with);
+    assert!(after < 0.3 * before, "{before} → {after}");
+}
+
+/// With `--refit` the effects of the file give way; without, they stay as they are.
+#[test]
+fn a_refit_moves_the_effects_of_the_file() {
+    let folder = scratch();
+    let (machine, machine_word) = word(&folder, "machine.toml");
+    // A periodic error of the file that is half as large as the data's own.
+    let text = example("hidden-gear/machine.toml");
+    let kept = text.split("[[effect]]").next().expect("a first part");
+    let given = "\n[[effect]]                     # guessed\nkind = \"gear-error\"\n";
+    put(
+        &machine,
+        &format!("{kept}{given}order = 2.5\namplitude = \"0.1 um\"\nphase = \"0 deg\"\n"),
+    );
+    let (new, new_word) = word(&folder, "new.toml");
+    let words = ["add", &machine_word, "screw-periodic", "--fit", "examples/hidden-gear/data.csv"];
+    let fixed = json(&helixlock(&[&words[..], &["-o", &new_word, "--json"]].concat()));
+    assert_eq!(names(&fixed["effects"]), ["screw-periodic"]);
+    assert!(fs::read_to_string(&new).expect("a file").contains("# guessed"));
+    let refitted =
+        json(&helixlock(&[&words[..], &["-o", &new_word, "--refit", "--json"]].concat()));
+    assert_eq!(names(&refitted["effects"]), ["gear-error", "screw-periodic"]);
+    let rms = |value: &Value| value["rms_um"].as_f64().expect("a number");
+    assert!(rms(&refitted) <= rms(&fixed) + 1e-9, "{fixed}\n{refitted}");
+}
+
+/// The same samples from Parquet give the same answer.
+#[test]
+fn parquet_is_learned_from_like_text() {
+    let folder = scratch();
+    let csv = "examples/recorder-and-screw/data.csv";
+    let table = read_table(&repository().join(csv)).expect("a table");
+    let (parquet, parquet_word) = word(&folder, "data.parquet");
+    #[expect(clippy::disallowed_methods, reason = "a test makes its own input, in its own folder")]
+    let mut file = fs::File::create(&parquet).expect("a file can be made");
+    write_parquet(&table, &mut file).expect("it can be written");
+    let machine = "examples/recorder-and-screw/machine.toml";
+    let answer = |data: &str| {
+        let mut answer = json(&helixlock(&["learn", machine, data, "--json"]));
+        answer.as_object_mut().expect("an object").remove("data_hash");
+        answer
+    };
+    assert_eq!(answer(&parquet_word), answer(csv));
+}
+
+/// A trace of our own run, ×2 range and closed loop: the counter tells the error, and the learned
+/// machine, run clock by clock, does what was measured.
+#[test]
+fn a_closed_loop_trace_passes_the_final_check() {
+    let folder = scratch();
+    let (out, out_word) = word(&folder, "out");
+    let simulated =
+        helixlock(&["sim", "examples/sg7430-6mm/machine.toml", "--length", "240", "-o", &out_word]);
+    assert_eq!((simulated.status, simulated.stderr.as_str()), (0, ""));
+    let text = example("sg7430-6mm/machine.toml");
+    assert!(text.contains("range = 2 "));
+    let (before, after) = text.split_once("[[effect]]").expect("an effect");
+    let (_, progressive) = after.split_once("[[effect]]").expect("two effects");
+    let (machine, machine_word) = word(&folder, "machine.toml");
+    put(&machine, &format!("{before}[[effect]]{progressive}"));
+    let trace = out.join("trace.csv").to_str().expect("text").to_owned();
+    let answer = json(&helixlock(&["learn", &machine_word, &trace, "--json"]));
+    let effects = answer["effects"].as_array().expect("effects");
+    let periodic = effects.iter().find(|effect| effect["effect"] == "screw-periodic");
+    let amplitude = periodic.expect("it is found")["parameters"]["amplitude_um"]["value"].as_f64();
+    assert!((amplitude.expect("a number") - 1.5).abs() < 0.02, "{amplitude:?}");
+
+    let check = &answer["final_check"];
+    let hunting_um = check["hunting_um"].as_f64().expect("a number");
+    let sensors = check["sensors"].as_array().expect("sensors");
+    let counter = sensors.iter().find(|one| one["sensor"] == "steps").expect("the counter");
+    let (before, after) = (counter["rms_before_um"].as_f64(), counter["rms_um"].as_f64());
+    assert!(1.0 < before.expect("a number"), "{check}");
+    assert!(after.expect("a number") < 1.3 * hunting_um, "{check}");
+}
