@@ -54,3 +54,17 @@ fn every_message_belongs_to_a_case() {
         }
     }
 }
+
+/// Machine files, data files and command lines that are wrong, each with the message it gets.
+#[test]
+fn there_are_hundreds_of_cases() {
+    let shown = |name: &str, mark: &str| {
+        let path = folder().with_file_name(name);
+        let text = std::fs::read_to_string(&path).expect("the table is there");
+        text.lines().filter(|line| line.starts_with(mark)).count()
+    };
+    let data = ["csv", "kinds", "parquet", "vcd"];
+    let data: usize = data.iter().map(|kind| shown(&format!("bad-data/{kind}.txt"), "=> ")).sum();
+    let (machines, words) = (cases().len(), shown("command-line.txt", "$ "));
+    assert!(100 < machines && 170 < data && 60 < words, "{machines}, {data}, {words}");
+}

@@ -25,6 +25,27 @@ fn examples_keep_the_bound() {
         assert!((40e-9..83.4e-9).contains(&largest_s), "{example}: {certificate}");
         let largest_um = certificate["largest_difference_um"].as_f64().expect("a number");
         assert!(largest_um < 1e-4, "{example}: {certificate}");
+        for provoked in certificate["provoked_coincidences"].as_array().expect("two") {
+            assert!(provoked.as_u64().expect("a count") > 100, "{example}: {certificate}");
+        }
+        let alike = certificate["closed_alike"].as_u64().expect("a count");
+        let closed = certificate["closed_comparisons"].as_u64().expect("a count");
+        assert!(closed / 2 < alike, "{example}: {certificate}");
+    }
+}
+
+/// What is given of the flip-flops counts, and is said to be given. By hand: 80.3 ns of settling over
+/// 10 ns is e^8.03 = 10^3.5; 0.2 ns · 12 MHz · 1900 fringes/s are 10^8.2 upsets a year.
+#[test]
+fn flip_flops_may_be_described() {
+    let words = ["examples/sg7430-6mm/machine.toml", "--length", "1 mm", "--settling", "10"];
+    let output = certify(&words);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(said.contains("10^-5 years (settling 10 ns given, window 0.2 ns assumed,"), "{said}");
+    for wrong in ["0", "-1", "nan", "1e300", "x"] {
+        let output = certify(&[words[0], "--settling", wrong]);
+        assert_eq!(output.status.code(), Some(2), "{wrong}: {output:?}");
     }
 }
 

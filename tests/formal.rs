@@ -3,15 +3,37 @@
 //! `cargo xtask prove` does the same with every mutant, and with a waveform for every state that
 //! the properties call interesting.
 
-use std::path::Path;
-
+use tempfile::TempDir;
+use xtask::prove::exhaustive::{Outcome, exhaustively};
 use xtask::prove::lockstep::History;
 use xtask::prove::mutants::{Fate, of_module, try_mutant};
 use xtask::prove::properties::{Verdict, prove};
-use xtask::prove::{Sources, forgets};
+use xtask::prove::synthesis::{self, synthesised};
+use xtask::prove::vacuity::idle;
+use xtask::prove::{Sources, document, forgets};
+
+use crate::support::command::{put, repository};
 
 fn sources() -> Sources {
-    Sources::of(Path::new(env!("CARGO_MANIFEST_DIR")))
+    Sources::of(repository())
+}
+
+/// The sources with a text in one file of theirs exchanged for another; they go with the folder.
+fn altered(file: &str, was: &str, now: &str) -> (TempDir, Sources) {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let sound = sources();
+    for from in [&sound.verilog, &sound.properties] {
+        for entry in std::fs::read_dir(from).expect("the folder is there") {
+            let path = entry.expect("it can be listed").path();
+            let name = path.file_name().expect("a file").to_string_lossy().into_owned();
+            let text = std::fs::read_to_string(&path).expect("it is text");
+            let wrong = if name == file { text.replacen(was, now, 1) } else { text.clone() };
+            assert_eq!(wrong == text, name != file, "{file} has `{was}`");
+            put(&folder.path().join(name), &wrong);
+        }
+    }
+    let path = folder.path().to_owned();
+    (folder, Sources { verilog: path.clone(), properties: path })
 }
 
 /// Every block with properties, unbounded, from any power-up state.
@@ -47,4 +69,86 @@ fn mistakes_are_noticed() {
             assert!(matches!(fate, Fate::Properties | Fate::Lockstep), "{mutant:?}: {fate:?}");
         }
     }
+}
+
+/// The table of `docs/verification.md` was made from the Verilog and the properties as they are.
+#[test]
+fn the_printed_table_is_fresh() {
+    let fresh = document::is_fresh(repository(), &sources()).expect("the document is there");
+    assert!(fresh, "docs/verification.md is stale: cargo run --release -p xtask -- prove --write");
+}
+
+/// The gates of every block and of the device on its board, unbounded.
+#[test]
+fn gates_equal_the_verilog_they_are_made_from() {
+    let sources = sources();
+    for card in synthesis::blocks() {
+        let verdict = synthesised(&sources, &sources, card.name).expect("yosys starts");
+        assert!(matches!(verdict, synthesis::Verdict::Equal { .. }), "{}: {verdict:?}", card.name);
+    }
+}
+
+#[test]
+fn gates_of_another_ring_are_not_equal() {
+    let (_folder, wrong) = altered("ring_distributor.v", "a_d = ~b_q;", "a_d = b_q;");
+    let verdict = synthesised(&sources(), &wrong, "ring_distributor").expect("yosys starts");
+    let synthesis::Verdict::Unequal { log } = verdict else { panic!("{verdict:?}") };
+    assert!(log.contains("proof did fail"), "{log}");
+}
+
+/// Every state with every input of the blocks that have few; the divider's four million are left to
+/// `cargo xtask prove`.
+#[test]
+fn few_states_are_all_tried() {
+    let sources = sources();
+    let mut tried = 0;
+    for card in synthesis::blocks().filter(|card| card.name != "programmable_divider") {
+        match exhaustively(&sources, card.name).expect("Icarus starts") {
+            Outcome::TooMany => {}
+            Outcome::Alike(_) => tried += 1,
+            Outcome::Differs(first) => panic!("{}: {first}", card.name),
+        }
+    }
+    assert_eq!(tried, 12, "blocks with few states");
+}
+
+#[test]
+fn one_wrong_transition_is_found() {
+    let (_folder, wrong) = altered("ring_distributor.v", "c_d = ~b_q;", "c_d = b_q;");
+    let outcome = exhaustively(&wrong, "ring_distributor").expect("Icarus starts");
+    let Outcome::Differs(first) = outcome else { panic!("{outcome:?}") };
+    assert!(first.starts_with("DIFFERS after state "), "{first}");
+}
+
+/// Every assertion of these is reached; `cargo xtask prove` tries those of all blocks.
+#[test]
+fn no_assertion_is_idle() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    for block in ["phase_meter", "ring_distributor", "standard_wave", "reset_counter"] {
+        let idle = idle(&sources(), block, folder.path()).expect("yosys starts");
+        assert!(idle.is_empty(), "{block}: {idle:?}");
+    }
+}
+
+/// With a contradiction among its assumptions a proof goes through, and every assertion is idle.
+#[test]
+fn a_contradiction_makes_assertions_idle() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let (was, now) = ("endmodule", "    always @* assume (hold && !hold);\nendmodule");
+    let (_folder, vacuous) = altered("phase_meter.sv", was, now);
+    let proof = prove(&vacuous, "phase_meter").expect("yosys starts");
+    assert!(matches!(proof, Verdict::Proven { .. }), "{proof:?}");
+    let idle = idle(&vacuous, "phase_meter", folder.path()).expect("yosys starts");
+    assert_eq!(idle, ["assert (meter == grating_last);"]);
+}
+
+/// What a block's first difference is worth is said with it.
+#[test]
+fn a_difference_of_a_block_is_given_in_micrometres() {
+    let (_folder, wrong) = altered("phase_meter.v", "1'b1;", "1'b0;");
+    let history = History::draw("phase_meter", 2_000, 1).expect("a block of the list");
+    let said = history.first_difference(&wrong).expect("Icarus starts").expect("they differ");
+    assert!(said.starts_with("first difference at clock "), "{said}");
+    let tail = "\n  meter: engine 1, Verilog 0: a clock is 0.00005 µm in this comparison";
+    assert!(said.ends_with(tail), "{said}");
 }

@@ -12,6 +12,7 @@ mod verilator;
 
 use std::sync::LazyLock;
 
+use expect_test::expect;
 use helixlock_netlist::Netlist;
 use helixlock_sim::{Engine, Interpreter, device, device_engine, stepped_device};
 
@@ -100,4 +101,39 @@ fn icarus_agrees_with_the_compiled_engine() {
         let found = icarus::run(&device_design(), netlist, &layout, &asked);
         assert!(found == answers, "{}", report(&layout, netlist, 0, &answers, &found));
     }
+}
+
+/// A fault in the Verilog is found, and its first clock and signals are said with what they are
+/// worth: here the discriminator takes narrower for wider.
+#[test]
+fn a_divergence_says_what_it_is_worth() {
+    let (design, netlist) = (device_design(), device().netlist());
+    let mut modules = helixlock_gen::verilog(&design).expect("legal names");
+    let (_, text) = modules
+        .iter_mut()
+        .find(|(name, _)| name == "direction_discriminator")
+        .expect("the device decides");
+    let sound = text.clone();
+    *text = text.replacen("= 1'b1;", "= 1'b0;", 1);
+    assert_ne!(*text, sound);
+    let layout = Layout::of(netlist);
+    let mut stimulus = realistic(netlist, 7);
+    let mut engine = stepped_device();
+    let mut inputs = vec![0; netlist.inputs.len()];
+    let (mut asked, mut answers) = (vec![], vec![]);
+    for _ in 0..20_000 {
+        stimulus.next(&mut inputs);
+        asked.push(layout.pack_inputs(&inputs));
+        answers.extend(expected(&mut engine, &layout, netlist, &inputs));
+    }
+    let found = icarus::run_modules(&modules, &design, netlist, &layout, &asked);
+    let said = report(&layout, netlist, 0, &answers, &found);
+    expect![[r"
+        first difference after clock 977:
+          discriminator.jk_q: engine 0x1, Verilog 0x0: until the next decision the motor goes 0.316 µm the other way
+          q: engine 0x1, Verilog 0x0: until the next decision the motor goes 0.316 µm the other way
+          q_bar: engine 0x0, Verilog 0x1: until the next decision the motor goes 0.316 µm the other way
+          forward: engine 0x1, Verilog 0x0: a step is 0.0125 µm
+          reverse: engine 0x0, Verilog 0x1: a step is 0.0125 µm"]]
+    .assert_eq(&said);
 }

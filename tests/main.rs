@@ -30,6 +30,7 @@ mod learning;
 mod linuxcnc;
 mod lockstep;
 mod metrology;
+mod odd_machines;
 mod parquet_readers;
 mod phase_meter;
 mod programmable_divider;

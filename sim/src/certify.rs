@@ -1,12 +1,15 @@
 //! The synchronous device against the asynchronous one of the print, over a whole pass.
 //!
-//! Both get the same instants of lines and fringes, the loop open so that they stay the same. For
-//! each comparison the two widths of the meter pulse and the two decisions are compared.
+//! Loop open, both get the same instants of lines and fringes, and for each comparison the two
+//! widths of the meter pulse and the two decisions are compared; first on the machine, then on
+//! lines and fringes that are made to coincide. Loop closed, each drives a machine of its own.
 //!
 //! # The bound
 //!
-//! A synchroniser takes an edge at the next clock: each edge of the meter pulse is late by less
-//! than a clock, so the width is off by less than one clock either way,
+//! A synchroniser takes an edge at the next clock, late by u < 1 clock. The meter shows its duty
+//! cycle, w of the period P. With the start of the period late by `u0`, the laser's edge by `u1`
+//! and the end by `u2`, the reading is off by `u1 − (1 − w/P)·u0 − (w/P)·u2`, less than a clock
+//! either way:
 //!
 //! ```text
 //! |Δt| < 1/f        |Δx| < v/f
@@ -14,86 +17,76 @@
 //! f clock of the FPGA, Hz    v speed of the table, µm/s
 //! ```
 //!
+//! At the ends of the period the old flip-flop swallows a pulse, high or low, that is shorter than
+//! its delay, where the synchronous one shows whole clocks: there its delay comes on top.
+//!
 //! 1.5 mm/s at 12 MHz: 0.125 nm. The decision falls three to four clocks after the edge. Where the
 //! widths differ from half a period by less than a clock, or by less than the old flip-flop's
 //! shortest clock, the two may decide differently, and no difference is measurable.
-//!
-//! # Metastability
-//!
-//! `MTBF = exp(t/τ) / (T_w · f · f_in)`, where `t` is the settling time between the two flip-flops
-//! of a synchroniser.
 
-use std::cell::RefCell;
-use std::rc::Rc;
+mod closed;
+mod coincidence;
+mod metastability;
+mod open;
+mod seen;
 
 use helixlock_plant::Machine;
 
-use crate::closed_loop::{ClosedLoop, Place, Process};
 use crate::historic_cell::TTL;
-use crate::historic_device::{HistoricComparison, HistoricDevice};
-use crate::pass::reset;
-use crate::pins::{clock_of, time_of};
-use crate::probe::{Probe, signals_of};
-use crate::{Comparison, Course, Engine, Error, Grinder, Options, Waveform, device_engine};
-use crate::{set_wheels, settings_for};
+use crate::{Course, Error, Grinder, Options};
+
+pub use closed::BothClosed;
+pub use metastability::{FLIP_FLOP, FlipFlop, mtbf_log10_years};
+pub use open::OpenLoop;
+
+use coincidence::{Beat, Meeting};
 
 /// Clocks from a laser pulse at the selector to the open gate, and those of the synchronisers.
 const GATE_CLOCKS: f64 = 2.0;
 
-/// What is assumed of a flip-flop of the FPGA: the maker prints no figures, so these have no source,
-/// and the result says that they are assumed.
-pub const FLIP_FLOP: FlipFlop = FlipFlop { tau_s: 0.2e-9, window_s: 0.2e-9, overhead_s: 3e-9 };
-
-/// Metastability parameters of a flip-flop.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FlipFlop {
-    /// Time constant with which it settles, s.
-    pub tau_s: f64,
-    /// Window around the clock edge in which it is upset, s.
-    pub window_s: f64,
-    /// Clock to output, routing and set-up, lost to settling, s.
-    pub overhead_s: f64,
-}
-
 /// What came out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Certificate {
-    /// Comparisons compared.
-    pub comparisons: usize,
-    /// Largest difference of the meter's width, s.
-    pub largest_s: f64,
-    /// The same at the table, µm.
-    pub largest_um: f64,
-    /// Root mean square of the difference, s.
-    pub rms_s: f64,
-    /// One clock, s: no difference may reach it.
+    /// Loop open, on the machine.
+    pub open: OpenLoop,
+    /// Loop open, on edges made to coincide with the middle of the period, and with its ends.
+    pub provoked: [OpenLoop; 2],
+    /// Loop closed, each device on a machine of its own.
+    pub closed: BothClosed,
+    /// One clock, s: no difference of widths may reach it.
     pub bound_s: f64,
-    /// The same at the table, µm.
-    pub bound_um: f64,
-    /// Comparisons with another decision.
-    pub other_decisions: usize,
-    /// Largest distance of the laser's edge from the middle among those, s.
-    pub other_decision_s: f64,
-    /// Comparisons whose laser edge is within a clock of the middle, or of the period's ends.
-    pub coincidences: usize,
-    /// Clock pulses of the old flip-flop that were too short for it.
-    pub runts: u64,
-    /// Logarithm to base 10 of the mean time between failures of one synchroniser, years.
-    pub mtbf_log10_years: f64,
+    /// Speed of the table, µm/s: what a second is worth.
+    pub speed_um_per_s: f64,
+    /// FPGA clock, Hz.
+    pub clock_hz: f64,
+    /// Fringes a second: how often a synchroniser may be upset.
+    pub fringe_hz: f64,
 }
 
 impl Certificate {
-    /// True when every difference is below the bound, and decisions differ at coincidences only.
+    /// What no difference may reach where the laser's edge is at the ends of the period, s.
+    #[must_use]
+    pub fn bound_at_ends_s(&self) -> f64 {
+        self.bound_s + TTL.flip_flop_s
+    }
+
+    /// True when every difference is below its bound, and decisions differ at coincidences only.
     #[must_use]
     pub fn holds(&self) -> bool {
         let unnoticed_s = self.bound_s.max(TTL.shortest_clock_s + 2.0 * TTL.gate_s);
-        self.largest_s < self.bound_s && self.other_decision_s <= unnoticed_s
+        let mut runs = self.provoked.iter().chain([&self.open]);
+        runs.all(|run| {
+            run.largest_s < self.bound_s
+                && run.largest_at_ends_s < self.bound_at_ends_s()
+                && run.other_decision_s <= unnoticed_s
+        }) && self.closed.alike_largest_s < self.bound_s
+            && self.closed.largest_steps <= self.closed.bound_steps
     }
 }
 
-/// Runs a pass, open loop, through both.
+/// Runs a pass through both, loop open and loop closed.
 ///
-/// `progress` is told how many clocks are done of [`Course::clocks`], which counts two passes.
+/// `progress` is told how many clocks are done of [`Course::clocks`].
 ///
 /// # Errors
 ///
@@ -104,152 +97,26 @@ pub fn certify(
     progress: &mut dyn FnMut(u64),
 ) -> Result<Certificate, Error> {
     let course = Course::new(machine, &Options { length_mm, ..Options::default() })?;
-    let settings = settings_for(machine)?.settings;
-    let clock_hz = course.clock_hz();
-    let historic = HistoricDevice::new(settings, GATE_CLOCKS / clock_hz);
-    let historic = Rc::new(RefCell::new(historic));
+    let (settings, clock_hz) = (course.dialled.settings, course.clock_hz());
     let grinder = Grinder::new(machine, course.length_mm)?;
-    let both = Both { grinder, historic: Rc::clone(&historic) };
-    let mut engine = device_engine();
-    set_wheels(&mut engine, &settings)?;
-    let mut device = ClosedLoop::new(engine, both, clock_hz, course.full_scale_um)?;
-    let end = clock_of(course.duration_s, clock_hz);
-    let signals = signals_of(device.engine().netlist(), &["q".to_owned()])?;
-    reset(&mut device)?;
-    device.begin_recording(Probe { signals, window: 0..end });
-    device.set_moving()?;
-    let mut clock = 0;
-    while clock < end {
-        clock = (clock + end.div_ceil(100)).min(end);
-        device.run_until(clock, |_| false)?;
-        progress(2 * clock);
-    }
-    let q = device.end_recording().unwrap_or_default();
-    let synchronous: Vec<_> = device.samples.iter().map(|sample| sample.comparison).collect();
-    let (old, runts) = historic.borrow().comparisons(TTL);
-    let speed_um_per_s = 1000.0 * machine.travel_mm_per_s();
-    let differences: Vec<_> = synchronous
-        .iter()
-        .zip(decisions(&synchronous, &q))
-        .zip(&old)
-        .map(|((new, forward), old)| Difference::of(*new, forward, old, clock_hz))
-        .collect();
-    let mut certificate = summary(&differences, 1.0 / clock_hz, speed_um_per_s);
-    certificate.runts = runts;
-    certificate.mtbf_log10_years = mtbf_log10_years(FLIP_FLOP, clock_hz, fringe_hz(machine));
-    Ok(certificate)
-}
-
-/// Fringes a second.
-fn fringe_hz(machine: &Machine) -> f64 {
-    1000.0 * machine.travel_mm_per_s() / machine.fringe_um()
-}
-
-/// Logarithm to base 10 of the mean time between failures, years: it overflows as a number.
-#[must_use]
-pub fn mtbf_log10_years(flip_flop: FlipFlop, clock_hz: f64, input_hz: f64) -> f64 {
-    let settling_s = 1.0 / clock_hz - flip_flop.overhead_s;
-    let seconds_a_year = 365.25 * 86_400.0;
-    settling_s / flip_flop.tau_s * std::f64::consts::LOG10_E
-        - libm::log10(flip_flop.window_s * clock_hz * input_hz * seconds_a_year)
-}
-
-/// Q of the synchronous device at the end of each comparison.
-fn decisions(comparisons: &[Comparison], q: &Waveform) -> Vec<bool> {
-    let mut changes = q.changes.iter().peekable();
-    let mut level = false;
-    let mut decisions = Vec::with_capacity(comparisons.len());
-    for comparison in comparisons {
-        while let Some(change) = changes.next_if(|change| change.clock <= comparison.end) {
-            level = change.value == 1;
-        }
-        decisions.push(level);
-    }
-    decisions
-}
-
-/// Where the two devices differ in one comparison.
-struct Difference {
-    /// Of the meter's widths, s.
-    width_s: f64,
-    /// Distance of the laser's edge from the nearest coincidence, s.
-    from_coincidence_s: f64,
-    /// The decisions are not the same.
-    decision: bool,
-}
-
-impl Difference {
-    fn of(new: Comparison, forward: bool, old: &HistoricComparison, clock_hz: f64) -> Self {
-        let period_s = time_of(new.end - new.begin, clock_hz);
-        // Just below 360° and just above 0° are the same phase.
-        let width_s = libm::remainder(time_of(new.high, clock_hz) - old.high_s, period_s).abs();
-        let from_middle_s = old.behind_middle_s.map_or(0.0, f64::abs);
-        let from_coincidence_s = from_middle_s.min((period_s / 2.0 - from_middle_s).abs());
-        Self { width_s, from_coincidence_s, decision: forward != old.forward }
-    }
-}
-
-fn summary(differences: &[Difference], bound_s: f64, speed_um_per_s: f64) -> Certificate {
-    let largest = |chosen: &dyn Fn(&Difference) -> Option<f64>| {
-        differences.iter().filter_map(chosen).fold(0.0, f64::max)
+    let open = open::run_open(&settings, grinder, clock_hz, course.duration_s, progress)?;
+    let a_pass = course.clocks() / 2;
+    let closed = closed::run_closed(machine, &course, &mut |clocks| progress(a_pass + clocks))?;
+    let lines_per_s = f64::from(machine.grating.lines) * machine.spindle.speed_rpm / 60.0;
+    let provoke = |meeting| {
+        let Beat { settings, trains, duration_s } =
+            Beat::new(settings, meeting, 1.0 / lines_per_s, clock_hz);
+        open::run_open(&settings, trains, clock_hz, duration_s, &mut |_| {})
     };
-    let largest_s = largest(&|one| Some(one.width_s));
-    let squares: f64 = differences.iter().map(|one| one.width_s * one.width_s).sum();
-    Certificate {
-        comparisons: differences.len(),
-        largest_s,
-        largest_um: largest_s * speed_um_per_s,
-        rms_s: (squares / number(differences.len())).sqrt(),
-        bound_s,
-        bound_um: bound_s * speed_um_per_s,
-        other_decisions: differences.iter().filter(|one| one.decision).count(),
-        other_decision_s: largest(&|one| one.decision.then_some(one.from_coincidence_s)),
-        coincidences: differences.iter().filter(|one| one.from_coincidence_s < bound_s).count(),
-        runts: 0,
-        mtbf_log10_years: 0.0,
-    }
-}
-
-#[expect(clippy::cast_precision_loss, reason = "a pass has some ten thousand comparisons")]
-fn number(count: usize) -> f64 {
-    count.max(1) as f64
-}
-
-/// The grinder, whose every instant the historic device sees too.
-#[derive(Debug)]
-struct Both {
-    grinder: Grinder,
-    historic: Rc<RefCell<HistoricDevice>>,
-}
-
-impl Process for Both {
-    fn next_line_s(&mut self) -> f64 {
-        self.grinder.next_line_s()
-    }
-
-    fn next_fringe_s(&mut self) -> f64 {
-        self.grinder.next_fringe_s()
-    }
-
-    fn pass_line(&mut self) {
-        let time_s = self.grinder.next_line_s();
-        self.historic.borrow_mut().line(time_s);
-        self.grinder.pass_line();
-    }
-
-    fn pass_fringe(&mut self) {
-        let time_s = self.grinder.next_fringe_s();
-        self.historic.borrow_mut().fringe(time_s);
-        self.grinder.pass_fringe();
-    }
-
-    fn step(&mut self, time_s: f64, forward: bool) {
-        self.grinder.step(time_s, forward);
-    }
-
-    fn place(&mut self, time_s: f64) -> Place {
-        self.grinder.place(time_s)
-    }
+    Ok(Certificate {
+        open,
+        provoked: [provoke(Meeting::Middle)?, provoke(Meeting::Ends)?],
+        closed,
+        bound_s: 1.0 / clock_hz,
+        speed_um_per_s: 1000.0 * machine.travel_mm_per_s(),
+        clock_hz,
+        fringe_hz: 1000.0 * machine.travel_mm_per_s() / machine.fringe_um(),
+    })
 }
 
 #[cfg(test)]
@@ -265,7 +132,8 @@ mod tests {
              [laser]\nwavelength = \"0.63281983 um\"\n\
              [dividers]\na = {a}\nb = {b}\nrange = {range}\ninitial_phase = {m}\n\
              compensation = \"{compensation}\"\n\
-             [drive]\nstep = \"0.0125 um\"\nfrequency = \"160 Hz\"\n"
+             [drive]\nstep = \"0.0125 um\"\nfrequency = \"800 Hz\"\n\
+             [[effect]]\nkind = \"screw-progressive\"\nlinear = \"300 um/m\"\n"
         );
         Machine::parse(&text, Path::new("machine.toml")).unwrap()
     }
@@ -281,19 +149,43 @@ mod tests {
         ] {
             let machine = machine(a, b, range, m, compensation);
             let certificate = certify(&machine, None, &mut |_| {}).unwrap();
-            assert!(80 < certificate.comparisons, "{certificate:?}");
+            assert!(80 < certificate.open.comparisons, "{certificate:?}");
             assert!(certificate.holds(), "A = {a}, B = {b}: {certificate:?}");
-            assert!(0.3 * certificate.bound_s < certificate.largest_s, "the bound is not idle");
+            assert!(
+                0.3 * certificate.bound_s < certificate.open.largest_s,
+                "the bound is not idle"
+            );
         }
     }
 
-    /// By hand: 81.3 ns of settling over 0.2 ns is e^406 = 10^176.
+    /// A sixty-fourth of a clock from one comparison to the next: 128 of the 512 comparisons have
+    /// their laser edge within a clock of the middle, or of the ends.
     #[test]
-    fn a_whole_clock_of_settling_is_plenty() {
-        let flip_flop = FlipFlop { tau_s: 0.2e-9, window_s: 0.2e-9, overhead_s: 2e-9 };
-        let log10 = mtbf_log10_years(flip_flop, 12e6, 4740.0);
-        let exponent = (1e3 / 12.0 - 2.0) / 0.2 * std::f64::consts::LOG10_E;
-        let rate_a_year = 0.2e-9 * 12e6 * 4740.0 * 31_557_600.0;
-        assert!((log10 - (exponent - libm::log10(rate_a_year))).abs() < 1e-6, "{log10}");
+    fn edges_made_to_coincide_do() {
+        for (a, b) in [(110, 150), (11, 15), (3, 999)] {
+            let certificate = certify(&machine(a, b, 2, 1, "0 um/m"), None, &mut |_| {}).unwrap();
+            for run in &certificate.provoked {
+                assert!((500..=512).contains(&run.comparisons), "A = {a}, B = {b}: {run:?}");
+                assert!((120..=136).contains(&run.coincidences), "A = {a}, B = {b}: {run:?}");
+                assert!(run.other_decisions > 0, "A = {a}, B = {b}: {run:?}");
+            }
+            assert!(certificate.holds(), "A = {a}, B = {b}: {certificate:?}");
+            let [_, ends] = &certificate.provoked;
+            assert!(
+                certificate.bound_s <= ends.largest_at_ends_s,
+                "a pulse is swallowed: {ends:?}"
+            );
+        }
+    }
+
+    /// Both loops hunt about the same helix, and mostly stand alike.
+    #[test]
+    fn tables_of_closed_loops_stay_together() {
+        let machine = machine(11, 15, 2, 15, "0 um/m");
+        let BothClosed { comparisons, alike, largest_steps, bound_steps, .. } =
+            certify(&machine, None, &mut |_| {}).unwrap().closed;
+        assert!(800 < comparisons, "{comparisons}");
+        assert!(comparisons / 2 < alike, "{alike} of {comparisons}");
+        assert!(largest_steps <= bound_steps, "{largest_steps} steps, at most {bound_steps}");
     }
 }

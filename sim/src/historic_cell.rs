@@ -61,6 +61,8 @@ pub(crate) struct HistoricCell {
     pending: [Option<(f64, bool)>; ELEMENTS],
     /// Clock pulses too short for the two-clock flip-flop.
     pub(crate) runts: u64,
+    /// The two-clock flip-flop has taken a clock.
+    pub(crate) decided: bool,
 }
 
 /// Elements by number: outputs, except the two that time the clocks of the last flip-flop.
@@ -81,7 +83,7 @@ impl HistoricCell {
         for nand in [NAND1, NAND2, NAND3] {
             level[nand] = true;
         }
-        Self { delays, level, pending: [None; ELEMENTS], runts: 0 }
+        Self { delays, level, pending: [None; ELEMENTS], runts: 0, decided: false }
     }
 
     /// A pulse comes; `changes` gets what happens before it, with the times.
@@ -127,6 +129,7 @@ impl HistoricCell {
             CLOCK1 | CLOCK2 => {
                 // The clock was low long enough: Q follows, and the timer is ready again.
                 self.level[element] = false;
+                self.decided = true;
                 self.plan(Q, at_s + self.delays.two_clock_s, element == CLOCK1);
             }
             NAND1 => self.time_clock(CLOCK1, at_s, level),

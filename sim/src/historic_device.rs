@@ -26,8 +26,12 @@ pub(crate) struct HistoricDevice {
 pub(crate) struct HistoricComparison {
     /// How long the meter was high, s.
     pub(crate) high_s: f64,
+    /// How long it lasted, s.
+    pub(crate) period_s: f64,
     /// How far the laser's edge was behind the middle, s, when it had one.
     pub(crate) behind_middle_s: Option<f64>,
+    /// How near a laser's edge, of this or a neighbour, came to its beginning or end, s.
+    pub(crate) from_ends_s: f64,
     /// Q at its end.
     pub(crate) forward: bool,
 }
@@ -87,22 +91,71 @@ impl HistoricDevice {
         }
     }
 
+    /// Pulses since this was last asked, in the order in which they were counted.
+    pub(crate) fn take_pulses(&mut self) -> Vec<(f64, Pulse)> {
+        std::mem::take(&mut self.pulses_in)
+    }
+
     /// What the cell makes of all pulses so far.
     pub(crate) fn comparisons(&self, delays: Delays) -> (Vec<HistoricComparison>, u64) {
         let mut pulses = self.pulses_in.clone();
         pulses.sort_by(|one, other| one.0.total_cmp(&other.0));
-        let first = pulses.iter().position(|(_, pulse)| *pulse == Pulse::Grating);
-        let mut cell = HistoricCell::new(delays);
-        let mut reading = Reading::default();
-        for (time_s, pulse) in pulses.into_iter().skip(first.unwrap_or(usize::MAX)) {
-            let mut changes = Vec::new();
-            cell.pulse(time_s, pulse, &mut changes);
-            for (at_s, change) in changes {
-                reading.change(at_s, change);
-            }
-            reading.pulse(time_s, pulse, delays.flip_flop_s);
+        let mut cell = WatchedCell::new(delays);
+        for (time_s, pulse) in pulses {
+            cell.pulse(time_s, pulse);
         }
-        (reading.comparisons, cell.runts)
+        (cell.reading.comparisons, cell.cell.runts)
+    }
+}
+
+/// The cell from the first comparison on, and what is read off it.
+#[derive(Debug)]
+pub(crate) struct WatchedCell {
+    delays: Delays,
+    cell: HistoricCell,
+    reading: Reading,
+    begun: bool,
+}
+
+impl WatchedCell {
+    /// A cell at rest.
+    pub(crate) fn new(delays: Delays) -> Self {
+        let (cell, reading) = (HistoricCell::new(delays), Reading::default());
+        Self { delays, cell, reading, begun: false }
+    }
+
+    /// A pulse comes, not before those that have come.
+    pub(crate) fn pulse(&mut self, time_s: f64, pulse: Pulse) {
+        self.begun |= pulse == Pulse::Grating;
+        if self.begun {
+            let mut changes = Vec::new();
+            self.cell.pulse(time_s, pulse, &mut changes);
+            self.read(changes);
+            self.reading.pulse(time_s, pulse, self.delays.flip_flop_s);
+        }
+    }
+
+    /// Lets time pass.
+    pub(crate) fn advance(&mut self, time_s: f64) {
+        let mut changes = Vec::new();
+        self.cell.advance(time_s, &mut changes);
+        self.read(changes);
+    }
+
+    /// Where the motor goes, once something has been decided.
+    pub(crate) fn decision(&self) -> Option<bool> {
+        self.cell.decided.then_some(self.reading.forward)
+    }
+
+    /// Comparisons that have ended.
+    pub(crate) fn comparisons(&self) -> &[HistoricComparison] {
+        &self.reading.comparisons
+    }
+
+    fn read(&mut self, changes: Vec<(f64, Change)>) {
+        for (at_s, change) in changes {
+            self.reading.change(at_s, change);
+        }
     }
 }
 
@@ -110,9 +163,13 @@ impl HistoricDevice {
 #[derive(Debug, Default)]
 struct Reading {
     comparisons: Vec<HistoricComparison>,
-    begun: bool,
+    /// Its grating pulse, s.
+    begun_s: Option<f64>,
+    /// The laser's edge before that, s.
+    laser_before_s: Option<f64>,
     middle_s: Option<f64>,
-    laser_s: Option<f64>,
+    /// First and last edge of the laser since, s.
+    lasers_s: Option<(f64, f64)>,
     high_s: f64,
     risen_s: Option<f64>,
     forward: bool,
@@ -132,23 +189,42 @@ impl Reading {
     fn pulse(&mut self, time_s: f64, pulse: Pulse, delay_s: f64) {
         match pulse {
             Pulse::Half => self.middle_s = Some(time_s),
-            Pulse::Laser => self.laser_s = Some(time_s),
-            Pulse::Grating => self.begin(time_s + delay_s),
+            Pulse::Laser => self.laser(time_s),
+            Pulse::Grating => self.begin(time_s, delay_s),
+        }
+    }
+
+    fn laser(&mut self, time_s: f64) {
+        let first_s = self.lasers_s.map_or(time_s, |(first_s, _)| first_s);
+        self.lasers_s = Some((first_s, time_s));
+        if let Some((before, begun_s)) = self.comparisons.last_mut().zip(self.begun_s) {
+            before.from_ends_s = before.from_ends_s.min(time_s - begun_s);
         }
     }
 
     /// Ends a comparison where the next begins, at the meter's output.
-    fn begin(&mut self, end_s: f64) {
+    fn begin(&mut self, time_s: f64, delay_s: f64) {
+        let end_s = time_s + delay_s;
         if let Some(risen_s) = self.risen_s.as_mut().filter(|risen_s| **risen_s < end_s) {
             self.high_s += end_s - std::mem::replace(risen_s, end_s);
         }
         let high_s = std::mem::take(&mut self.high_s);
-        let (middle_s, laser_s) = (self.middle_s.take(), self.laser_s.take());
-        if std::mem::replace(&mut self.begun, true) {
-            let behind_middle_s =
-                middle_s.zip(laser_s).map(|(middle_s, laser_s)| laser_s - middle_s);
-            let forward = self.forward;
-            self.comparisons.push(HistoricComparison { high_s, behind_middle_s, forward });
+        let (middle_s, edges_s) = (self.middle_s.take(), self.lasers_s.take());
+        let last_s = edges_s.map(|(_, last_s)| last_s);
+        if let Some(begun_s) = self.begun_s.replace(time_s) {
+            let near_s = [
+                self.laser_before_s.map(|before_s| begun_s - before_s),
+                edges_s.map(|(first_s, _)| first_s - begun_s),
+                last_s.map(|last_s| time_s - last_s),
+            ];
+            self.comparisons.push(HistoricComparison {
+                high_s,
+                period_s: time_s - begun_s,
+                behind_middle_s: middle_s.zip(last_s).map(|(middle_s, last_s)| last_s - middle_s),
+                from_ends_s: near_s.into_iter().flatten().fold(f64::INFINITY, f64::min),
+                forward: self.forward,
+            });
         }
+        self.laser_before_s = last_s.or(self.laser_before_s);
     }
 }

@@ -16,6 +16,7 @@ mod findings;
 mod grinder;
 mod historic_cell;
 mod historic_device;
+mod historic_loop;
 mod illustrate;
 mod interpreted_pieces;
 mod interpreter;
@@ -49,7 +50,9 @@ mod words;
 pub use appraisal::{
     Hunting, LeadAppraisal, appraise_lead, fastest_um_per_s, measure_hunting, peak_to_peak,
 };
-pub use certify::{Certificate, FLIP_FLOP, FlipFlop, certify, mtbf_log10_years};
+pub use certify::{
+    BothClosed, Certificate, FLIP_FLOP, FlipFlop, OpenLoop, certify, mtbf_log10_years,
+};
 pub use circuit::Circuit;
 pub use closed_loop::{ClosedLoop, Place, Process, Sample};
 pub use compiled::{Compiled, DenseKernel};

@@ -8,8 +8,20 @@ use helixlock_netlist::{Design, Netlist};
 use super::records::Layout;
 use super::verilator::put;
 
-/// The answers to the records, packed like the engine's.
+/// The answers of the design's Verilog to the records, packed like the engine's.
 pub(crate) fn run(
+    design: &Design,
+    netlist: &Netlist,
+    layout: &Layout,
+    asked: &[Vec<u8>],
+) -> Vec<u8> {
+    let modules = helixlock_gen::verilog(design).expect("legal names");
+    run_modules(&modules, design, netlist, layout, asked)
+}
+
+/// The answers of these modules, which have the design's ports and registers.
+pub(crate) fn run_modules(
+    modules: &[(String, String)],
     design: &Design,
     netlist: &Netlist,
     layout: &Layout,
@@ -17,8 +29,8 @@ pub(crate) fn run(
 ) -> Vec<u8> {
     let folder = tempfile::tempdir().expect("a scratch folder");
     let mut sources = vec!["bench.v".to_owned()];
-    for (name, text) in helixlock_gen::verilog(design).expect("legal names") {
-        put(folder.path(), &format!("{name}.v"), &text);
+    for (name, text) in modules {
+        put(folder.path(), &format!("{name}.v"), text);
         sources.push(format!("{name}.v"));
     }
     put(folder.path(), "bench.v", &bench(design, netlist, layout));

@@ -2,6 +2,7 @@
 
 use helixlock_netlist::{Netlist, SignalId};
 use helixlock_sim::Engine;
+use xtask::prove::consequence::worth;
 
 /// Where each value lies in a record.
 pub(crate) struct Layout {
@@ -79,7 +80,7 @@ pub(crate) fn expected(
     pack(layout.answers.iter().map(|&(id, width)| (width, engine.value(id))))
 }
 
-/// The first clock and the signals in which answers differ.
+/// The first clock and the signals in which answers differ, with what each is worth at the table.
 pub(crate) fn report(
     layout: &Layout,
     netlist: &Netlist,
@@ -100,7 +101,8 @@ pub(crate) fn report(
             let [ours, theirs] = [expected, found].map(|record| value(record, low, width));
             if ours != theirs {
                 let path = &netlist.signal(id).path;
-                lines.push(format!("  {path}: engine {ours:#x}, Verilog {theirs:#x}"));
+                let worth = worth(path);
+                lines.push(format!("  {path}: engine {ours:#x}, Verilog {theirs:#x}: {worth}"));
             }
             low += width;
         }

@@ -39,18 +39,30 @@ pub fn witnesses(sources: &Sources, block: &str, folder: &Path) -> anyhow::Resul
     let text = sources.properties_of(block)?;
     let mut found = Vec::new();
     for (index, condition) in conditions(&text).into_iter().enumerate() {
-        let property = folder.join(format!("{block}_{index}.sv"));
-        write_scratch(&property, &refutable(&text, index))?;
-        let waveform = folder.join(format!("{block}_{index}.vcd"));
-        let mut reached = None;
-        for from in [From::PowerUp, From::Invariant] {
-            if reached.is_none() && search(sources, block, &property, &waveform, from)? {
-                reached = Some((from, waveform.clone()));
-            }
-        }
+        let name = format!("{block}_{index}");
+        let reached = reachable(sources, block, &name, &refutable(&text, index), folder)?;
         found.push(Witness { condition, reached });
     }
     Ok(found)
+}
+
+/// Searches a way to violate the one assertion of these properties.
+pub(super) fn reachable(
+    sources: &Sources,
+    block: &str,
+    name: &str,
+    properties: &str,
+    folder: &Path,
+) -> anyhow::Result<Option<(From, PathBuf)>> {
+    let property = folder.join(format!("{name}.sv"));
+    write_scratch(&property, properties)?;
+    let waveform = folder.join(format!("{name}.vcd"));
+    for from in [From::PowerUp, From::Invariant] {
+        if search(sources, block, &property, &waveform, from)? {
+            return Ok(Some((from, waveform)));
+        }
+    }
+    Ok(None)
 }
 
 fn search(

@@ -13,6 +13,7 @@ use helixlock_sim::{Engine, Interpreter};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+use super::consequence::worth;
 use super::tools::{Sources, run, write_scratch};
 
 /// A drawn history of a block: what goes in and, by the engine, what comes out.
@@ -26,10 +27,10 @@ pub struct History {
 }
 
 #[derive(Debug)]
-struct Port {
-    id: SignalId,
-    name: String,
-    width: u32,
+pub(super) struct Port {
+    pub(super) id: SignalId,
+    pub(super) name: String,
+    pub(super) width: u32,
 }
 
 impl History {
@@ -78,7 +79,28 @@ impl History {
             return Ok(Some(said));
         }
         let (_, said) = run(Command::new("vvp").arg("-n").arg(&program), "iverilog")?;
-        Ok(said.lines().find(|line| line.starts_with("DIFFERS")).map(str::to_owned))
+        Ok(said.lines().find(|line| line.starts_with("DIFFERS")).map(|line| self.report(line)))
+    }
+
+    /// First clock and signals of the bench's "DIFFERS 17 0110 0111", and what they are worth.
+    fn report(&self, line: &str) -> String {
+        let mut words = line.split_whitespace().skip(1);
+        let clock = words.next().unwrap_or_default();
+        let [mut found, mut expected] = [words.next(), words.next()].map(Option::unwrap_or_default);
+        let mut lines = vec![format!("first difference at clock {clock}:")];
+        for port in &self.outputs {
+            let [theirs, ours] = [&mut found, &mut expected].map(|bits| {
+                let (value, rest) =
+                    bits.split_at_checked(port.width as usize).unwrap_or((bits, ""));
+                *bits = rest;
+                value
+            });
+            if theirs != ours {
+                let worth = worth(&format!("{}.{}", self.block, port.name));
+                lines.push(format!("  {}: engine {ours}, Verilog {theirs}: {worth}", port.name));
+            }
+        }
+        lines.join("\n")
     }
 
     fn test_bench(&self, history: &Path) -> String {
@@ -99,14 +121,14 @@ impl History {
             format!("for (i = 1; i <= {lines}; i = i + 1) begin"),
             format!("{{{inputs}, expected}} = history[i]; #1"),
             format!("if ({{{outputs}}} !== expected) begin"),
-            format!("$display(\"DIFFERS at clock %0d: %b for %b\", i, {{{outputs}}}, expected);"),
+            format!("$display(\"DIFFERS %0d %b %b\", i, {{{outputs}}}, expected);"),
             "$finish; end clock = 1; #1 clock = 0; end end endmodule".to_owned(),
         ]
         .join("\n")
     }
 }
 
-fn ports(netlist: &Netlist, ids: &[SignalId]) -> Vec<Port> {
+pub(super) fn ports(netlist: &Netlist, ids: &[SignalId]) -> Vec<Port> {
     let port = |id: &SignalId| {
         let signal = netlist.signal(*id);
         Port { id: *id, name: signal.path.clone(), width: signal.width }
@@ -114,15 +136,15 @@ fn ports(netlist: &Netlist, ids: &[SignalId]) -> Vec<Port> {
     ids.iter().map(port).collect()
 }
 
-fn bits(ports: &[Port]) -> u32 {
+pub(super) fn bits(ports: &[Port]) -> u32 {
     ports.iter().map(|port| port.width).sum()
 }
 
-fn names(ports: &[Port]) -> String {
+pub(super) fn names(ports: &[Port]) -> String {
     ports.iter().map(|port| port.name.as_str()).collect::<Vec<_>>().join(", ")
 }
 
-fn declare(kind: &str, ports: &[Port]) -> String {
+pub(super) fn declare(kind: &str, ports: &[Port]) -> String {
     let declare = |port: &Port| format!("{kind} [{}:0] {};", port.width - 1, port.name);
     ports.iter().map(declare).collect::<Vec<_>>().join(" ")
 }

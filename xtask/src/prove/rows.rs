@@ -1,0 +1,156 @@
+//! All proofs and campaigns, a row each.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use helixlock_rtl::BLOCKS;
+use rayon::prelude::*;
+
+use super::covers::{From, witnesses};
+use super::exhaustive::{Outcome, exhaustively};
+use super::lockstep::History;
+use super::mutants::{Fate, Mutant, of_module, try_mutant};
+use super::properties::{Verdict, claim, prove};
+use super::table::{Row, markdown};
+use super::vacuity::idle;
+use super::{Sources, forgets, synthesis};
+
+/// The whole table, with the mutants that nothing noticed below it, and whether all is well.
+///
+/// One mutant in `one_in` is tried; waveforms of witnesses go to `folder`.
+///
+/// # Errors
+///
+/// When a tool cannot be started, or a file cannot be read or written.
+pub fn all(sources: &Sources, folder: &Path, one_in: usize) -> anyhow::Result<(String, bool)> {
+    let blocks = sources.blocks()?;
+    let rows: anyhow::Result<Vec<_>> =
+        blocks.par_iter().map(|block| proven(sources, block, folder)).collect();
+    let mut rows: Vec<_> = rows?.into_iter().flatten().collect();
+    rows.push(power_up(sources)?);
+    let cards: Vec<_> = synthesis::blocks().collect();
+    let equal: anyhow::Result<Vec<_>> =
+        cards.par_iter().map(|card| equality(sources, card.name)).collect();
+    rows.extend(equal?.into_iter().flatten());
+    let (row, survivors) = mutants(sources, one_in)?;
+    rows.push(row);
+    let mut text = markdown(&rows);
+    for (Mutant { module, line, was, now }, fate) in survivors {
+        // Writing to a string cannot fail.
+        let _ = write!(text, "\n- {fate:?}: `{module}.v:{line}`, `{was}` as `{}`", now.trim());
+    }
+    Ok((text, rows.iter().all(|row| row.good)))
+}
+
+/// The rows of one block: its properties, that none of them is idle, and its witnesses.
+fn proven(sources: &Sources, block: &str, folder: &Path) -> anyhow::Result<[Row; 3]> {
+    let (assertions, sentence) = claim(sources, block)?;
+    let verdict = prove(sources, block)?;
+    let good = matches!(verdict, Verdict::Proven { .. });
+    let outcome = match verdict {
+        Verdict::Proven { depth } => format!("unbounded, depth {depth}"),
+        Verdict::NotProven { log } => log.lines().last().unwrap_or_default().to_owned(),
+    };
+    let how = format!("{assertions} assertions, induction, any power-up state");
+    let properties = Row { what: format!("`{block}`: {sentence}"), how, outcome, good };
+    let idle = idle(sources, block, folder)?;
+    let reached = Row {
+        what: format!("`{block}`: no assertion is idle"),
+        how: "each made impossible in turn: the solver finds the way there".to_owned(),
+        outcome: match idle.first() {
+            None => format!("all {assertions} are reached"),
+            Some(first) => format!("{} are not, `{first}` the first", idle.len()),
+        },
+        good: idle.is_empty(),
+    };
+    Ok([properties, reached, witness(sources, block, folder)?])
+}
+
+fn witness(sources: &Sources, block: &str, folder: &Path) -> anyhow::Result<Row> {
+    let found = witnesses(sources, block, folder)?;
+    let from = |wanted| {
+        let reached = found.iter().filter_map(|one| one.reached.as_ref());
+        reached.filter(|(from, _)| *from == wanted).count()
+    };
+    let (power_up, invariant) = (from(From::PowerUp), from(From::Invariant));
+    Ok(Row {
+        what: format!("`{block}`: its interesting states are reachable"),
+        how: format!("{} cover properties, a waveform each", found.len()),
+        outcome: format!("{power_up} from power-up, {invariant} from a state the properties allow"),
+        good: power_up + invariant == found.len(),
+    })
+}
+
+fn power_up(sources: &Sources) -> anyhow::Result<Row> {
+    let registers = forgets::power_up(sources)?;
+    Ok(Row {
+        what: "`device`: no output depends on the power-up state after a reset".to_owned(),
+        how: "two copies, any two power-up states, four clocks of reset, SAT".to_owned(),
+        outcome: match registers {
+            Some(count) => format!("unbounded: all {count} registers equal, so equal for ever"),
+            None => "registers differ".to_owned(),
+        },
+        good: registers.is_some(),
+    })
+}
+
+/// The rows that hold a block's Verilog to its gates, and to the engine where states are few.
+fn equality(sources: &Sources, block: &str) -> anyhow::Result<Vec<Row>> {
+    let verdict = synthesis::synthesised(sources, sources, block)?;
+    let good = matches!(verdict, synthesis::Verdict::Equal { .. });
+    let mut rows = vec![Row {
+        what: format!("`{block}`: the gates after synthesis equal the Verilog"),
+        how: "iCE40 cells of yosys, registers and outputs paired, induction from power-up"
+            .to_owned(),
+        outcome: match verdict {
+            synthesis::Verdict::Equal { pairs, .. } => format!("unbounded, {pairs} bits paired"),
+            synthesis::Verdict::Unequal { log } => {
+                log.lines().last().unwrap_or_default().to_owned()
+            }
+        },
+        good,
+    }];
+    let outcome = exhaustively(sources, block)?;
+    if outcome != Outcome::TooMany {
+        rows.push(Row {
+            what: format!("`{block}`: the Verilog equals the engine"),
+            how: "every state with every input, one clock in Icarus".to_owned(),
+            good: matches!(outcome, Outcome::Alike(_)),
+            outcome: match outcome {
+                Outcome::Alike(transitions) => format!("exhaustive, {transitions} transitions"),
+                Outcome::Differs(first) => first,
+                Outcome::TooMany => String::new(),
+            },
+        });
+    }
+    Ok(rows)
+}
+
+/// The row of the mutants, and those that nothing noticed.
+fn mutants(sources: &Sources, one_in: usize) -> anyhow::Result<(Row, Vec<(Mutant, Fate)>)> {
+    let mut tried = Vec::new();
+    for card in BLOCKS {
+        let chosen: Vec<_> = of_module(sources, card.name)?.into_iter().step_by(one_in).collect();
+        let history = History::draw(card.name, 30_000, 7430)?;
+        let fates: anyhow::Result<Vec<_>> = chosen
+            .into_par_iter()
+            .map(|mutant| try_mutant(sources, &mutant, &history).map(|fate| (mutant, fate)))
+            .collect();
+        tried.extend(fates?);
+    }
+    let count = |wanted| tried.iter().filter(|(_, fate)| *fate == wanted).count();
+    let (properties, lockstep) = (count(Fate::Properties), count(Fate::Lockstep));
+    let (equivalent, survived) = (count(Fate::Equivalent), count(Fate::Survived));
+    let real = properties + lockstep + survived;
+    let row = Row {
+        what: format!("{} mutants, one mistake each", tried.len()),
+        how: "properties, then 30 000 clocks in Icarus against the engine".to_owned(),
+        outcome: format!(
+            "{properties} killed by properties, {lockstep} by lockstep, {survived} survive; \
+             {equivalent} more are proven equal to the original"
+        ),
+        good: 100 * (properties + lockstep) >= 95 * real,
+    };
+    tried.retain(|(_, fate)| matches!(fate, Fate::Equivalent | Fate::Survived));
+    Ok((row, tried))
+}
