@@ -6,6 +6,9 @@ use anyhow::{Context, anyhow, bail};
 use helixlock_metrology::Error;
 use helixlock_traces::{Table, read_table};
 
+/// No length, angle or time of any unit is larger.
+const LARGEST: f64 = 1e100;
+
 /// A table and the rows of it that count.
 pub(crate) struct Series {
     table: Table,
@@ -17,14 +20,14 @@ impl Series {
     ///
     /// Several passes without a choice are refused: each has its own zero.
     pub(crate) fn read(path: &Path, pass: Option<f64>) -> anyhow::Result<Self> {
-        let table = read_table(path)?;
+        let table = read_within_reach(path)?;
         let rows = rows_of_pass(&table, pass)?;
         Ok(Self { table, rows })
     }
 
     /// Reads a file with all its rows.
     pub(crate) fn read_all(path: &Path) -> anyhow::Result<Self> {
-        let table = read_table(path)?;
+        let table = read_within_reach(path)?;
         let rows = (0..table.rows()).collect();
         Ok(Self { table, rows })
     }
@@ -62,6 +65,22 @@ impl Series {
         };
         anyhow!("{}: {error}", self.place(row))
     }
+}
+
+/// A table whose numbers can be squared and summed without leaving the range of a number.
+fn read_within_reach(path: &Path) -> anyhow::Result<Table> {
+    let table = read_table(path)?;
+    for column in &table.columns {
+        if let Some(row) = column.values.iter().position(|value| LARGEST < value.abs()) {
+            bail!(
+                "{}: column `{}`: found `{:e}`, expected a number up to {LARGEST:e}",
+                table.at(row),
+                column.name,
+                column.values[row]
+            );
+        }
+    }
+    Ok(table)
 }
 
 fn rows_of_pass(table: &Table, pass: Option<f64>) -> anyhow::Result<Vec<usize>> {

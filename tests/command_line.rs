@@ -43,12 +43,13 @@ fn workplace() -> tempfile::TempDir {
     let machine = std::fs::read(machine).expect("the example is there");
     let rows: Vec<_> = (0..400).map(|i| format!("{i},{}\n", f64::from(i % 7) / 8.0)).collect();
     let data = format!("position_mm,lead_error_um\n{}", rows.concat());
-    let files: [(&str, &[u8]); 8] = [
+    let files: [(&str, &[u8]); 9] = [
         ("machine.toml", &machine),
         ("data.csv", data.as_bytes()),
         ("cut.csv", b"position_mm,lead_error_um\n0,0.1\n1"),
         ("comma.csv", b"position_mm;lead_error_um\n0,5;0,1\n"),
         ("nan.csv", b"position_mm,lead_error_um\n0,0.1\n1,NaN\n"),
+        ("huge.csv", b"position_mm,lead_error_um\n0,1e308\n1,-1e308\n"),
         ("other.csv", b"height_mm\n1\n2\n"),
         ("sheet.csv", b"PK\x03\x04\x14\0"),
         ("wave.vcd", b"$timescale 1ns $end\n$enddefinitions $end\n#5\n#4\n"),
@@ -97,6 +98,7 @@ const WRONG: &[&[&str]] = &[
     &["screw", "cut.csv", "--lead", "5 mm"],
     &["screw", "comma.csv", "--lead", "5 mm"],
     &["screw", "nan.csv", "--lead", "5 mm"],
+    &["screw", "huge.csv", "--lead", "5 mm"],
     &["screw", "other.csv", "--lead", "5 mm"],
     &["screw", "sheet.csv", "--lead", "5 mm"],
     &["screw", "wave.vcd", "--lead", "5 mm"],

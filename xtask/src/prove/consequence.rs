@@ -33,7 +33,7 @@ pub enum Worth {
     Decision,
     /// A step too many, too few or the wrong way.
     Step,
-    /// A switch of the panel or the zeroing of a pass: what it switches is worth what is said there.
+    /// A switch of the panel, or the reset: what it switches is worth what is said there.
     Switch,
     /// A block of documents 3 and 4: it moves no table of a grinder.
     Apart,
@@ -66,9 +66,9 @@ const WORTHS: &[(&[&str], Worth)] = &[
     (&["step_clock", "step_selector", "reset_counter", "ring", "ring_distributor"], Worth::Step),
     (&["step", "forward", "reverse", "phase_a", "phase_b", "phase_c", "step_driver"], Worth::Step),
     (&["count", "count_forward", "zero", "fault", "driver", "step_pin"], Worth::Step),
-    (&["direction_pin"], Worth::Step),
+    (&["direction_pin", "direction"], Worth::Step),
     (&["start_input", "correct_input", "playback_input", "level_synchroniser"], Worth::Switch),
-    (&["manual_step_input", "manual_forward_input", "reset_left"], Worth::Switch),
+    (&["manual_step_input", "manual_forward_input", "power_up_q"], Worth::Switch),
     (&["calibrate_low_input", "calibrate_high_input"], Worth::Switch),
     (&["scale_lookup", "digital_comparison", "subdivided_comparison"], Worth::Apart),
 ];
