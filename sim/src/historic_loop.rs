@@ -9,6 +9,7 @@ use helixlock_rtl::settings::{Range, Settings};
 use crate::closed_loop::Process;
 use crate::historic_cell::TTL;
 use crate::historic_device::{HistoricComparison, HistoricDevice, WatchedCell};
+use crate::pins::time_of;
 
 /// The counter's end stop.
 const MOST_STEPS: i64 = 4095;
@@ -27,21 +28,15 @@ pub(crate) struct HistoricLoop<P> {
     steps_at_ends: Vec<i64>,
 }
 
-/// Instants of a step oscillator: `first_s + k · period_s`.
+/// A step oscillator, by the clock of the device whose phase it has.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ticks {
-    /// The first tick, s.
-    pub(crate) first_s: f64,
-    /// From tick to tick, s.
-    pub(crate) period_s: f64,
-    /// Ticks gone by.
-    pub(crate) gone: u32,
-}
-
-impl Ticks {
-    fn next_s(&self) -> f64 {
-        self.first_s + f64::from(self.gone) * self.period_s
-    }
+    /// Clock of the next tick.
+    pub(crate) next: u64,
+    /// Clocks from tick to tick.
+    pub(crate) period: u64,
+    /// That clock, Hz.
+    pub(crate) clock_hz: f64,
 }
 
 impl<P: Process> HistoricLoop<P> {
@@ -64,7 +59,7 @@ impl<P: Process> HistoricLoop<P> {
         while now_s < end_s {
             let line_s = self.process.next_line_s().max(now_s);
             let fringe_s = self.process.next_fringe_s().max(now_s);
-            let tick_s = self.ticks.next_s();
+            let tick_s = time_of(self.ticks.next, self.ticks.clock_hz);
             now_s = line_s.min(fringe_s).min(tick_s);
             if tick_s <= now_s {
                 self.tick(now_s);
@@ -91,7 +86,7 @@ impl<P: Process> HistoricLoop<P> {
 
     /// The motor steps, once something is decided, up to the counter's end stop.
     fn tick(&mut self, time_s: f64) {
-        self.ticks.gone += 1;
+        self.ticks.next += self.ticks.period;
         self.cell.advance(time_s);
         let Some(forward) = self.cell.decision().filter(|_| self.has_middle) else { return };
         let steps = self.steps + if forward { 1 } else { -1 };

@@ -29,7 +29,7 @@ use crate::closed_loop::{ClosedLoop, Place, Process};
 use crate::historic_device::HistoricComparison;
 use crate::historic_loop::{HistoricLoop, Ticks};
 use crate::pass::{measuring, reset};
-use crate::pins::{clock_of, time_of};
+use crate::pins::clock_of;
 use crate::probe::{Probe, signals_of};
 use crate::{Course, Engine, Error, Grinder, device_engine, set_wheels};
 
@@ -71,11 +71,8 @@ pub(super) fn run_closed(
     let new = run_synchronous(machine, course, progress)?;
     let settings = course.dialled.settings;
     let period = u64::from(settings.step_period);
-    let ticks = Ticks {
-        first_s: time_of(new.steps.first().map_or(0, |step| step.0) % period, clock_hz),
-        period_s: time_of(period, clock_hz),
-        gone: 0,
-    };
+    let first_step = new.steps.first().map_or(0, |step| step.0);
+    let ticks = Ticks { next: first_step % period, period, clock_hz };
     let grinder = Grinder::new(machine, course.length_mm)?;
     let gate_s = GATE_CLOCKS / clock_hz;
     let old = HistoricLoop::new(settings, gate_s, ticks, grinder).run(course.duration_s);
