@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 
 use crate::measured::Files;
 use crate::output::Batch;
-use crate::words::with_p;
+use crate::words::{with_error, with_p};
 use crate::{diagnosis_json, pages};
 
 /// Show where a machine file and a measurement part
@@ -97,13 +97,10 @@ fn print_line(out: &mut impl Write, line: &NamedLine, unit: &str) -> anyhow::Res
     let of = line.harmonic_of.map_or(String::new(), |(n, order)| format!(", {n} × {order:.4}"));
     writeln!(
         out,
-        "  order {:.5} ± {:.5}  period {:.2} ± {:.2} s  {:.4} ± {:.4} {unit}  {name}{of}",
-        line.line.frequency,
-        line.line.frequency_stderr,
-        line.period_s,
-        line.period_stderr_s,
-        line.line.amplitude,
-        line.line.amplitude_stderr
+        "  order {}  period {} s  {} {unit}  {name}{of}",
+        with_error(line.line.frequency, line.line.frequency_stderr),
+        with_error(line.period_s, line.period_stderr_s),
+        with_error(line.line.amplitude, line.line.amplitude_stderr)
     )?;
     Ok(())
 }

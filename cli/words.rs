@@ -19,3 +19,34 @@ pub(crate) fn with_p(p_value: f64) -> String {
     let chance = chance(p_value);
     if chance.starts_with('<') { format!("p {chance}") } else { format!("p = {chance}") }
 }
+
+/// A value and its standard error, both to the error's second digit: `239.8 ± 2.2`.
+pub(crate) fn with_error(value: f64, stderr: f64) -> String {
+    const MOST_DECIMALS: usize = 6;
+    let mut decimals = 0;
+    let mut shown = stderr;
+    while shown < 9.95 && decimals < MOST_DECIMALS {
+        shown *= 10.0;
+        decimals += 1;
+    }
+    format!("{value:.decimals$} ± {stderr:.decimals$}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_is_shown_with_two_digits() {
+        assert_eq!(with_error(239.8231, 2.2034), "239.8 ± 2.2");
+        assert_eq!(with_error(4.788_12, 0.000_117), "4.78812 ± 0.00012");
+        assert_eq!(with_error(1234.5, 67.8), "1234 ± 68");
+        assert_eq!(with_error(2.5, 0.0), "2.500000 ± 0.000000");
+    }
+
+    #[test]
+    fn a_chance_is_never_nought() {
+        assert_eq!([chance(0.0), chance(4e-7), chance(1.0)], ["< 1e-99", "4.0e-7", "1.000"]);
+        assert_eq!([with_p(0.0), with_p(0.25)], ["p < 1e-99", "p = 0.250"]);
+    }
+}

@@ -6,7 +6,7 @@ use helixlock_lab::problem::Problem;
 use helixlock_report::{Axis, Colour, Figure, Page, Panel, Part, Series, Style, Table};
 
 use crate::pages::spectrum;
-use crate::words::chance;
+use crate::words::{chance, with_error};
 
 /// The page.
 pub(crate) fn page(problem: &Problem, comparison: &Comparison) -> Page {
@@ -35,7 +35,8 @@ pub(crate) fn page(problem: &Problem, comparison: &Comparison) -> Page {
                 sensor.spectrum.iter().copied(),
             )],
         );
-        spectrum.labels = spectrum::labels(&comparison.lines, index);
+        spectrum.labels = spectrum::labels(&comparison.lines, index, problem.machine.rotary);
+        spectrum.x = spectrum::axis(problem.machine.rotary);
         let svg = Figure { width_px: 900, panels: vec![residual, spectrum] }.svg();
         parts.push(Part::Picture {
             svg,
@@ -46,7 +47,7 @@ pub(crate) fn page(problem: &Problem, comparison: &Comparison) -> Page {
     parts.push(Part::Table(along(comparison, unit)));
     parts.push(Part::Heading("Lines".into()));
     parts.push(Part::Table(lines(comparison, unit)));
-    parts.extend(problem.measurement.notes.iter().cloned().map(Part::Note));
+    parts.extend(problem.measurement.notes.iter().cloned().map(Part::Text));
     let says = if comparison.noise_only { "noise" } else { "more than noise" };
     Page {
         title: format!("{}: model against measurement", problem.machine.title),
@@ -99,9 +100,9 @@ fn lines(comparison: &Comparison, unit: &str) -> Table {
     let mut table = Table::new(["order", "period in s", size.as_str(), "name"]);
     for line in &comparison.lines {
         table.row([
-            format!("{:.5} ± {:.5}", line.line.frequency, line.line.frequency_stderr),
-            format!("{:.2} ± {:.2}", line.period_s, line.period_stderr_s),
-            format!("{:.4} ± {:.4}", line.line.amplitude, line.line.amplitude_stderr),
+            with_error(line.line.frequency, line.line.frequency_stderr),
+            with_error(line.period_s, line.period_stderr_s),
+            with_error(line.line.amplitude, line.line.amplitude_stderr),
             line.name.clone().unwrap_or_else(|| "unexplained".into()),
         ]);
     }

@@ -14,9 +14,10 @@ pub(crate) fn page(title: &str, problem: &Problem, diagnosis: &Diagnosis, check:
     let mut parts = vec![Part::Numbers(numbers(diagnosis, unit))];
     parts.extend(diagnosis.residual.iter().map(|left| {
         Part::Note(format!(
-            "Left: {} along {}, {:.4} {unit} rms, chance {}.",
+            "Left: {} along {}{}, {:.4} {unit} rms, chance {}.",
             left.shape,
             left.along,
+            left.at.map_or(String::new(), |at| format!(" at {at:.4}")),
             left.rms_um,
             chance(left.p_value)
         ))

@@ -106,7 +106,9 @@ fn spectra(problem: &Problem, diagnosis: &Diagnosis, sensor: usize) -> Panel {
     let mut panel =
         panel("Order spectrum of the residual", "cycles a spindle turn".into(), &unit, series);
     let bare = State::bare(problem);
-    panel.labels = spectrum::labels(&lines(problem, &bare.columns, &bare.fit), sensor);
+    let rotary = problem.machine.rotary;
+    panel.labels = spectrum::labels(&lines(problem, &bare.columns, &bare.fit), sensor, rotary);
+    panel.x = spectrum::axis(rotary);
     panel
 }
 

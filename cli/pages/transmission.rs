@@ -91,7 +91,7 @@ fn spectrum(found: &Found) -> Option<Panel> {
         x: Axis::log("periods a turn of the output"),
         y: Axis::linear("amplitude in arcsec"),
         bands: Vec::new(),
-        series: vec![Series::new("", Colour::Blue, Style::Line, points)],
+        series: vec![Series::new("", Colour::Blue, Style::Stems, points)],
         labels: named.map(label).collect(),
     })
 }

@@ -89,6 +89,7 @@ const HALF_LETTER: i32 = 33;
 /// Writes the labels, each centred above its point, or above the labels it would lie on.
 pub(super) fn draw_labels(chart: &mut Chart, panel: &Panel, [x, y]: [&Settled; 2]) -> Drawn {
     let style = anchored(&text(11).color(&INK), HPos::Center, VPos::Bottom);
+    let (std::ops::Range { start: left, end: right }, _) = chart.plotting_area().get_pixel_range();
     let mut taken: Vec<[i32; 3]> = Vec::new();
     for label in &panel.labels {
         let [across, up] = shown(&label.at, [x, y]);
@@ -97,10 +98,12 @@ pub(super) fn draw_labels(chart: &mut Chart, panel: &Panel, [x, y]: [&Settled; 2
         }
         let words = printable(&label.text);
         let half = i32::try_from(words.chars().count()).unwrap_or(0) * HALF_LETTER;
-        let (middle, foot) = chart.backend_coord(&(across, up));
+        let (point, foot) = chart.backend_coord(&(across, up));
+        // Words at a side move inwards, so that they do not cover the numbers of the axis.
+        let middle = point.clamp(left + half, (right - half).max(left + half));
         let lifted = lifted_clear(&taken, [middle, foot, half]);
         taken.push([middle, lifted, half]);
-        let text = Text::new(words, (0, lifted - foot), style.clone());
+        let text = Text::new(words, (middle - point, lifted - foot), style.clone());
         chart.draw_series([EmptyElement::at((across, up)) + text])?;
     }
     Ok(())
