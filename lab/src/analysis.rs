@@ -208,7 +208,8 @@ pub fn plausible(judged: &Judged) -> bool {
 /// Logged physics comes together: a warm day has weather too, and one part of it alone may fit
 /// worse than none. Their coefficients are known, so a set of them has hardly any freedom.
 fn known_together(problem: &Problem, now: &State, tried: &[Judged]) -> Option<Vec<Component>> {
-    let known: Vec<Component> = candidates(&Stage::new(problem, &now.columns, &now.fit.noises))
+    let coloured = Stage::new(problem, &now.columns, &now.fit.noises);
+    let known: Vec<Component> = candidates(&coloured, &now.components)
         .into_iter()
         .map(|candidate| Component::new(candidate.term))
         .filter(|component| {
@@ -249,11 +250,11 @@ const TOGETHER: f64 = 10.0;
 pub fn tried(problem: &Problem, now: &State) -> Vec<Judged> {
     let coloured = Stage::new(problem, &now.columns, &now.fit.noises);
     let white = Stage::new(problem, &now.columns, &plain_noises(problem, &now.fit));
-    let first = judged_shortlist(problem, now, &[trials(&white), trials(&coloured)]);
+    let first = judged_shortlist(problem, now, &[trials(&white, now), trials(&coloured, now)]);
     let Some(best) = first.first() else { return first };
     // Under the noise that the best one leaves, its rivals show what they can really do.
     let clear = Stage::new(problem, &now.columns, &best.fit.noises);
-    let again = trials(&clear);
+    let again = trials(&clear, now);
     let mut all = judged_shortlist(problem, now, &[again]);
     for judged in first {
         let known =
@@ -269,8 +270,8 @@ pub fn tried(problem: &Problem, now: &State) -> Vec<Judged> {
 }
 
 /// Every candidate at its best under a stage's noise, largest gain first.
-fn trials(stage: &Stage<'_>) -> Vec<Trial> {
-    let all = candidates(stage);
+fn trials(stage: &Stage<'_>, now: &State) -> Vec<Trial> {
+    let all = candidates(stage, &now.components);
     let mut trials: Vec<Trial> =
         all.par_iter().filter_map(|candidate| try_candidate(stage, candidate)).collect();
     trials.extend(setting_trials(stage));

@@ -3,6 +3,7 @@
 use helixlock_plant::units::{ARCSEC, UM};
 use helixlock_plant::{CATALOGUE, Entry, Formula, Machine, Parameter, Search, Term};
 
+use crate::component::Component;
 use crate::count;
 use crate::measurement::spread;
 use crate::order_spectrum::Scan;
@@ -33,9 +34,10 @@ const MOST: usize = 3000;
 
 /// Every effect of the catalogue that the sensors could see and whose logs are there.
 ///
-/// The user's own effects of [`Problem::extra`] take part like any other.
+/// The user's own effects of [`Problem::extra`] take part like any other. `found` are the effects
+/// the search has added so far.
 #[must_use]
-pub fn candidates(stage: &Stage<'_>) -> Vec<Candidate> {
+pub fn candidates(stage: &Stage<'_>, found: &[Component]) -> Vec<Candidate> {
     let problem = stage.problem;
     CATALOGUE
         .iter()
@@ -45,7 +47,29 @@ pub fn candidates(stage: &Stage<'_>) -> Vec<Candidate> {
         .chain(problem.extra.iter().cloned())
         .filter(|term| logged(problem, term))
         .filter_map(|term| candidate(stage, term))
+        .map(|candidate| with_overtones(candidate, stage.problem, found))
         .collect()
+}
+
+/// Highest overtone of a gear that is looked for: a worm shows five.
+const OVERTONES: u16 = 5;
+
+/// Adds the overtones of gears that the model has already: without its fundamental, a line at
+/// twice a gear's order is nobody's.
+fn with_overtones(mut candidate: Candidate, problem: &Problem, found: &[Component]) -> Candidate {
+    if candidate.term.kind() != "gear-error" {
+        return candidate;
+    }
+    let orders = gear_orders(&problem.machine);
+    let known = problem.machine.effects.iter().chain(found.iter().map(|one| &one.term));
+    let known = known.filter(|term| term.kind() == "gear-error").flat_map(Term::nonlinear);
+    let overtones = known
+        .filter(|order| orders.contains(order))
+        .flat_map(|order| (2..=OVERTONES).map(move |times| f64::from(times) * order))
+        .filter(|order| !orders.contains(order));
+    candidate.grid.extend(overtones.map(|order| vec![order]));
+    candidate.looks = count(candidate.grid.len());
+    candidate
 }
 
 /// Parameters in µm are in seconds of arc on a rotary chain.

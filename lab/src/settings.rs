@@ -61,18 +61,27 @@ pub fn alternatives(machine: &Machine) -> Vec<Setting> {
 fn slips(number: u32) -> Vec<u32> {
     const MOST: u32 = 999;
     let mut slips = vec![number.saturating_sub(1), number + 1, 2 * number, number / 2];
-    for place in [1, 10, 100] {
-        let digit = number / place % 10;
-        slips.extend((0..10).map(|other| number - digit * place + other * place));
-    }
-    for (low, high) in [(1, 10), (10, 100), (1, 100)] {
-        let (a, b) = (number / low % 10, number / high % 10);
-        slips.push(number - a * low - b * high + b * low + a * high);
-    }
+    slips.extend(misread(number, 3));
     distinct(slips, number, MOST)
 }
 
-/// Counts that are mistaken for each other, and the neighbours.
+/// One digit of a number taken for another, or two exchanged.
+fn misread(number: u32, digits: u32) -> Vec<u32> {
+    let digit = |place: u32| number / 10_u32.pow(place) % 10;
+    let without = |place: u32| digit(place) * 10_u32.pow(place);
+    let mut numbers = Vec::new();
+    for place in 0..digits {
+        let rest = number - without(place);
+        numbers.extend((0..10).map(|other| rest + other * 10_u32.pow(place)));
+        for higher in place + 1..digits {
+            let exchanged = digit(higher) * 10_u32.pow(place) + digit(place) * 10_u32.pow(higher);
+            numbers.push(rest - without(higher) + exchanged);
+        }
+    }
+    numbers
+}
+
+/// Counts that are mistaken for each other, digits misread, and the neighbours.
 fn line_counts(lines: u32) -> Vec<u32> {
     const ALIKE: [[u32; 2]; 3] = [[2500, 2048], [5000, 4096], [13_906, 11_060]];
     let mut counts = vec![lines.saturating_sub(1), lines + 1, 2 * lines, 4 * lines];
@@ -82,6 +91,7 @@ fn line_counts(lines: u32) -> Vec<u32> {
     }
     counts.extend([2, 4].into_iter().filter(|n| lines.is_multiple_of(*n)).map(|n| lines / n));
     // Decimal for binary at any size: 1000 for 1024, 500 for 512, interpolated or not.
+    counts.extend(misread(lines, lines.checked_ilog10().unwrap_or(0) + 1));
     counts.extend((lines.is_multiple_of(128)).then_some(lines / 128 * 125));
     counts.extend((lines.is_multiple_of(125)).then_some(lines / 125 * 128));
     distinct(counts, lines, u32::MAX)
@@ -103,6 +113,13 @@ mod tests {
         assert!(line_counts(1024).contains(&1000));
         assert!(line_counts(1000).contains(&1024));
         assert!(line_counts(13_906).contains(&11_060));
+    }
+
+    #[test]
+    fn digits_of_a_line_count_are_misread() {
+        for expected in [13_900, 13_960, 19_306, 3_906] {
+            assert!(line_counts(13_906).contains(&expected), "{expected}");
+        }
     }
 
     #[test]

@@ -25,7 +25,7 @@ pub(super) const CARD: Card = Card {
             .within(1e-6..=1e9),
     ],
     needs: &[],
-    signature: "a line at the order of a [[gear]], or at its order times its teeth",
+    signature: "a line at the order of a [[gear]], or at its order times its teeth; beside it, overtones",
     confused_with: &["screw-periodic", "grating-graduation", "vibration"],
     separated_by: "swap the gear: the order moves with it",
     source: "kinematics of the train",
