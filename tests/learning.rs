@@ -1,5 +1,6 @@
 //! `add` and `learn` on files: what is written, what is kept, what can be taken back.
 
+use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
@@ -184,4 +185,44 @@ fn a_closed_loop_trace_passes_the_final_check() {
     let (before, after) = (counter["rms_before_um"].as_f64(), counter["rms_um"].as_f64());
     assert!(1.0 < before.expect("a number"), "{check}");
     assert!(after.expect("a number") < 1.3 * hunting_um, "{check}");
+}
+
+/// The samples of hidden-gear as a logger writes them: other units, instants, semicolons.
+fn as_logged(csv: &str) -> String {
+    let mut lines = csv.lines().filter(|line| !line.starts_with('#'));
+    assert_eq!(lines.next(), Some("position_mm,time_s,error_um,pass"));
+    let mut logged = "Pass;Error (nm);timestamp;Position [m]\n".to_owned();
+    for line in lines {
+        let cells: Vec<&str> = line.split(',').collect();
+        let scaled = |cell: &str, factor: f64| {
+            cell.parse::<f64>().map_or(String::new(), |value| format!("{}", value * factor))
+        };
+        let stamp = cells[1].parse::<f64>().map_or(String::new(), |time_s| {
+            let (minutes, seconds) = ((time_s / 60.0).floor(), time_s % 60.0);
+            let (hours, minutes) = ((minutes / 60.0).floor(), minutes % 60.0);
+            format!("2026-03-01 {hours:02}:{minutes:02}:{seconds:08.5}")
+        });
+        let (error, position) = (scaled(cells[2], 1000.0), scaled(cells[0], 0.001));
+        writeln!(logged, "{};{error};{stamp};{position}", cells[3]).expect("memory takes it");
+    }
+    logged
+}
+
+/// Units, separators and clocks of the file change neither the verdict nor the numbers.
+#[test]
+fn a_loggers_file_is_diagnosed_like_our_own() {
+    let folder = scratch();
+    let (data, data_word) = word(&folder, "logged.csv");
+    put(&data, &as_logged(&example("hidden-gear/data.csv")));
+    let machine = "examples/hidden-gear/machine.toml";
+    let logged = json(&helixlock(&["diagnose", machine, &data_word, "--json"]));
+    let own = json(&helixlock(&["diagnose", machine, "examples/hidden-gear/data.csv", "--json"]));
+    assert_eq!(logged["verdict"], own["verdict"]);
+    assert_eq!(names(&logged["effects"]), names(&own["effects"]));
+    let amplitude = |answer: &Value| {
+        answer["effects"][0]["parameters"]["amplitude_um"]["value"].as_f64().expect("a number")
+    };
+    assert!((amplitude(&logged) - amplitude(&own)).abs() < 1e-5, "{logged}");
+    let notes = logged["notes"].to_string();
+    assert!(notes.contains("`Position [m]` is read as `position_mm`, converted"), "{notes}");
 }
