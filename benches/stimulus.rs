@@ -36,6 +36,28 @@ pub(crate) fn dense(netlist: &Netlist, clocks: u64) -> Vec<PinEvent> {
     events
 }
 
+/// Pulses on both inputs, each level held for 2 to 6 clocks as chance will have it: what happens next
+/// cannot be foreseen, not by a processor's branch predictor either.
+#[allow(dead_code, reason = "the peers' run alone has a use for it")]
+pub(crate) fn irregular(netlist: &Netlist, clocks: u64) -> Vec<PinEvent> {
+    let mut events = settings(netlist, 500.0);
+    // The multiplicative generator of Park and Miller (1988).
+    let mut state = 1977_u64;
+    for pin in ["grating", "laser"].map(|name| pin_of(netlist, name)) {
+        let mut clock = 20;
+        for edge in 1_u64.. {
+            state = state * 16807 % 0x7fff_ffff;
+            clock += 2 + state % 5;
+            if clocks <= clock {
+                break;
+            }
+            events.push(PinEvent { clock, pin, value: edge % 2 });
+        }
+    }
+    events.sort_by_key(|event| event.clock);
+    events
+}
+
 /// Drives an engine through all events and on to clock number `clocks`.
 pub(crate) fn drive(engine: &mut dyn Engine, events: &[PinEvent], clocks: u64) {
     let inputs = engine.netlist().inputs.clone();

@@ -5,8 +5,9 @@
 //! ```
 //!
 //! builds Verilator (plain, and guided by a profile), CXXRTL and Icarus from the emitted Verilog,
-//! runs all of them alternately, holds every end state to ours, and prints a table of ratios. Times
-//! are processor time, so that another program on the machine does not count.
+//! runs all of them alternately, holds every end state to ours, and prints the tables of
+//! `docs/performance.md`. Times are processor time, so that another program on the machine does not
+//! count.
 
 #![allow(clippy::print_stdout, reason = "a benchmark prints what it measured")]
 #![allow(clippy::cast_precision_loss, reason = "clocks stay below 2⁵³")]
@@ -22,10 +23,11 @@ use std::path::Path;
 use helixlock_sim::device;
 
 use crate::build::Peer;
-use crate::stimulus::{PinEvent, dense, pass};
+use crate::stimulus::{PinEvent, dense, irregular, pass};
+use crate::table::Column;
 
 /// Runs of each engine; the quickest counts.
-const ROUNDS: usize = 3;
+const ROUNDS: usize = 5;
 
 /// One stimulus, and how much of it the slow ones get.
 struct Work {
@@ -53,45 +55,65 @@ fn main() -> anyhow::Result<()> {
     let netlist = device().netlist();
     let works = [
         Work {
-            name: "dense: every clock has work",
+            name: "dense",
             events: dense(netlist, 2_000_000),
             clocks: 2_000_000,
             clocks_for_slow: 50_000,
         },
         Work {
-            name: "pass: 15 rpm at 12 MHz",
+            name: "irregular",
+            events: irregular(netlist, 2_000_000),
+            clocks: 2_000_000,
+            clocks_for_slow: 50_000,
+        },
+        Work {
+            name: "pass at 15 rpm",
             events: pass(netlist, 6_000_000, 15.0, 12e6),
             clocks: 6_000_000,
             clocks_for_slow: 50_000,
         },
     ];
-    let mut reference_ns = f64::NAN;
+    println!("{}", machine()?);
+    let mut columns = Vec::new();
     for work in works {
-        let rows = measure(&work, &peers, folder.path())?;
-        println!("{}", rows.table(work.name));
-        reference_ns = rows.reference_ns();
+        columns.push(measure(&work, &peers, folder.path())?);
     }
-    println!("{}", ours::closed_loop(reference_ns)?);
-    println!("{}", ours::by_clock_rate());
+    println!("{}", table::engines(&columns));
+    let pass_ns = columns.last().map_or(f64::NAN, Column::reference_ns);
+    println!("{}", ours::closed_loop(pass_ns)?);
+    println!("{}", ours::by_clock_rate()?);
     Ok(())
 }
 
+/// The processor, and the versions of the peers.
+fn machine() -> anyhow::Result<String> {
+    let processor = std::fs::read_to_string("/proc/cpuinfo")?;
+    let name = processor.lines().find_map(|line| line.strip_prefix("model name")).unwrap_or("");
+    let mut versions = vec![name.trim_start_matches([':', '\t', ' ']).to_owned()];
+    for (tool, flag) in [("verilator", "--version"), ("yosys", "-V"), ("iverilog", "-V")] {
+        let output = std::process::Command::new(tool).arg(flag).output()?;
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        versions.extend(text.lines().next().map(|line| line.trim().to_owned()));
+    }
+    Ok(versions.join("\n") + "\n")
+}
+
 /// Everybody on one stimulus.
-fn measure(work: &Work, peers: &[Peer], folder: &Path) -> anyhow::Result<table::Rows> {
-    let mut rows = table::Rows::new();
+fn measure(work: &Work, peers: &[Peer], folder: &Path) -> anyhow::Result<Column> {
+    let mut column = Column::new(work.name);
     for _ in 0..ROUNDS {
         for engine in ours::ENGINES {
             let clocks = if engine.slow { work.clocks_for_slow } else { work.clocks };
             let run = ours::run(engine, &work.events, clocks)?;
-            rows.add(engine.name, &run)?;
+            column.add(engine.name, &run)?;
         }
         let lanes = ours::run_lanes(&work.events, work.clocks_for_slow)?;
-        rows.add("helixlock 512 lanes, each", &lanes)?;
+        column.add("helixlock, 512 lanes, each lane", &lanes)?;
         for peer in peers {
             let clocks = if peer.slow { work.clocks_for_slow } else { work.clocks };
             let run = peer.run(&work.events, clocks, folder)?;
-            rows.add(&peer.name, &run)?;
+            column.add(&peer.name, &run)?;
         }
     }
-    Ok(rows)
+    Ok(column)
 }

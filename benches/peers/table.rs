@@ -1,25 +1,26 @@
-//! Times side by side.
+//! Times side by side, as the Markdown table that `docs/performance.md` shows.
 
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 
 use anyhow::ensure;
-use comfy_table::{Cell, CellAlignment, Table};
 
 use crate::Run;
 
 /// The peer all ratios are to.
 pub(crate) const REFERENCE: &str = "Verilator -O3";
 
-/// The quickest run of every engine.
-pub(crate) struct Rows {
+/// The quickest run of every engine on one stimulus.
+pub(crate) struct Column {
+    pub(crate) title: &'static str,
     rows: Vec<(String, f64)>,
     /// End state after so many clocks.
     states: BTreeMap<u64, String>,
 }
 
-impl Rows {
-    pub(crate) fn new() -> Self {
-        Self { rows: Vec::new(), states: BTreeMap::new() }
+impl Column {
+    pub(crate) fn new(title: &'static str) -> Self {
+        Self { title, rows: Vec::new(), states: BTreeMap::new() }
     }
 
     /// Takes a run; its end state must be that of everyone who ran as many clocks.
@@ -41,26 +42,46 @@ impl Rows {
 
     /// Nanoseconds the reference takes for a clock.
     pub(crate) fn reference_ns(&self) -> f64 {
-        let reference = self.rows.iter().find(|(name, _)| name == REFERENCE);
-        reference.map_or(f64::NAN, |(_, per_clock)| 1e9 * per_clock)
+        1e9 * self.per_clock(REFERENCE)
     }
 
-    pub(crate) fn table(&self, title: &str) -> String {
-        let reference = self.reference_ns() * 1e-9;
-        let mut table = Table::new();
-        table.set_header([title, "ns a clock", "× Verilator -O3"]);
-        for (name, per_clock) in &self.rows {
-            let numbers = [format!("{:.3}", 1e9 * per_clock), ratio(reference / per_clock)];
-            let right = |text| Cell::new(text).set_alignment(CellAlignment::Right);
-            table.add_row([vec![Cell::new(name)], numbers.map(right).to_vec()].concat());
-        }
-        let states: Vec<String> = self.states.keys().map(u64::to_string).collect();
-        format!("{table}\nequal end states after {} clocks\n", states.join(" and "))
+    fn per_clock(&self, name: &str) -> f64 {
+        self.rows.iter().find(|(known, _)| known == name).map_or(f64::NAN, |(_, time)| *time)
     }
 }
 
-/// Three significant digits.
-fn ratio(value: f64) -> String {
-    let digits = if value < 1.0 { 3 } else { usize::from(value < 10.0) };
-    format!("{value:.digits$}")
+/// Every engine in a row, every stimulus in two columns.
+pub(crate) fn engines(columns: &[Column]) -> String {
+    let mut text = String::from("| engine |");
+    for column in columns {
+        // Writing into a string does not fail.
+        let _ = write!(text, " {}, ns a clock | × Verilator |", column.title);
+    }
+    text += &format!("\n|---|{}\n", "---:|---:|".repeat(columns.len()));
+    for (name, _) in columns.first().map_or(&[][..], |column| &column.rows) {
+        text += &format!("| {name} |");
+        for column in columns {
+            let per_clock = column.per_clock(name);
+            let ratio = column.per_clock(REFERENCE) / per_clock;
+            let _ = write!(text, " {} | {} |", digits(1e9 * per_clock), digits(ratio));
+        }
+        text.push('\n');
+    }
+    text.push('\n');
+    for column in columns {
+        let clocks: Vec<String> = column.states.keys().map(u64::to_string).collect();
+        let _ = writeln!(
+            text,
+            "Equal end states, {}: after {} clocks.",
+            column.title,
+            clocks.join(" and ")
+        );
+    }
+    text
+}
+
+/// Three significant digits, four of large numbers.
+pub(crate) fn digits(value: f64) -> String {
+    let decimals = [100.0, 10.0, 1.0, 0.1].into_iter().filter(|limit| value < *limit).count();
+    format!("{value:.decimals$}")
 }

@@ -28,17 +28,26 @@ impl Dice {
 
 /// A design of a few registers.
 pub(crate) fn random_design(dice: &mut Dice) -> Netlist {
-    let mut draft =
-        Draft { dice, netlist: Netlist::default(), known: Vec::new(), enables: Vec::new() };
+    let mut draft = Draft {
+        dice,
+        netlist: Netlist::default(),
+        known: vec![],
+        private: vec![],
+        enables: vec![],
+    };
     for width in [1, 1, 8] {
         let input = draft.signal("input", width);
         draft.netlist.inputs.push(input);
         draft.known.push(input);
     }
-    let registers = 2 + draft.dice.below(7);
+    let registers = 2 + draft.dice.below(14);
     let outputs: Vec<SignalId> = (0..registers).map(|_| draft.register_output()).collect();
     for output in &outputs {
-        draft.show(*output);
+        if draft.dice.below(3) == 0 {
+            draft.private.push(*output);
+        } else {
+            draft.show(*output);
+        }
     }
     for _ in 0..draft.dice.below(14) {
         draft.local();
@@ -58,6 +67,8 @@ struct Draft<'a> {
     netlist: Netlist,
     /// Signals that may be read.
     known: Vec<SignalId>,
+    /// Registers that only those which change under conditions may read.
+    private: Vec<SignalId>,
     /// Conditions under which registers change.
     enables: Vec<SignalId>,
 }
@@ -103,10 +114,10 @@ impl Draft<'_> {
 
     fn register_input(&mut self, output: SignalId) {
         let width = self.netlist.signal(output).width;
-        let value = match self.dice.below(5) {
+        let value = match self.dice.below(6) {
             0 => self.expression(width, 3),
             1 => self.synchroniser(width),
-            2 | 3 => self.held(output, width),
+            2..=4 => self.held(output, width),
             _ => self.counter(output, width),
         };
         let input = self.signal("next", width);
@@ -132,7 +143,7 @@ impl Draft<'_> {
         let own = || Box::new(read(output, width));
         let enable = self.enable();
         let enable = || Box::new(read(enable, 1));
-        let value = Box::new(self.expression(width, 3));
+        let value = Box::new(self.held_value(width));
         if self.dice.below(3) == 0 {
             let stall = Box::new(Expression { width: 1, node: Node::Not(enable()) });
             return select(width, stall, own(), value);
@@ -144,6 +155,18 @@ impl Draft<'_> {
         let clear = self.enable();
         let cleared = Box::new(constant(0, width));
         select(width, Box::new(read(clear, 1)), cleared, Box::new(moved))
+    }
+
+    /// Mixed from what anyone knows and what few do.
+    fn held_value(&mut self, width: u32) -> Expression {
+        let mut value = self.expression(width, 3);
+        for signal in self.private.clone() {
+            if self.dice.below(2) == 0 {
+                let other = Box::new(self.fitted(signal, width));
+                value = Expression { width, node: Node::Xor(Box::new(value), other) };
+            }
+        }
+        value
     }
 
     /// A condition, at times a part of one that another register has, so that they nest.
@@ -205,19 +228,24 @@ impl Draft<'_> {
         Expression { width, node }
     }
 
-    /// A signal of that width, cut or extended if there is none, or a constant.
+    /// A signal, cut or extended to that width, or a constant.
     fn leaf(&mut self, width: u32) -> Expression {
         if self.dice.below(4) == 0 {
             return constant(self.dice.roll() & mask(width), width);
         }
         let known = self.known.clone();
         let signal = self.dice.pick(&known);
+        self.fitted(signal, width)
+    }
+
+    /// A signal, cut or extended.
+    fn fitted(&self, signal: SignalId, width: u32) -> Expression {
         let found = self.netlist.signal(signal).width;
-        let read = Expression { width: found, node: Node::Signal(signal) };
+        let whole = read(signal, found);
         match found {
-            _ if found == width => read,
-            _ if found < width => Expression { width, node: Node::Extend(Box::new(read)) },
-            _ => Expression { width, node: Node::Slice { of: Box::new(read), low: 0 } },
+            _ if found == width => whole,
+            _ if found < width => Expression { width, node: Node::Extend(Box::new(whole)) },
+            _ => Expression { width, node: Node::Slice { of: Box::new(whole), low: 0 } },
         }
     }
 }

@@ -115,12 +115,11 @@ impl<'a> Plan<'a> {
         }
         for (word, of) in self.words.all().iter().enumerate().rev() {
             let Some(site) = places.get(&word).copied() else { continue };
-            if self.kept_at(word).is_some() {
+            if self.kept_at(word).is_some() || self.is_written_first(word) {
                 // Read before anything is written.
                 places.insert(word, None);
                 continue;
             }
-            places.insert(word, self.before_written(word, site));
             for operand in &of.operands {
                 self.need(&mut places, *operand, site);
             }
@@ -145,12 +144,12 @@ impl<'a> Plan<'a> {
         *place = self.blocks.common(*place, site);
     }
 
-    /// The site, or one around it where a register that the word reads still has its old value.
-    fn before_written(&self, word: usize, site: Site) -> Site {
-        let Some(Leaf::Register(register)) = self.leaves.get(&word) else { return site };
-        let written = self.blocks.of_register(*register);
-        let common = self.blocks.common(site, written);
-        if written.is_some() && common == written { site } else { common }
+    /// True for the old value of a register outside all blocks, which is written before them. One in
+    /// a block needs no such care: its next value holds its old one, so that its own block reads it
+    /// too, and it is read around whoever else does.
+    fn is_written_first(&self, word: usize) -> bool {
+        let outside = |register| self.blocks.outside.contains(register);
+        matches!(self.leaves.get(&word), Some(Leaf::Register(register)) if outside(register))
     }
 
     /// The word that reads a register, if it is needed.
