@@ -126,6 +126,32 @@ fn print(out: &mut impl Write, faults: &Faults) -> anyhow::Result<()> {
         faults.window_s,
         faults.band_um
     )?;
+    print_safeguards(out, faults)
+}
+
+/// What the ring's self-clear and the counter's fault output were worth.
+fn print_safeguards(out: &mut impl Write, faults: &Faults) -> anyhow::Result<()> {
+    let cleared: Vec<&Outcome> =
+        faults.outcomes.iter().filter(|flip| 0 < flip.ring_illegal_clocks).collect();
+    let clocks = cleared.iter().map(|flip| flip.ring_illegal_clocks).max().unwrap_or(0);
+    let slip = cleared.iter().map(|flip| flip.ring_slip.abs()).max().unwrap_or(0);
+    writeln!(
+        out,
+        "self-clear of the ring: {} flips left it in an illegal state, for {clocks} clocks at most; \
+         it then ran on, {slip} steps beside its place at most",
+        cleared.len(),
+    )?;
+    let shown = faults.outcomes.iter().filter(|flip| flip.fault_shown);
+    let mut shown: Vec<&str> = shown.map(|flip| flip.flip_flop.as_str()).collect();
+    shown.sort_unstable();
+    shown.dedup();
+    let lost = faults.outcomes.iter().filter(|flip| flip.home_error != 0).count();
+    let shown = if shown.is_empty() { "none".to_owned() } else { shown.join(", ") };
+    writeln!(
+        out,
+        "fault output of the counter: came on after a flip of {shown}; it tells of a counter that \
+         is full, not of the {lost} flips that made it count from elsewhere"
+    )?;
     Ok(())
 }
 
@@ -133,13 +159,13 @@ fn write_rows(file: &mut dyn Write, faults: &Faults) -> anyhow::Result<()> {
     writeln!(
         file,
         "flip_flop,time_s,verdict,healed_clocks,worst_um,left_um,recovery_s,home_error_steps,\
-         ring_slip_steps,fault_shown"
+         ring_slip_steps,ring_illegal_clocks,fault_shown"
     )?;
     for outcome in &faults.outcomes {
         let optional = |number: Option<String>| number.unwrap_or_default();
         writeln!(
             file,
-            "{},{},{},{},{},{},{},{},{},{}",
+            "{},{},{},{},{},{},{},{},{},{},{}",
             outcome.flip_flop,
             outcome.time_s,
             word(outcome.verdict),
@@ -149,6 +175,7 @@ fn write_rows(file: &mut dyn Write, faults: &Faults) -> anyhow::Result<()> {
             optional(outcome.recovery_s.map(|seconds| seconds.to_string())),
             outcome.home_error,
             outcome.ring_slip,
+            outcome.ring_illegal_clocks,
             u8::from(outcome.fault_shown),
         )?;
     }
@@ -167,6 +194,7 @@ fn json(faults: &Faults) -> Value {
             "recovery_s": outcome.recovery_s,
             "home_error_steps": outcome.home_error,
             "ring_slip_steps": outcome.ring_slip,
+            "ring_illegal_clocks": outcome.ring_illegal_clocks,
             "fault_shown": outcome.fault_shown,
         })
     });

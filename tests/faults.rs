@@ -26,6 +26,10 @@ fn the_ring_clears_itself_and_the_counter_is_told() {
         let expected = if flip.ring_slip == 0 { Verdict::Unseen } else { Verdict::HomeLost };
         assert_eq!(flip.verdict, expected, "{flip:?}");
     }
+    // Of the three flips from any place of the ring one leads outside, and that for one clock.
+    let mut illegal: Vec<u64> = of("ring.").iter().map(|flip| flip.ring_illegal_clocks).collect();
+    illegal.sort_unstable();
+    assert_eq!(illegal, [0, 0, 1]);
     // Bit n of the counter is 2ⁿ steps; the table knows nothing of it.
     for (bit, flip) in of("reset_counter.magnitude_q").into_iter().enumerate() {
         assert_eq!(flip.home_error.abs(), 1 << bit, "{flip:?}");

@@ -10,6 +10,8 @@
 //! Courses are compared as means over one hunting cycle: the hunting itself has no fixed phase. A
 //! table within one swing of its course counts as back on it.
 
+mod ring;
+
 use helixlock_netlist::Netlist;
 use helixlock_plant::Machine;
 
@@ -59,6 +61,9 @@ pub struct Outcome {
     pub home_error: i64,
     /// Steps by which windings and table disagree at the end.
     pub ring_slip: i64,
+    /// Clocks for which the flip left the windings in a state outside the ring, before the ring
+    /// cleared itself; 0 when they stayed in it.
+    pub ring_illegal_clocks: u64,
     /// The fault output came on.
     pub fault_shown: bool,
     /// All of it in a word.
@@ -234,6 +239,7 @@ impl<'a> Bench<'a> {
         let bit = !moment.flip_flops[flip_flop];
         moment.flip_flops.set(flip_flop, bit);
         device.engine().restore(&moment);
+        let ring_illegal_clocks = ring::illegal_clocks(&moment)?;
         let track = self.follow(&mut device)?;
         let look_s = 1.0 / (self.course.comparison_hz * f64::from(LOOKS));
         let deviation = Deviation::of(&undisturbed.track, &track, self.course.swing_um);
@@ -247,6 +253,7 @@ impl<'a> Bench<'a> {
             recovery_s: deviation.looks.map(|looks| f64::from(looks) * look_s),
             home_error,
             ring_slip,
+            ring_illegal_clocks,
             fault_shown: track.fault && !undisturbed.track.fault,
             verdict: deviation.verdict(home_error != 0 || ring_slip != 0),
         })
@@ -273,7 +280,7 @@ impl<'a> Bench<'a> {
             mean_um: looks_um.windows(CYCLE).map(mean).collect(),
             steps,
             counted: counted(engine)?,
-            ring: ring(engine)?,
+            ring: ring::place(engine)?,
             fault,
         })
     }
@@ -376,15 +383,6 @@ fn counted(engine: &mut impl Engine) -> Result<i64, Error> {
     let [count, forward] = ["count", "count_forward"].map(|port| read(engine, port));
     let count = i64::try_from(count?).unwrap_or(i64::MAX);
     Ok(if forward? == 1 { count } else { -count })
-}
-
-/// Place in the cycle A, AB, B, BC, C, CA; an illegal state, which lasts one clock, counts as A.
-fn ring(engine: &mut impl Engine) -> Result<i64, Error> {
-    const CYCLE: [[u64; 3]; 6] = [[1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 1, 1], [0, 0, 1], [1, 0, 1]];
-    let [a, b, c] = ["phase_a", "phase_b", "phase_c"].map(|port| read(engine, port));
-    let phases = [a?, b?, c?];
-    let place = CYCLE.iter().position(|state| *state == phases).unwrap_or(0);
-    Ok(i64::try_from(place).unwrap_or(0))
 }
 
 fn read(engine: &mut impl Engine, port: &str) -> Result<u64, Error> {
