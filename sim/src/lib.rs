@@ -1,6 +1,8 @@
 //! Cycle-accurate simulation of the device in closed loop with the machine.
 
 #[cfg(test)]
+mod adversary;
+#[cfg(test)]
 mod agreement;
 mod appraisal;
 mod certify;
