@@ -24,6 +24,8 @@ pub struct Circuit {
     partition: Partition,
     /// One a signal.
     places: Vec<Place>,
+    /// One a signal: the index in [`Partition::nets`] of the one that shows it, if one does.
+    nets: Vec<Option<usize>>,
     /// One a register: its counter, if it is one.
     counters: Vec<Option<usize>>,
 }
@@ -33,13 +35,13 @@ impl Circuit {
     #[must_use]
     pub fn new(netlist: Netlist) -> Self {
         let partition = Partition::new(&netlist);
-        let places = places(&netlist, &partition);
+        let (places, nets) = places(&netlist, &partition);
         let counters = (0..netlist.registers.len())
             .map(|register| {
                 partition.counters.iter().position(|piece| piece.counter.register == register)
             })
             .collect();
-        Self { netlist, partition, places, counters }
+        Self { netlist, partition, places, nets, counters }
     }
 
     /// The netlist.
@@ -56,6 +58,11 @@ impl Circuit {
 
     pub(crate) fn place(&self, signal: SignalId) -> Place {
         self.places[signal.0 as usize]
+    }
+
+    /// The net that shows a signal; also of a register, when others see it through one.
+    pub(crate) fn net_of(&self, signal: SignalId) -> Option<usize> {
+        self.nets[signal.0 as usize]
     }
 
     pub(crate) fn counter_of(&self, register: usize) -> Option<usize> {
@@ -113,7 +120,7 @@ impl Circuit {
     }
 }
 
-fn places(netlist: &Netlist, partition: &Partition) -> Vec<Place> {
+fn places(netlist: &Netlist, partition: &Partition) -> (Vec<Place>, Vec<Option<usize>>) {
     let drivers = Drivers::new(netlist);
     let mut nets = vec![None; netlist.signals.len()];
     for (index, net) in partition.nets.iter().enumerate() {
@@ -128,5 +135,7 @@ fn places(netlist: &Netlist, partition: &Partition) -> Vec<Place> {
             _ => Place::Logic,
         }
     };
-    (0..).map(SignalId).take(netlist.signals.len()).map(place).collect()
+    let signals = (0..).map(SignalId).take(netlist.signals.len());
+    let shown = signals.clone().map(|signal| nets[drivers.origin(signal).0 as usize]);
+    (signals.map(place).collect(), shown.collect())
 }

@@ -160,10 +160,10 @@ impl<K: Kernel> Engine for Leap<'_, K> {
         self.watched_others.clear();
         self.watched_counters = self.circuit.counters_shown_by(signals);
         for signal in signals {
-            match self.circuit.place(*signal) {
-                Place::Net(index) => self.watched_nets[index / 64] |= 1 << (index % 64),
-                Place::Input(_) => {}
-                Place::Register(_) | Place::Logic => self.watched_others.push((*signal, 0)),
+            match (self.circuit.net_of(*signal), self.circuit.place(*signal)) {
+                (Some(index), _) => self.watched_nets[index / 64] |= 1 << (index % 64),
+                (None, Place::Input(_)) => {}
+                (None, _) => self.watched_others.push((*signal, 0)),
             }
         }
     }
