@@ -57,9 +57,9 @@ pub(crate) fn engines(columns: &[Column]) -> String {
         // Writing into a string does not fail.
         let _ = write!(text, " {}, ns a clock | × Verilator |", column.title);
     }
-    text += &format!("\n|---|{}\n", "---:|---:|".repeat(columns.len()));
+    let _ = writeln!(text, "\n|---|{}", "---:|---:|".repeat(columns.len()));
     for (name, _) in columns.first().map_or(&[][..], |column| &column.rows) {
-        text += &format!("| {name} |");
+        let _ = write!(text, "| {name} |");
         for column in columns {
             let per_clock = column.per_clock(name);
             let ratio = column.per_clock(REFERENCE) / per_clock;
