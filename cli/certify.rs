@@ -120,6 +120,7 @@ impl Certify {
                 provoked.each_ref().map(|run| run.largest_at_ends_s),
             "provoked_other_decisions": provoked.each_ref().map(|run| run.other_decisions),
             "closed_comparisons": closed.comparisons,
+            "closed_steps": closed.steps_taken,
             "closed_largest_difference_steps": closed.largest_steps,
             "closed_largest_difference_um": closed.largest_um,
             "closed_bound_um": closed.bound_um,
@@ -195,8 +196,8 @@ fn print_closed(certificate: &Certificate, out: &mut impl Write) -> anyhow::Resu
     let closed = &certificate.closed;
     writeln!(
         out,
-        "\nloop closed         {} comparisons, each device on a machine of its own",
-        closed.comparisons
+        "\nloop closed         {} comparisons and {} steps, each device on a machine of its own",
+        closed.comparisons, closed.steps_taken
     )?;
     writeln!(
         out,

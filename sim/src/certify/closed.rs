@@ -42,6 +42,8 @@ use super::seen::{SEEN, Seen, seen};
 pub struct BothClosed {
     /// Comparisons compared.
     pub comparisons: usize,
+    /// Steps that the synchronous device took, either way.
+    pub steps_taken: usize,
     /// Largest difference between the tables at the end of a comparison, steps.
     pub largest_steps: u64,
     /// The same, µm.
@@ -81,6 +83,7 @@ pub(super) fn run_closed(
     let bound_steps = 2 * ticks_a_comparison + 2;
     let summary = summary(&comparisons, clock_hz);
     Ok(BothClosed {
+        steps_taken: new.steps.len(),
         largest_um: machine.drive.step_um * steps_as_number(summary.largest_steps),
         bound_steps,
         bound_um: machine.drive.step_um * steps_as_number(bound_steps),
