@@ -6,13 +6,14 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use helixlock_lab::challenge::{Challenge as Task, Hidden, Outcome, challenge, judge};
+use helixlock_lab::challenge::{Challenge as Task, Hidden, challenge};
 use helixlock_lab::diagnosis::diagnose;
 use helixlock_lab::measurement::{Measurement, Nominal};
 use helixlock_lab::problem::Problem;
 use helixlock_traces::csv::write_csv;
 use serde_json::{Value, json};
 
+use crate::challenge_score::Score;
 use crate::output::Batch;
 use crate::progress;
 
@@ -83,16 +84,6 @@ fn answer(task: &Task, seed: u64) -> Value {
     })
 }
 
-/// Counts over many challenges.
-#[derive(Debug, Default)]
-struct Score {
-    outcomes: BTreeMap<(&'static str, &'static str), u64>,
-    before: f64,
-    after: f64,
-    number: f64,
-    wrong: Vec<u64>,
-}
-
 fn score(seed: u64, number: u64) -> anyhow::Result<Score> {
     let bar = progress::bar(number, "challenges");
     let mut score = Score::default();
@@ -101,65 +92,9 @@ fn score(seed: u64, number: u64) -> anyhow::Result<Score> {
         let nominal = Nominal::from(&task.machine.machine);
         let measurement = Measurement::from_table(&task.table, &nominal)?;
         let diagnosis = diagnose(&Problem::new(&task.machine.machine, &measurement)?);
-        let last = diagnosis.rounds.last();
-        let names: Vec<String> = last
-            .map(|round| round.effects.iter().map(|effect| effect.name.clone()).collect())
-            .unwrap_or_default();
-        let outcome = judge(&task.hidden, diagnosis.verdict, &names);
-        if matches!(outcome, Outcome::FalselyNamed | Outcome::Missed) {
-            score.wrong.push(seed);
-        }
-        *score.outcomes.entry((hidden_word(&task.hidden), outcome_word(outcome))).or_default() += 1;
-        score.before += diagnosis.rounds.first().map_or(0.0, |round| round.rms_um);
-        score.after += last.map_or(0.0, |round| round.holdout_rms_um);
-        score.number += 1.0;
+        score.add(seed, &task, &diagnosis);
         bar.inc(1);
     }
     bar.finish_and_clear();
     Ok(score)
-}
-
-fn hidden_word(hidden: &Hidden) -> &'static str {
-    match hidden {
-        Hidden::Nothing => "nothing hidden",
-        Hidden::Effects(effects) if effects.len() == 1 => "one effect",
-        Hidden::Effects(_) => "two effects",
-        Hidden::Outside(_) => "outside the catalogue",
-    }
-}
-
-fn outcome_word(outcome: Outcome) -> &'static str {
-    match outcome {
-        Outcome::Right => "named rightly",
-        Outcome::Abstained => "abstained",
-        Outcome::FalselyNamed => "falsely named",
-        Outcome::Missed => "missed",
-    }
-}
-
-impl Score {
-    fn print(&self, out: &mut impl Write) -> anyhow::Result<()> {
-        for ((hidden, outcome), number) in &self.outcomes {
-            writeln!(out, "{hidden:<24} {outcome:<16} {number:>5}")?;
-        }
-        let number = self.number.max(1.0);
-        writeln!(out, "mean error before        {:.4} µm rms", self.before / number)?;
-        writeln!(out, "mean error held out      {:.4} µm rms", self.after / number)?;
-        if !self.wrong.is_empty() {
-            writeln!(out, "seeds to look at: {:?}", self.wrong)?;
-        }
-        Ok(())
-    }
-
-    fn json(&self) -> Value {
-        let number = self.number.max(1.0);
-        json!({
-            "outcomes": self.outcomes.iter().map(|((hidden, outcome), number)| json!({
-                "hidden": hidden, "outcome": outcome, "number": number,
-            })).collect::<Vec<_>>(),
-            "mean_rms_before_um": self.before / number,
-            "mean_holdout_rms_um": self.after / number,
-            "seeds_to_look_at": self.wrong,
-        })
-    }
 }

@@ -4,6 +4,7 @@ mod add;
 mod captured;
 mod certify;
 mod challenge;
+mod challenge_score;
 mod closed_loop_check;
 mod compare;
 mod diagnose;

@@ -1,6 +1,5 @@
 //! A spectrum to look at: the amplitude of the best sinusoid at every order.
 
-use crate::candidates::highest_order;
 use crate::count;
 use crate::fourier;
 use crate::measurement::spread;
@@ -38,7 +37,7 @@ pub fn amplitude_spectrum(problem: &Problem, left: &[f64], sensor: usize) -> Vec
         clippy::cast_sign_loss,
         reason = "clamped to small positive numbers"
     )]
-    let points = (highest_order(&turns) / step).clamp(4.0, MOST_POINTS) as usize;
+    let points = (problem.highest_order / step).clamp(4.0, MOST_POINTS) as usize;
     let rows = count(values.len());
     let sums = fourier::sums(&turns, &values, step, points);
     let orders = (0..points).map(|index| step * count(index));

@@ -10,10 +10,12 @@ use crate::component::Component;
 use crate::count;
 use crate::fit::{Columns, Fit, noises_of, rms, settle};
 use crate::holdout::holdout_rms;
+use crate::likeness;
 use crate::noise::{Noise, Whitener};
 use crate::noise_fit::median;
 use crate::probes::{chi_squared_tail, matters};
 use crate::problem::Problem;
+use crate::pruning::{Dropped, pruned};
 use crate::setting_trial::setting_trials;
 use crate::stage::Stage;
 use crate::trial::{Trial, try_candidate};
@@ -65,6 +67,21 @@ impl State {
         Some(Self { components, columns, fit })
     }
 
+    /// The same with the noise looked for from the start as well, whichever is likelier.
+    ///
+    /// A noise that was only adjusted may be one that suited the model before; against it, the
+    /// next effect would look better than it is.
+    #[must_use]
+    pub fn settled(
+        problem: &Problem,
+        components: Vec<Component>,
+        noises: &[Noise],
+    ) -> Option<Self> {
+        let near = Self::of(problem, components.clone(), noises)?;
+        let anew = Self::of(problem, components, &noises_of(problem, &near.fit.left))?;
+        Some(if near.fit.log_likelihood < anew.fit.log_likelihood { anew } else { near })
+    }
+
     /// The model with nothing added; its noise explains all there is.
     #[must_use]
     pub fn bare(problem: &Problem) -> Self {
@@ -91,8 +108,8 @@ pub struct Step {
     pub tried: Vec<Judged>,
     /// Name of the effect added.
     pub added: Option<String>,
-    /// Names of effects that became superfluous.
-    pub dropped: Vec<String>,
+    /// Effects that became superfluous.
+    pub dropped: Vec<Dropped>,
 }
 
 /// Looks for effects until none is significant; every step begins where the last one ended.
@@ -117,8 +134,12 @@ pub fn search(problem: &mut Problem) -> Vec<Step> {
         let Some(best) = best else { break };
         components.push(best.component.clone());
         problem.mark_outliers(&best.fit.left);
-        let Some(state) = State::of(problem, components, &best.fit.noises) else { break };
+        let Some(state) = State::settled(problem, components, &best.fit.noises) else { break };
         let (state, dropped) = pruned(problem, state);
+        if dropped.iter().any(|one| one.name == best.component.term.name) {
+            // It would only be found again.
+            break;
+        }
         let added = Some(best.component.term.name.clone());
         steps.push(Step { state, tried: Vec::new(), added, dropped });
     }
@@ -146,7 +167,7 @@ fn acceptable(problem: &Problem, now: &State, judged: &Judged) -> bool {
     let unseen = holdout_rms(problem, &now.columns, &now.fit.noises);
     matters(size, judged.rms_um, judged.p_value)
         && judged.holdout_rms_um < unseen
-        && plausible(judged)
+        && plausible(problem, judged)
         && repeats(judged, now)
         && locked_to_time(problem, now, judged)
 }
@@ -181,10 +202,14 @@ fn repeats(judged: &Judged, now: &State) -> bool {
     before == 0 || (periodic && before < 3)
 }
 
-/// True when all parameters lie in their plausible ranges, to within two standard errors.
+/// True when all parameters lie in their plausible ranges, to within two standard errors, and the
+/// shape shows enough of itself.
 #[must_use]
-pub fn plausible(judged: &Judged) -> bool {
+pub fn plausible(problem: &Problem, judged: &Judged) -> bool {
     let component = &judged.component;
+    if !likeness::shows_both_flanks(problem, component) {
+        return false;
+    }
     let from = judged.fit.linear.coefficients.len() - component.width();
     let covariance =
         crate::fit::covariance_rows(&judged.fit.linear.covariance, from, component.width());
@@ -321,7 +346,10 @@ fn judge(problem: &Problem, now: &State, trial: &Trial, tried: f64) -> Option<Ju
     Some(Judged {
         component: trial.component.clone(),
         gain,
-        evidence: gain - freedom * price - 2.0 * libm::log(trial.looks),
+        evidence: gain
+            - freedom * price
+            - 2.0 * libm::log(trial.looks)
+            - likeness::price(&trial.component, &now.components),
         looks: trial.looks,
         p_value: (chi_squared_tail(gain, freedom) * trial.looks.max(1.0) * tried).min(1.0),
         rms_um: rms(&problem.layout, &fit.left),
@@ -345,33 +373,6 @@ fn plain_noises(problem: &Problem, fit: &Fit) -> Vec<Noise> {
             Noise::white().scaled(0.5 * deviation * deviation)
         })
         .collect()
-}
-
-/// Drops effects that the others have made superfluous.
-fn pruned(problem: &Problem, state: State) -> (State, Vec<String>) {
-    let mut state = state;
-    let mut dropped = Vec::new();
-    while 1 < state.components.len() {
-        let price = libm::log(count(problem.rows.len()).max(3.0));
-        let weakest = (0..state.components.len() - 1)
-            .filter_map(|index| {
-                let mut fewer = state.components.clone();
-                let gone = fewer.remove(index);
-                let smaller = State::of(problem, fewer, &state.fit.noises)?;
-                let loss = 2.0 * (state.fit.log_likelihood - smaller.fit.log_likelihood)
-                    - count(gone.width()) * price;
-                Some((loss, smaller, gone.term.name))
-            })
-            .min_by(|a, b| a.0.total_cmp(&b.0));
-        match weakest {
-            Some((loss, smaller, name)) if loss < 0.0 => {
-                state = smaller;
-                dropped.push(name);
-            }
-            _ => break,
-        }
-    }
-    (state, dropped)
 }
 
 /// Whitened pattern of a component at its fitted size, offsets taken out.

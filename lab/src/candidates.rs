@@ -220,7 +220,8 @@ pub fn between_samples(time_s: &[f64]) -> Vec<f64> {
 
 /// Shafts and meshes of the gear table, also those faster than the samples: their aliases are
 /// exact, because the columns are worked out at the very samples.
-fn gear_orders(machine: &Machine) -> Vec<f64> {
+#[must_use]
+pub fn gear_orders(machine: &Machine) -> Vec<f64> {
     let shafts = machine.gears.iter().map(|gear| gear.order);
     let meshes = machine.gears.iter().filter_map(helixlock_plant::machine::Gear::mesh_order);
     shafts.chain(meshes).collect()
@@ -254,7 +255,7 @@ fn time_scan<'a>(stage: &'a Stage<'_>, times: &'a [f64], low: f64, high: f64) ->
         turns: times,
         whitener: &stage.whitener,
         lowest: low.max(1.5 / spread(times).max(f64::MIN_POSITIVE)),
-        highest: high.min(highest_order(times)),
+        highest: high.min(stage.problem.highest_hz),
     }
 }
 
@@ -267,23 +268,8 @@ pub fn turn_scan<'a>(stage: &'a Stage<'_>, turns: &'a [f64]) -> Scan<'a> {
         turns,
         whitener: &stage.whitener,
         lowest: 1.5 / spread(turns).max(f64::MIN_POSITIVE),
-        highest: highest_order(turns),
+        highest: stage.problem.highest_order,
     }
-}
-
-/// Highest order that the samples resolve: half the usual rate of sampling, more when the
-/// samples are uneven, because then no two frequencies look alike.
-#[must_use]
-pub fn highest_order(coordinate: &[f64]) -> f64 {
-    let mut moves: Vec<f64> = coordinate
-        .windows(2)
-        .map(|pair| (pair[1] - pair[0]).abs())
-        .filter(|step| 0.0 < *step)
-        .collect();
-    moves.sort_by(f64::total_cmp);
-    let usual = moves.get(moves.len() / 2).copied().unwrap_or(1.0);
-    let short = moves.get(moves.len() / 10).copied().unwrap_or(1.0);
-    0.5 / short.max(0.2 * usual).max(f64::MIN_POSITIVE)
 }
 
 fn step(parameter: &Parameter, axis: &[f64]) -> f64 {

@@ -7,6 +7,7 @@ use crate::fit::{covariance_rows, rms};
 use crate::holdout::holdout_rms;
 use crate::probes::{Structure, structures};
 use crate::problem::Problem;
+use crate::pruning::pruned;
 use crate::rivals::{Found, rivals};
 
 /// What can be said about a model and a measurement.
@@ -132,12 +133,16 @@ const MOST_ROWS: usize = 3000;
 #[must_use]
 pub fn diagnose(problem: &Problem) -> Diagnosis {
     let mut small = problem.thinned(MOST_ROWS).unwrap_or_else(|| problem.clone());
-    let steps = search(&mut small);
+    let mut steps = search(&mut small);
+    let (problem, mut states) = on_all_rows(problem, &small, &steps);
+    if let Some((step, state)) = pruned_again(&problem, &small, &states[states.len() - 1]) {
+        steps.push(step);
+        states.push(state);
+    }
     let last = &steps[steps.len() - 1].state;
     let found = rivals(&small, last, &steps[0].tried);
     let residual = structures(&small, &last.columns, &last.fit);
     let experiments = experiment::advice(&small, last, &found);
-    let (problem, states) = on_all_rows(problem, &small, &steps);
     let state = states[states.len() - 1].clone();
     Diagnosis {
         verdict: verdict(&state, &found, &residual),
@@ -167,6 +172,16 @@ fn on_all_rows(problem: &Problem, small: &Problem, steps: &[Step]) -> (Problem, 
     (whole, states)
 }
 
+/// One more step without the effects that all rows show to be superfluous, if there are any.
+fn pruned_again(problem: &Problem, small: &Problem, last: &State) -> Option<(Step, State)> {
+    let (state, dropped) = pruned(problem, last.clone());
+    if dropped.is_empty() {
+        return None;
+    }
+    let thin = State::settled(small, state.components.clone(), &State::bare(small).fit.noises)?;
+    Some((Step { state: thin, tried: Vec::new(), added: None, dropped }, state))
+}
+
 fn verdict(state: &State, found: &[Found], residual: &[Structure]) -> Verdict {
     if !residual.is_empty() {
         return Verdict::Unexplained;
@@ -192,20 +207,22 @@ fn rounds(problem: &Problem, steps: &[Step], states: &[State]) -> Vec<Round> {
         rounds.push(Round {
             round: number,
             added: step.added.clone(),
-            dropped: step.dropped.clone(),
+            dropped: step.dropped.iter().map(|one| one.name.clone()).collect(),
             rms_um: rms(&problem.layout, &state.fit.left),
             holdout_rms_um: holdout_rms(problem, &state.columns, &state.fit.noises),
             p_value: own.map(|judged| judged.p_value),
             effects: effects(problem, state),
-            rejected: rejected(&step.tried, chosen.as_deref()),
+            rejected: rejected(step, chosen.as_deref()),
         });
     }
     rounds
 }
 
-fn rejected(tried: &[Judged], chosen: Option<&str>) -> Vec<(String, String)> {
+fn rejected(step: &Step, chosen: Option<&str>) -> Vec<(String, String)> {
+    let tried = &step.tried;
+    let dropped = step.dropped.iter().map(|one| (one.name.clone(), one.reason.clone()));
     let best = tried.iter().find(|judged| Some(judged.component.term.name.as_str()) == chosen);
-    tried
+    let refused = tried
         .iter()
         .filter(|judged| Some(judged.component.term.name.as_str()) != chosen)
         .map(|judged| {
@@ -222,8 +239,8 @@ fn rejected(tried: &[Judged], chosen: Option<&str>) -> Vec<(String, String)> {
                 None => format!("not beyond chance: p = {:.2e}", judged.p_value),
             };
             (judged.component.term.name.clone(), reason)
-        })
-        .collect()
+        });
+    dropped.chain(refused).collect()
 }
 
 /// Every component of a state with its parameters.

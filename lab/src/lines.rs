@@ -2,7 +2,6 @@
 
 use helixlock_plant::Machine;
 
-use crate::candidates::highest_order;
 use crate::fit::{Columns, Fit, settle};
 use crate::measurement::spread;
 use crate::noise::Whitener;
@@ -39,6 +38,8 @@ pub struct LineSearch<'a> {
     pub sensor: usize,
     /// Coordinate of every sample.
     pub coordinate: &'a [f64],
+    /// Highest frequency that the coordinate resolves.
+    pub highest: f64,
 }
 
 #[allow(
@@ -67,7 +68,7 @@ impl LineSearch<'_> {
             turns: &turns,
             whitener: &whitener,
             lowest: 1.5 / spread(&turns).max(f64::MIN_POSITIVE),
-            highest: highest_order(&turns),
+            highest: self.highest,
         };
         use_scan(&scan, &white)
     }
@@ -92,7 +93,13 @@ pub fn lines(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<NamedLine> {
         let mut now = fit.clone();
         let mut found: Vec<NamedLine> = Vec::new();
         while found.len() < MOST {
-            let search = LineSearch { problem, fit: &now, sensor, coordinate: &turns };
+            let search = LineSearch {
+                problem,
+                fit: &now,
+                sensor,
+                coordinate: &turns,
+                highest: problem.highest_order,
+            };
             let Some(line) = search.strongest() else { break };
             if SIGNIFICANCE < line.p_value {
                 break;

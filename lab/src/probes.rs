@@ -5,6 +5,7 @@
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
+use crate::calibration;
 use crate::count;
 use crate::fit::{Columns, Fit, rms, settle};
 use crate::lines::LineSearch;
@@ -69,6 +70,7 @@ pub fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Stru
     let mut all = smooth(problem, model, fit);
     all.extend(cyclic_shapes(problem, model, fit));
     all.extend(repeats(problem, fit));
+    all.extend(jumping(problem, fit));
     all.extend(lines(problem, fit));
     all.extend(step(problem, model, fit));
     all.extend(covariates(problem, model, fit));
@@ -77,15 +79,22 @@ pub fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Stru
 }
 
 /// Structure explained by free columns: its size and chance.
-fn probe(problem: &Problem, model: &Columns, fit: &Fit, raw: Vec<Vec<f64>>) -> (f64, f64) {
+fn probe(problem: &Problem, model: &Columns, fit: &Fit, raw: &[Vec<f64>]) -> (f64, f64) {
     let width = count(raw.len());
-    let wider = settle(problem, &model.and(&Columns::free(raw)), &fit.noises);
+    let wider = settle(problem, &model.and(&Columns::free(raw.to_vec())), &fit.noises);
     let gain = 2.0 * (wider.log_likelihood - fit.log_likelihood);
     let before = rms(&problem.layout, &fit.left);
     let after = rms(&problem.layout, &wider.left);
     let size = (before * before - after * after).max(0.0).sqrt();
-    (size, tail(gain, width))
+    let mut p_value = tail(gain, width);
+    if MANY <= raw.len() && matters(size, before, p_value) {
+        p_value = (PROBES * calibration::chance(problem, model, fit, raw, gain)).min(1.0);
+    }
+    (size, p_value)
 }
+
+/// Columns from which on χ² is too optimistic and the chance is found by trying noise.
+const MANY: usize = 6;
 
 /// Chance of a likelihood ratio with so many free numbers, all probes counted.
 fn tail(gain: f64, width: f64) -> f64 {
@@ -120,7 +129,7 @@ fn smooth(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
             continue;
         }
         let raw = stacked(problem, &chebyshev(values, order));
-        let (rms_um, mut p_value) = probe(problem, model, fit, raw);
+        let (rms_um, mut p_value) = probe(problem, model, fit, &raw);
         // So many columns also follow slow noise; only what stands far above the rest is shape.
         if 30 < order && rms_um * rms_um < FAR_ABOVE * (noise * noise - rms_um * rms_um) {
             p_value = 1.0;
@@ -157,6 +166,20 @@ fn repeats(problem: &Problem, fit: &Fit) -> Option<Structure> {
     })
 }
 
+/// Several jumps, wherever they are.
+fn jumping(problem: &Problem, fit: &Fit) -> Option<Structure> {
+    let (rms_um, chance) = crate::jumps::jumps(problem, fit)?;
+    Some(Structure {
+        along: "time".to_owned(),
+        shape: "several jumps".to_owned(),
+        rms_um,
+        p_value: (PROBES * chance).min(1.0),
+        at: None,
+        at_stderr: None,
+        line: None,
+    })
+}
+
 /// A shape that comes back with every turn of the spindle or of the machine's screw.
 fn cyclic_shapes(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
     let turns: Vec<f64> = problem.record.turns().collect();
@@ -169,7 +192,7 @@ fn cyclic_shapes(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure
         .filter(|(_, order)| enough(order))
         .map(|(along, order)| {
             let (rms_um, p_value) =
-                probe(problem, model, fit, stacked(problem, &turning(&turns, order)));
+                probe(problem, model, fit, &stacked(problem, &turning(&turns, order)));
             Structure {
                 along: along.to_owned(),
                 shape: "shape that repeats each turn".to_owned(),
@@ -228,8 +251,8 @@ fn chebyshev(values: &[f64], order: usize) -> Vec<Vec<f64>> {
 fn lines(problem: &Problem, fit: &Fit) -> Vec<Structure> {
     let mut found = Vec::new();
     for (sensor, _) in problem.sensors.iter().enumerate() {
-        for (along, coordinate) in cyclic(problem) {
-            let search = LineSearch { problem, fit, sensor, coordinate: &coordinate };
+        for (along, coordinate, highest) in cyclic(problem) {
+            let search = LineSearch { problem, fit, sensor, coordinate: &coordinate, highest };
             let Some(line) = search.strongest() else { continue };
             let shape = format!("sinusoid of amplitude {:.3}", line.amplitude);
             found.push(Structure {
@@ -246,10 +269,11 @@ fn lines(problem: &Problem, fit: &Fit) -> Vec<Structure> {
     found
 }
 
-fn cyclic(problem: &Problem) -> Vec<(&'static str, Vec<f64>)> {
-    let mut axes = vec![("spindle order", problem.record.turns().collect())];
+/// Name, values and highest frequency of every coordinate that lines are looked for in.
+fn cyclic(problem: &Problem) -> Vec<(&'static str, Vec<f64>, f64)> {
+    let mut axes = vec![("spindle order", problem.record.turns().collect(), problem.highest_order)];
     if 1 < problem.record.passes().len() && problem.measurement.timed {
-        axes.push(("frequency in time", problem.record.time_s.clone()));
+        axes.push(("frequency in time", problem.record.time_s.clone(), problem.highest_hz));
     }
     axes
 }
@@ -270,7 +294,7 @@ fn step(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
             .max_by(|a, b| a.1.total_cmp(&b.1));
         let Some((place, _)) = best else { continue };
         let raw = stacked(problem, &[above(values, place)]);
-        let (rms_um, p_value) = probe(problem, model, fit, raw);
+        let (rms_um, p_value) = probe(problem, model, fit, &raw);
         found.push(Structure {
             along: along.to_owned(),
             shape: "step".to_owned(),
@@ -313,7 +337,7 @@ fn covariates(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
         .filter(|(_, values)| 0.0 < spread(values))
         .map(|(name, values)| {
             let (rms_um, p_value) =
-                probe(problem, model, fit, stacked(problem, std::slice::from_ref(values)));
+                probe(problem, model, fit, &stacked(problem, std::slice::from_ref(values)));
             Structure {
                 along: name.to_owned(),
                 shape: "straight relation".to_owned(),

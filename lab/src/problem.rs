@@ -5,6 +5,7 @@ use helixlock_plant::{EffectError, Entry, Machine, Record, Samples, Term};
 
 use crate::layout::{Block, Layout};
 use crate::measurement::Measurement;
+use crate::sampling::highest_frequency;
 use crate::{count, noise_fit};
 
 /// One value of one sensor.
@@ -37,6 +38,10 @@ pub struct Problem {
     pub predicted: Vec<f64>,
     /// Effects of the user's own to be tried beside the catalogue.
     pub extra: Vec<Term>,
+    /// Highest order of the spindle that the samples resolve.
+    pub highest_order: f64,
+    /// Highest frequency in time that the samples resolve, Hz.
+    pub highest_hz: f64,
 }
 
 impl Problem {
@@ -58,7 +63,12 @@ impl Problem {
             observed: Vec::new(),
             predicted: Vec::new(),
             extra: Vec::new(),
+            highest_order: 0.0,
+            highest_hz: 0.0,
         };
+        let turns: Vec<f64> = problem.record.turns().collect();
+        problem.highest_order = highest_frequency(&turns);
+        problem.highest_hz = highest_frequency(&problem.record.time_s);
         problem.stack_rows();
         problem.predict()?;
         let residual = problem.residual();

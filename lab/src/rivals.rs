@@ -3,6 +3,7 @@
 use crate::analysis::{Judged, State, pattern, plausible, tried};
 use crate::component::Component;
 use crate::least_squares::dot;
+use crate::likeness::{by_physics, far_fetched};
 use crate::noise::Whitener;
 use crate::problem::Problem;
 
@@ -41,7 +42,12 @@ pub fn rivals(problem: &Problem, state: &State, first: &[Judged]) -> Vec<Found> 
             } else {
                 instead_of(problem, state, index)
             };
-            let confused = confused(problem, state, index, &tried);
+            let mut confused = confused(problem, state, index, &tried);
+            for name in by_physics(problem, state, index) {
+                if !confused.contains(&name) {
+                    confused.push(name);
+                }
+            }
             Found { index, tried, confused }
         })
         .collect()
@@ -57,7 +63,8 @@ fn instead_of(problem: &Problem, state: &State, index: usize) -> Vec<Judged> {
 }
 
 fn confused(problem: &Problem, state: &State, index: usize, tried: &[Judged]) -> Vec<String> {
-    let name = &state.components[index].term.name;
+    let component = &state.components[index];
+    let name = &component.term.name;
     let own = tried.iter().find(|judged| judged.component.term.name == *name);
     let Some(own) = own else { return Vec::new() };
     let whitener = Whitener::new(&problem.layout, &own.fit.noises);
@@ -65,7 +72,8 @@ fn confused(problem: &Problem, state: &State, index: usize, tried: &[Judged]) ->
     tried
         .iter()
         .filter(|judged| judged.component.term.name != *name && 0.0 < judged.gain)
-        .filter(|judged| plausible(judged))
+        .filter(|judged| plausible(problem, judged))
+        .filter(|judged| !far_fetched(&judged.component, component, &state.components))
         .filter(|judged| {
             let behind = own.evidence - judged.evidence;
             behind < MARGIN

@@ -12,6 +12,9 @@ use crate::trial::{Trial, gain_at};
 /// Slopes that physics leaves lie within this, µm/m; it sets what an exact match is worth.
 const PHYSICAL_UM_PER_M: f64 = 400.0;
 
+/// Relative error of a slope that the air and the wavelength leave in any case.
+const EXACT: f64 = 1e-4;
+
 /// The setting that fits a slope best, if one does to within four standard errors.
 ///
 /// An exact ratio that happens to fit is worth more than a free slope: the fewer of them lie
@@ -30,7 +33,9 @@ pub fn setting_trials(stage: &Stage<'_>) -> Option<Trial> {
     let tried = count(all.len());
     let near = |setting: &Setting| {
         let slope = slope_um_per_m(stage, setting)?;
-        ((slope - value).abs() < 4.0 * stderr + 1e-4 * slope.abs()).then(|| setting.term.clone())
+        // A slope can pass for slow noise, and then its standard error is no measure.
+        let tolerance = (4.0 * stderr).min(PHYSICAL_UM_PER_M) + EXACT * slope.abs();
+        ((slope - value).abs() < tolerance).then(|| setting.term.clone())
     };
     all.iter()
         .filter_map(near)

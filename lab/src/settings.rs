@@ -36,22 +36,17 @@ pub fn alternatives(machine: &Machine) -> Vec<Setting> {
         slips(u32::from(machine.dividers.a)).into_iter().map(|n| ("dividers.a", "a", f64::from(n)));
     let b =
         slips(u32::from(machine.dividers.b)).into_iter().map(|n| ("dividers.b", "b", f64::from(n)));
-    // The recorder's scale may be that of the true divider as well: the slope is then B′/B − 1,
-    // which the effect gives for this b.
-    let scaled = slips(u32::from(machine.dividers.b)).into_iter().filter_map(|n| {
-        let (b, other) = (f64::from(machine.dividers.b), f64::from(n));
-        (other < 2.0 * b).then(|| ("dividers.b", "b", b * b / (2.0 * b - other)))
-    });
     let leads = LEAD_RATIOS.iter().map(|ratio| ("workpiece.lead", "lead", lead_mm * ratio));
-    lines
-        .chain(a)
-        .chain(b)
-        .chain(scaled)
-        .chain(leads)
-        .filter_map(|(key, parameter, value)| {
+    let all: Vec<_> = lines.chain(a).chain(b).chain(leads).collect();
+    [0.0, 1.0, 2.0]
+        .into_iter()
+        .flat_map(|reading| all.iter().map(move |what| (*what, reading)))
+        .filter_map(|((key, parameter, value), reading)| {
             let mut term = Term::candidate(card);
-            let index = term.parameters.iter().position(|what| what.name == parameter)?;
+            let place = |name| term.parameters.iter().position(|what| what.name == name);
+            let (index, how) = (place(parameter)?, place("reading")?);
             term.values[index] = value;
+            term.values[how] = reading;
             Some(Setting { key, value, term })
         })
         .collect()
@@ -81,13 +76,20 @@ fn misread(number: u32, digits: u32) -> Vec<u32> {
     numbers
 }
 
+/// The two tracks of the disc of document 1.
+const TRACKS: &[u32] = &[13_906, 11_060];
+
+/// Line counts that encoders are sold with, taken for each other on the shelf.
+const STOCK: &[u32] = &[
+    100, 128, 200, 250, 256, 300, 360, 400, 500, 512, 600, 720, 800, 900, 1000, 1024, 1200, 1250,
+    1440, 1500, 1800, 2000, 2048, 2500, 3000, 3600, 4000, 4096, 5000, 8192, 9000, 10_000,
+];
+
 /// Counts that are mistaken for each other, digits misread, and the neighbours.
 fn line_counts(lines: u32) -> Vec<u32> {
-    const ALIKE: [[u32; 2]; 3] = [[2500, 2048], [5000, 4096], [13_906, 11_060]];
     let mut counts = vec![lines.saturating_sub(1), lines + 1, 2 * lines, 4 * lines];
-    for [a, b] in ALIKE {
-        counts.extend((lines == a).then_some(b));
-        counts.extend((lines == b).then_some(a));
+    for family in [TRACKS, STOCK] {
+        counts.extend(family.iter().filter(|_| family.contains(&lines)));
     }
     counts.extend([2, 4].into_iter().filter(|n| lines.is_multiple_of(*n)).map(|n| lines / n));
     // Decimal for binary at any size: 1000 for 1024, 500 for 512, interpolated or not.

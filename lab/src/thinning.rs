@@ -1,77 +1,98 @@
 //! How far a problem may be thinned without losing what it shows.
 
-use crate::candidates::highest_order;
+use crate::candidates::gear_orders;
 use crate::count;
 use crate::measurement::spread;
-use crate::noise::{Noise, Whitener};
-use crate::order_spectrum::Scan;
+use crate::noise::{Noise, SlowPart, Whitener};
+use crate::noise_fit::median;
+use crate::order_spectrum::{Scan, chance};
 use crate::problem::Problem;
+use crate::sampling::usual_rate;
 
-/// Mean samples a period of the fastest line that must be kept.
+/// Samples a period of the fastest line that means must leave.
 const SAMPLES_A_PERIOD: f64 = 6.0;
 
-/// Chance below which a fast line forbids thinning.
+/// Chance below which a fast line forbids means.
 const SIGNIFICANCE: f64 = 1e-6;
 
+/// Rows kept, against those wanted, when samples must be picked instead of averaged.
+const PICKED: usize = 2;
+
+/// Samples over which whatever is slower than a fast line is forgotten.
+const FAST_SAMPLES: f64 = 5.0;
+
 impl Problem {
-    /// The problem on means of neighbouring samples, at most about `most` rows; `None` when it is
-    /// small enough or when lines are too fast for that.
+    /// The problem on about `most` rows; `None` when it is small enough.
+    ///
+    /// Means of neighbours, where the fastest line there is allows it; else single samples, one
+    /// of each group at a place by a fixed seed, so that what neighbours do not resolve stays
+    /// apart from its aliases.
     #[must_use]
     pub fn thinned(&self, most: usize) -> Option<Self> {
-        let mut together = self.rows.len().div_ceil(most.max(1));
-        if let Some(order) = self.fastest_line().filter(|_| 1 < together) {
-            let samples_a_period =
-                2.0 * highest_order(&self.record.turns().collect::<Vec<_>>()) / order;
-            while 1 < together && samples_a_period < SAMPLES_A_PERIOD * count(together) {
-                together -= 1;
-            }
-        }
+        let together = self.rows.len().div_ceil(most.max(1));
         if together < 2 {
             return None;
         }
-        let measurement = self.measurement.averaged(together);
+        let turns: Vec<f64> = self.record.turns().collect();
+        let fastest = self.fastest_line().map_or(0.0, |order| order * SAMPLES_A_PERIOD);
+        let allowed = usual_rate(&turns) / fastest.max(f64::MIN_POSITIVE);
+        let measurement = if count(together) <= allowed {
+            self.measurement.averaged(together)
+        } else {
+            let every = self.rows.len().div_ceil(PICKED * most);
+            if every < 2 {
+                return None;
+            }
+            self.measurement.picked(every)
+        };
         let mut small = Self::new(&self.machine, &measurement).ok()?;
         small.extra.clone_from(&self.extra);
         Some(small)
     }
 
-    /// Order of the fastest clear line of any sensor, as white noise shows it.
+    /// Order of the fastest clear line of any sensor.
     fn fastest_line(&self) -> Option<f64> {
         let residual = self.residual();
         (0..self.sensors.len())
-            .filter_map(|sensor| {
-                let (layout, rows) = self.of_sensor(sensor);
-                let left: Vec<f64> = rows.iter().map(|&row| residual[row]).collect();
-                let turns: Vec<f64> = rows
-                    .iter()
-                    .map(|&row| {
-                        self.record.spindle_rad[self.rows[row].sample] / std::f64::consts::TAU
-                    })
-                    .collect();
-                let highest = highest_order(&turns);
-                // Differences of neighbours leave only what is fast.
-                let fast: Vec<f64> = left
-                    .windows(2)
-                    .map(|pair| pair[1] - pair[0])
-                    .chain(std::iter::once(0.0))
-                    .collect();
-                let variance = fast.iter().map(|v| v * v).sum::<f64>() / count(fast.len().max(1));
-                let noises = [Noise::white().scaled(variance.max(f64::MIN_POSITIVE))];
-                let whitener = Whitener::new(&layout, &noises);
-                let white = whitener.whiten(&fast);
-                let scan = Scan {
-                    layout: &layout,
-                    noises: &noises,
-                    turns: &turns,
-                    whitener: &whitener,
-                    lowest: 1.5 / spread(&turns).max(f64::MIN_POSITIVE),
-                    highest,
-                };
-                scan.lines(&white, SIGNIFICANCE, 3)
-                    .iter()
-                    .map(|line| line.frequency)
-                    .max_by(f64::total_cmp)
-            })
+            .filter_map(|sensor| self.fastest_line_of(sensor, &residual))
             .max_by(f64::total_cmp)
     }
+
+    fn fastest_line_of(&self, sensor: usize, residual: &[f64]) -> Option<f64> {
+        let (layout, rows) = self.of_sensor(sensor);
+        let left: Vec<f64> = rows.iter().map(|&row| residual[row]).collect();
+        let all: Vec<f64> = self.record.turns().collect();
+        let turns: Vec<f64> = rows.iter().map(|&row| all[self.rows[row].sample]).collect();
+        let noises = [fast_noise(&left)];
+        let whitener = Whitener::new(&layout, &noises);
+        let white = whitener.whiten(&left);
+        let scan = Scan {
+            layout: &layout,
+            noises: &noises,
+            turns: &turns,
+            whitener: &whitener,
+            lowest: 1.5 / spread(&turns).max(f64::MIN_POSITIVE),
+            highest: self.highest_order,
+        };
+        let orders = gear_orders(&self.machine);
+        let looks = count(orders.len());
+        let clear = |order: &f64| {
+            let line = scan.line(&white, *order);
+            chance(line.gain, count(white.len()), looks) < SIGNIFICANCE
+        };
+        let found = scan.lines(&white, SIGNIFICANCE, 3);
+        let named = orders.into_iter().filter(clear);
+        found.iter().map(|line| line.frequency).chain(named).max_by(f64::total_cmp)
+    }
+}
+
+/// Noise that counts everything slower than a few samples as noise, so that only fast lines show.
+fn fast_noise(left: &[f64]) -> Noise {
+    let mut steps: Vec<f64> = left.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    let deviation = (1.4826 * median(&mut steps)).max(f64::MIN_POSITIVE.sqrt());
+    let white = 0.5 * deviation * deviation;
+    let mean = left.iter().sum::<f64>() / count(left.len().max(1));
+    let power = left.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>();
+    let variance = power / count(left.len().max(1));
+    Noise { white, slow: vec![SlowPart { variance, length: FAST_SAMPLES }] }
 }

@@ -132,7 +132,30 @@ fn direction(table: &Table, coordinates: &Coordinates, members: &[usize]) -> Vec
         }
         signs.push(before);
     }
+    if given.is_none() {
+        let angle = |index: usize| coordinates.angle_rev[members[index]];
+        turn_at_extremes(&mut signs, angle, |index| coordinates.time_s[members[index]]);
+    }
     signs
+}
+
+/// Moves every change of sign to where the travel is farthest; a wide window told it only roughly.
+///
+/// The farthest sample lies on one side of the turning point: the turn is in the interval that
+/// was passed more slowly.
+fn turn_at_extremes(signs: &mut [f64], angle: impl Fn(usize) -> f64, time: impl Fn(usize) -> f64) {
+    let changes: Vec<usize> = (1..signs.len()).filter(|&i| signs[i - 1] * signs[i] < 0.0).collect();
+    let speed = |i: usize| ((angle(i + 1) - angle(i)) / (time(i + 1) - time(i))).abs();
+    for change in changes {
+        let way = signs[change - 1];
+        let window = change.saturating_sub(3)..(change + 3).min(signs.len());
+        let far = |&a: &usize, &b: &usize| (way * angle(a)).total_cmp(&(way * angle(b)));
+        let Some(last) = window.clone().max_by(far) else { continue };
+        let turned = 0 < last && last + 1 < signs.len() && speed(last - 1) < speed(last);
+        for index in window {
+            signs[index] = if index < last || (index == last && !turned) { way } else { -way };
+        }
+    }
 }
 
 fn speed(table: &Table, coordinates: &Coordinates, members: &[usize]) -> Vec<f64> {

@@ -2,6 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
 use super::Measurement;
 
 impl Measurement {
@@ -31,6 +34,26 @@ impl Measurement {
             pass: groups.iter().map(|rows| self.pass[rows.start]).collect(),
             observations,
             covariates: self.covariates.iter().map(|(n, v)| (n.clone(), mean(v))).collect(),
+            ..self.clone()
+        }
+    }
+
+    /// One sample of each group of `every` neighbours, drawn by a fixed seed.
+    #[must_use]
+    pub fn picked(&self, every: usize) -> Self {
+        let mut chance = ChaCha8Rng::seed_from_u64(0);
+        let rows: Vec<usize> =
+            self.groups(every.max(1)).into_iter().map(|group| chance.random_range(group)).collect();
+        let pick = |values: &[f64]| rows.iter().map(|&row| values[row]).collect::<Vec<f64>>();
+        Self {
+            time_s: pick(&self.time_s),
+            position_mm: pick(&self.position_mm),
+            angle_rev: pick(&self.angle_rev),
+            speed_rpm: pick(&self.speed_rpm),
+            direction: pick(&self.direction),
+            pass: rows.iter().map(|&row| self.pass[row]).collect(),
+            observations: self.observations.iter().map(|(s, v)| (*s, pick(v))).collect(),
+            covariates: self.covariates.iter().map(|(n, v)| (n.clone(), pick(v))).collect(),
             ..self.clone()
         }
     }

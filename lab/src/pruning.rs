@@ -1,0 +1,96 @@
+//! Effects that have become superfluous: what joins the model last may take another's place.
+
+use crate::analysis::State;
+use crate::component::Component;
+use crate::count;
+use crate::fit::{covariance_rows, rms};
+use crate::holdout::holdout_rms;
+use crate::probes::{chi_squared_tail, matters};
+use crate::problem::Problem;
+use crate::uncertainty::joint_covariance;
+
+/// An effect taken out of a model again.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dropped {
+    /// Its name.
+    pub name: String,
+    /// Why.
+    pub reason: String,
+}
+
+/// A model without the effects that the data do not need, and what was dropped, in order.
+///
+/// Each is judged with all others kept and everything fitted anew: it must be beyond chance, large
+/// against the noise, helpful on unseen data, and two standard errors from zero.
+#[must_use]
+pub fn pruned(problem: &Problem, state: State) -> (State, Vec<Dropped>) {
+    let mut state = state;
+    let mut dropped = Vec::new();
+    while let Some((smaller, one)) = weakest(problem, &state) {
+        state = smaller;
+        dropped.push(one);
+    }
+    (state, dropped)
+}
+
+/// The model without its weakest effect, if that one is superfluous.
+fn weakest(problem: &Problem, state: &State) -> Option<(State, Dropped)> {
+    (0..state.components.len())
+        .filter_map(|index| {
+            let smaller = without(problem, state, index)?;
+            let reason = superfluous(problem, state, &smaller, index)?;
+            let name = state.components[index].term.name.clone();
+            Some((smaller, Dropped { name, reason }))
+        })
+        .max_by(|a, b| a.0.fit.log_likelihood.total_cmp(&b.0.fit.log_likelihood))
+}
+
+fn without(problem: &Problem, state: &State, index: usize) -> Option<State> {
+    let mut fewer: Vec<Component> = state.components.clone();
+    fewer.remove(index);
+    State::settled(problem, fewer, &state.fit.noises)
+}
+
+/// Why an effect is not needed; `None` when it is.
+fn superfluous(problem: &Problem, state: &State, fewer: &State, index: usize) -> Option<String> {
+    let width = count(state.components[index].width().max(1));
+    let gain = 2.0 * (state.fit.log_likelihood - fewer.fit.log_likelihood);
+    let (after, before) =
+        (rms(&problem.layout, &state.fit.left), rms(&problem.layout, &fewer.fit.left));
+    let size = (before * before - after * after).max(0.0).sqrt();
+    let unit = problem.measurement.unit();
+    let chance = chi_squared_tail(gain, width);
+    if gain < width * libm::log(count(problem.rows.len()).max(3.0)) {
+        return Some(format!("superfluous beside the others: evidence {gain:.1} only"));
+    }
+    if !matters(size, after, chance) {
+        return Some(format!(
+            "superfluous: {size:.4} {unit} of {after:.4} {unit} noise, p {chance:.1e}"
+        ));
+    }
+    let unseen = |of: &State| holdout_rms(problem, &of.columns, &of.fit.noises);
+    if unseen(fewer) <= unseen(state) {
+        return Some("superfluous: no better on held-out data without the noise".to_owned());
+    }
+    useless(problem, state, index)
+        .then(|| "useless: no coefficient is two standard errors from zero".to_owned())
+}
+
+/// True when every coefficient of an effect may be zero by its own standard error.
+fn useless(problem: &Problem, state: &State, index: usize) -> bool {
+    let component = &state.components[index];
+    let (used, from) = state.coefficients(index);
+    if used.is_empty() {
+        return false;
+    }
+    let covariance = joint_covariance(problem, state).linear;
+    let covariance = covariance_rows(&covariance, from, component.width());
+    let sizes = component.estimates(used, &covariance);
+    let phase = |parameter: usize| {
+        component.term.parameters[parameter].role == helixlock_plant::Role::Phase
+    };
+    sizes
+        .iter()
+        .filter(|estimate| !phase(estimate.parameter))
+        .all(|estimate| estimate.value.abs() < 2.0 * estimate.stderr)
+}
