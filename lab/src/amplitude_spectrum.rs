@@ -4,6 +4,7 @@ use crate::count;
 use crate::fourier;
 use crate::measurement::spread;
 use crate::problem::Problem;
+use crate::sampling::usual_rate;
 
 /// Points a frequency cell: at worst the top of a line is drawn a fortieth too low.
 const POINTS_A_CELL: f64 = 4.0;
@@ -37,7 +38,7 @@ pub fn amplitude_spectrum(problem: &Problem, left: &[f64], sensor: usize) -> Vec
         clippy::cast_sign_loss,
         reason = "clamped to small positive numbers"
     )]
-    let points = (problem.highest_order / step).clamp(4.0, MOST_POINTS) as usize;
+    let points = (0.5 * usual_rate(&turns) / step).clamp(4.0, MOST_POINTS) as usize;
     let rows = count(values.len());
     let sums = fourier::sums(&turns, &values, step, points);
     let orders = (0..points).map(|index| step * count(index));

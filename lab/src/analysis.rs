@@ -82,6 +82,17 @@ impl State {
         Some(if near.fit.log_likelihood < anew.fit.log_likelihood { anew } else { near })
     }
 
+    /// The same effects fitted to other rows of the same measurement.
+    ///
+    /// The noise begins with what they leave there as they are: begun with what there is without
+    /// them, a slow noise may take their place.
+    #[must_use]
+    pub fn on(&self, problem: &Problem) -> Option<Self> {
+        let columns = Columns::of(problem, &self.components).ok()?;
+        let left = columns.left(&problem.residual(), &self.fit.linear.coefficients);
+        Self::of(problem, self.components.clone(), &noises_of(problem, &left))
+    }
+
     /// The model with nothing added; its noise explains all there is.
     #[must_use]
     pub fn bare(problem: &Problem) -> Self {

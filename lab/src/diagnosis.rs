@@ -162,10 +162,7 @@ fn on_all_rows(problem: &Problem, small: &Problem, steps: &[Step]) -> (Problem, 
         return (small.clone(), steps.iter().map(|step| step.state.clone()).collect());
     }
     let mut whole = problem.clone();
-    let of = |whole: &Problem, state: &State| {
-        State::of(whole, state.components.clone(), &State::bare(whole).fit.noises)
-            .unwrap_or_else(|| State::bare(whole))
-    };
+    let of = |whole: &Problem, state: &State| state.on(whole).unwrap_or_else(|| State::bare(whole));
     let last = of(&whole, &steps[steps.len() - 1].state);
     whole.mark_outliers(&last.fit.left);
     let states = steps.iter().map(|step| of(&whole, &step.state)).collect();
@@ -178,7 +175,7 @@ fn pruned_again(problem: &Problem, small: &Problem, last: &State) -> Option<(Ste
     if dropped.is_empty() {
         return None;
     }
-    let thin = State::settled(small, state.components.clone(), &State::bare(small).fit.noises)?;
+    let thin = state.on(small)?;
     Some((Step { state: thin, tried: Vec::new(), added: None, dropped }, state))
 }
 
