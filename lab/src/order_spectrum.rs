@@ -7,10 +7,11 @@
 use crate::layout::Layout;
 use crate::least_squares::{self, dot};
 use crate::noise::{Noise, Whitener};
+use crate::sampling::usual_rate;
 use crate::{count, fourier};
 
 /// Coordinate, noise and whitened residual of a search for lines.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Scan<'a> {
     /// Which rows share a zero and a sensor.
     pub layout: &'a Layout,
@@ -119,8 +120,29 @@ impl Scan<'_> {
     }
 
     /// The strongest line of a whitened residual, its frequency settled by bisection.
+    ///
+    /// What the samples resolve at their usual rate and what only their unevenness resolves are
+    /// looked at one after the other, each paying for its own looks: aliases above would drown a
+    /// line below, and their number would cost it its significance.
     #[must_use]
     pub fn strongest(&self, white: &[f64]) -> Option<Line> {
+        let usual = (0.5 * usual_rate(self.turns)).max(self.lowest);
+        if self.highest <= usual {
+            return self.strongest_in_band(white);
+        }
+        let bands =
+            [Self { highest: usual, ..self.clone() }, Self { lowest: usual, ..self.clone() }];
+        let evidence = |band: &Self, line: &Line| line.gain - 2.0 * libm::log(band.looks());
+        let found = bands.iter().filter_map(|band| {
+            let line = band.strongest_in_band(white)?;
+            Some((evidence(band, &line), line))
+        });
+        let (_, mut line) = found.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        line.p_value = -libm::expm1(2.0 * libm::log1p(-line.p_value.min(1.0 - 1e-16)));
+        Some(line)
+    }
+
+    fn strongest_in_band(&self, white: &[f64]) -> Option<Line> {
         let spectrum = self.spectrum(white);
         let mut peaks: Vec<&Point> = spectrum.iter().collect();
         peaks.sort_by(|a, b| b.gain.total_cmp(&a.gain));

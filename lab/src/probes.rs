@@ -44,6 +44,10 @@ const SHARE_OF_NOISE: f64 = 0.25;
 /// Share of the noise and chance of a line that is small but beyond doubt.
 const CLEAR: (f64, f64) = (0.08, 1e-12);
 
+/// Share of the error before any effect below which nothing is looked for: no formula of the
+/// catalogue is better than that.
+const SHARE_OF_ERROR: f64 = 1e-3;
+
 /// True for something beyond chance and large enough to change a figure.
 #[must_use]
 pub fn matters(size_um: f64, noise_um: f64, p_value: f64) -> bool {
@@ -59,8 +63,10 @@ fn clear_line(structure: &Structure, noise_um: f64) -> bool {
 #[must_use]
 pub fn structures(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
     let noise = rms(&problem.layout, &fit.left);
+    let exact = SHARE_OF_ERROR * rms(&problem.layout, &problem.residual());
     let mut found = all_structures(problem, model, fit);
     found.retain(|s| matters(s.rms_um, noise, s.p_value) || clear_line(s, noise));
+    found.retain(|s| exact < s.rms_um);
     found
 }
 
