@@ -1,5 +1,7 @@
 //! The answer: what is missing in a model, how sure that is, and what would make it surer.
 
+use rayon::prelude::*;
+
 use crate::analysis::{Judged, State, Step, search};
 use crate::component::Component;
 use crate::experiment::{self, Advice};
@@ -165,7 +167,7 @@ fn on_all_rows(problem: &Problem, small: &Problem, steps: &[Step]) -> (Problem, 
     let of = |whole: &Problem, state: &State| state.on(whole).unwrap_or_else(|| State::bare(whole));
     let last = of(&whole, &steps[steps.len() - 1].state);
     whole.mark_outliers(&last.fit.left);
-    let states = steps.iter().map(|step| of(&whole, &step.state)).collect();
+    let states = steps.par_iter().map(|step| of(&whole, &step.state)).collect();
     (whole, states)
 }
 

@@ -1,5 +1,7 @@
 //! Error on data a fit has not seen.
 
+use rayon::prelude::*;
+
 use crate::fit::Columns;
 use crate::layout::Layout;
 use crate::least_squares;
@@ -16,13 +18,10 @@ const PARTS: usize = 5;
 #[must_use]
 pub fn holdout_rms(problem: &Problem, columns: &Columns, noises: &[Noise]) -> f64 {
     let folds = folds(problem, columns);
-    let mut square = 0.0;
-    let mut rows = 0;
-    for fold in &folds {
-        let (sum, held) = held_out_square(problem, columns, noises, fold);
-        square += sum;
-        rows += held;
-    }
+    let parts: Vec<_> =
+        folds.par_iter().map(|fold| held_out_square(problem, columns, noises, fold)).collect();
+    let square: f64 = parts.iter().map(|(square, _)| square).sum();
+    let rows: usize = parts.iter().map(|(_, rows)| rows).sum();
     (square / crate::count(rows.max(1))).sqrt()
 }
 

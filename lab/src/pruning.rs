@@ -1,5 +1,7 @@
 //! Effects that have become superfluous: what joins the model last may take another's place.
 
+use rayon::prelude::*;
+
 use crate::analysis::State;
 use crate::component::Component;
 use crate::count;
@@ -35,14 +37,16 @@ pub fn pruned(problem: &Problem, state: State) -> (State, Vec<Dropped>) {
 
 /// The model without its weakest effect, if that one is superfluous.
 fn weakest(problem: &Problem, state: &State) -> Option<(State, Dropped)> {
-    (0..state.components.len())
+    let found: Vec<(State, Dropped)> = (0..state.components.len())
+        .into_par_iter()
         .filter_map(|index| {
             let smaller = without(problem, state, index)?;
             let reason = superfluous(problem, state, &smaller, index)?;
             let name = state.components[index].term.name.clone();
             Some((smaller, Dropped { name, reason }))
         })
-        .max_by(|a, b| a.0.fit.log_likelihood.total_cmp(&b.0.fit.log_likelihood))
+        .collect();
+    found.into_iter().max_by(|a, b| a.0.fit.log_likelihood.total_cmp(&b.0.fit.log_likelihood))
 }
 
 fn without(problem: &Problem, state: &State, index: usize) -> Option<State> {
