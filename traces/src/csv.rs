@@ -7,7 +7,7 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use ::csv::{ByteRecord, ReaderBuilder};
+use ::csv::{ByteRecord, QuoteStyle, ReaderBuilder};
 
 use crate::error::{At, TraceError};
 use crate::number::write_number;
@@ -15,6 +15,9 @@ use crate::table::{Column, Table};
 
 mod place;
 mod stamp;
+
+/// What may separate cells instead of the comma.
+const SEPARATORS: [u8; 2] = [b';', b'\t'];
 
 use place::{Line, Source};
 
@@ -67,12 +70,13 @@ pub fn read_csv(bytes: &[u8], path: &Path) -> Result<Table, TraceError> {
     Ok(table)
 }
 
-/// What separates the cells of the first line that is no comment.
+/// What separates the cells of the first line that is no comment; quoted names do not count.
 fn separator(text: &[u8]) -> u8 {
     let mut lines = text.split(|byte| matches!(byte, b'\n' | b'\r'));
     let header = lines.find(|line| !line.starts_with(b"#") && !line.trim_ascii().is_empty());
-    let has = |separator: &u8| header.is_some_and(|header| header.contains(separator));
-    [b';', b'\t'].into_iter().find(has).unwrap_or(b',')
+    let between_quotes = header.unwrap_or_default().split(|byte| *byte == b'"').step_by(2);
+    let bare: Vec<u8> = between_quotes.flatten().copied().collect();
+    SEPARATORS.into_iter().find(|separator| bare.contains(separator)).unwrap_or(b',')
 }
 
 /// A name that two columns have.
@@ -114,8 +118,12 @@ impl<W: Write> RowWriter<W> {
     ///
     /// Those of `out`.
     pub fn new(mut out: W, names: &[&str]) -> io::Result<Self> {
+        let doubtful = |name: &&str| name.bytes().any(|byte| SEPARATORS.contains(&byte));
+        let quotes =
+            if names.iter().any(doubtful) { QuoteStyle::Always } else { QuoteStyle::Necessary };
         ::csv::WriterBuilder::new()
             .comment(Some(b'#'))
+            .quote_style(quotes)
             .from_writer(&mut out)
             .write_record(names)?;
         Ok(Self { out })

@@ -82,3 +82,13 @@ fn a_column_of_instants_is_a_time() {
     let time_s = table.column("time_s").unwrap();
     assert!((time_s[2] - time_s[0] - 1.25).abs() < 1e-6 && time_s[1].is_nan());
 }
+
+#[test]
+fn quoted_separators_separate_nothing() {
+    let table = read("i,\"a;b\"\n1,2\n").unwrap();
+    assert_eq!(table.names().collect::<Vec<_>>(), ["i", "a;b"]);
+    let mut text = Vec::new();
+    write_csv(&table, &mut text).unwrap();
+    assert_eq!(read_csv(&text, Path::new("data.csv")).unwrap().names().count(), 2);
+    assert_eq!(read("\"a,b\";c\n1;2\n").unwrap().names().count(), 2);
+}
