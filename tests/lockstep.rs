@@ -85,19 +85,25 @@ fn verilator_agrees_with_the_interpreter_on_the_board() {
     compare(&program, &mut Interpreter::new(&netlist), realistic(&netlist, 5), clocks() / 20);
 }
 
+/// Inputs of 20 000 clocks for Icarus, and what the compiled engine answers.
+fn stepped(netlist: &Netlist, layout: &Layout, mut stimulus: Stimulus) -> (Vec<Vec<u8>>, Vec<u8>) {
+    let mut engine = stepped_device();
+    let mut inputs = vec![0; netlist.inputs.len()];
+    let (mut asked, mut answers) = (vec![], vec![]);
+    for _ in 0..20_000 {
+        stimulus.next(&mut inputs);
+        asked.push(layout.pack_inputs(&inputs));
+        answers.extend(expected(&mut engine, layout, netlist, &inputs));
+    }
+    (asked, answers)
+}
+
 #[test]
 fn icarus_agrees_with_the_compiled_engine() {
     let netlist = device().netlist();
     let layout = Layout::of(netlist);
-    for mut stimulus in [dense(netlist, 6), realistic(netlist, 7)] {
-        let mut engine = stepped_device();
-        let mut inputs = vec![0; netlist.inputs.len()];
-        let (mut asked, mut answers) = (vec![], vec![]);
-        for _ in 0..20_000 {
-            stimulus.next(&mut inputs);
-            asked.push(layout.pack_inputs(&inputs));
-            answers.extend(expected(&mut engine, &layout, netlist, &inputs));
-        }
+    for stimulus in [dense(netlist, 6), realistic(netlist, 7)] {
+        let (asked, answers) = stepped(netlist, &layout, stimulus);
         let found = icarus::run(&device_design(), netlist, &layout, &asked);
         assert!(found == answers, "{}", report(&layout, netlist, 0, &answers, &found));
     }
@@ -117,15 +123,7 @@ fn a_divergence_says_what_it_is_worth() {
     *text = text.replacen("= 1'b1;", "= 1'b0;", 1);
     assert_ne!(*text, sound);
     let layout = Layout::of(netlist);
-    let mut stimulus = realistic(netlist, 7);
-    let mut engine = stepped_device();
-    let mut inputs = vec![0; netlist.inputs.len()];
-    let (mut asked, mut answers) = (vec![], vec![]);
-    for _ in 0..20_000 {
-        stimulus.next(&mut inputs);
-        asked.push(layout.pack_inputs(&inputs));
-        answers.extend(expected(&mut engine, &layout, netlist, &inputs));
-    }
+    let (asked, answers) = stepped(netlist, &layout, realistic(netlist, 7));
     let found = icarus::run_modules(&modules, &design, netlist, &layout, &asked);
     let said = report(&layout, netlist, 0, &answers, &found);
     expect![[r"

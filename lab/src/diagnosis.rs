@@ -11,6 +11,7 @@ use crate::probes::{Structure, structures};
 use crate::problem::Problem;
 use crate::pruning::pruned;
 use crate::rivals::{Found, rivals};
+use crate::uncertainty::{JointCovariance, joint_covariance};
 
 /// What can be said about a model and a measurement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -245,13 +246,13 @@ fn rejected(step: &Step, chosen: Option<&str>) -> Vec<(String, String)> {
 /// Every component of a state with its parameters.
 #[must_use]
 pub fn effects(problem: &Problem, state: &State) -> Vec<FittedEffect> {
-    (0..state.components.len()).map(|index| fitted(problem, state, index)).collect()
+    let covariance = joint_covariance(problem, state);
+    (0..state.components.len()).map(|index| fitted(state, &covariance, index)).collect()
 }
 
-fn fitted(problem: &Problem, state: &State, index: usize) -> FittedEffect {
+fn fitted(state: &State, covariance: &JointCovariance, index: usize) -> FittedEffect {
     let component = &state.components[index];
     let (used, from) = state.coefficients(index);
-    let covariance = crate::uncertainty::joint_covariance(problem, state);
     let linear = covariance_rows(&covariance.linear, from, component.width());
     let term = component.valued(used);
     let mut parameters = Vec::new();

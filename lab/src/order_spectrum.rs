@@ -138,7 +138,7 @@ impl Scan<'_> {
             Some((evidence(band, &line), line))
         });
         let (_, mut line) = found.max_by(|a, b| a.0.total_cmp(&b.0))?;
-        line.p_value = -libm::expm1(2.0 * libm::log1p(-line.p_value.min(1.0 - 1e-16)));
+        line.p_value = anywhere(line.p_value, 2.0);
         Some(line)
     }
 
@@ -284,6 +284,11 @@ pub fn density(noise: &Noise, cycles: f64) -> f64 {
 pub fn chance(gain: f64, freedom: f64, looks: f64) -> f64 {
     // F with 2 and ν degrees of freedom has this closed tail; it counts the scale's own error.
     let single = libm::exp(-0.5 * freedom * libm::log1p(gain / freedom.max(1.0)));
+    anywhere(single, looks)
+}
+
+/// Chance that what has some chance at one place happens at any of `looks` places.
+fn anywhere(single: f64, looks: f64) -> f64 {
     -libm::expm1(looks * libm::log1p(-single.min(1.0 - 1e-16)))
 }
 

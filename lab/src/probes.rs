@@ -32,6 +32,14 @@ pub struct Structure {
     pub line: Option<Line>,
 }
 
+impl Structure {
+    /// Structure along a coordinate that stands at no particular place of it.
+    fn without_place(along: &str, shape: &str, rms_um: f64, p_value: f64) -> Self {
+        let (along, shape) = (along.to_owned(), shape.to_owned());
+        Self { along, shape, rms_um, p_value, at: None, at_stderr: None, line: None }
+    }
+}
+
 /// Probes are counted together; more than these are never made.
 const PROBES: f64 = 12.0;
 
@@ -145,15 +153,7 @@ fn smooth(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
             10..30 => "local bump or wave",
             _ => "wave whose length changes, or several bumps",
         };
-        found.push(Structure {
-            along: along.to_owned(),
-            shape: shape.to_owned(),
-            rms_um,
-            p_value,
-            at: None,
-            at_stderr: None,
-            line: None,
-        });
+        found.push(Structure::without_place(along, shape, rms_um, p_value));
     }
     found
 }
@@ -161,29 +161,16 @@ fn smooth(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
 /// Anything at all that comes back at the same place in another pass.
 fn repeats(problem: &Problem, fit: &Fit) -> Option<Structure> {
     let (correlation, chance) = crate::repeatability::repeatability(problem, fit)?;
-    Some(Structure {
-        along: "position".to_owned(),
-        shape: "repeats from pass to pass".to_owned(),
-        rms_um: rms(&problem.layout, &fit.left) * correlation.max(0.0).sqrt(),
-        p_value: (PROBES * chance).min(1.0),
-        at: None,
-        at_stderr: None,
-        line: None,
-    })
+    let rms_um = rms(&problem.layout, &fit.left) * correlation.max(0.0).sqrt();
+    let p_value = (PROBES * chance).min(1.0);
+    Some(Structure::without_place("position", "repeats from pass to pass", rms_um, p_value))
 }
 
 /// Several jumps, wherever they are.
 fn jumping(problem: &Problem, fit: &Fit) -> Option<Structure> {
     let (rms_um, chance) = crate::jumps::jumps(problem, fit)?;
-    Some(Structure {
-        along: "time".to_owned(),
-        shape: "several jumps".to_owned(),
-        rms_um,
-        p_value: (PROBES * chance).min(1.0),
-        at: None,
-        at_stderr: None,
-        line: None,
-    })
+    let p_value = (PROBES * chance).min(1.0);
+    Some(Structure::without_place("time", "several jumps", rms_um, p_value))
 }
 
 /// A shape that comes back with every turn of the spindle or of the machine's screw.
@@ -199,15 +186,7 @@ fn cyclic_shapes(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure
         .map(|(along, order)| {
             let (rms_um, p_value) =
                 probe(problem, model, fit, &stacked(problem, &turning(&turns, order)));
-            Structure {
-                along: along.to_owned(),
-                shape: "shape that repeats each turn".to_owned(),
-                rms_um,
-                p_value,
-                at: None,
-                at_stderr: None,
-                line: None,
-            }
+            Structure::without_place(along, "shape that repeats each turn", rms_um, p_value)
         })
         .collect()
 }
@@ -344,15 +323,7 @@ fn covariates(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
         .map(|(name, values)| {
             let (rms_um, p_value) =
                 probe(problem, model, fit, &stacked(problem, std::slice::from_ref(values)));
-            Structure {
-                along: name.to_owned(),
-                shape: "straight relation".to_owned(),
-                rms_um,
-                p_value,
-                at: None,
-                at_stderr: None,
-                line: None,
-            }
+            Structure::without_place(name, "straight relation", rms_um, p_value)
         })
         .collect()
 }

@@ -9,7 +9,7 @@ use crate::fit::{covariance_rows, rms};
 use crate::holdout::holdout_rms;
 use crate::probes::{chi_squared_tail, matters};
 use crate::problem::Problem;
-use crate::uncertainty::joint_covariance;
+use crate::uncertainty::{JointCovariance, joint_covariance};
 
 /// An effect taken out of a model again.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,11 +37,15 @@ pub fn pruned(problem: &Problem, state: State) -> (State, Vec<Dropped>) {
 
 /// The model without its weakest effect, if that one is superfluous.
 fn weakest(problem: &Problem, state: &State) -> Option<(State, Dropped)> {
+    let unseen_um = unseen_um(problem, state);
+    let covariance = joint_covariance(problem, state);
     let found: Vec<(State, Dropped)> = (0..state.components.len())
         .into_par_iter()
         .filter_map(|index| {
             let smaller = without(problem, state, index)?;
-            let reason = superfluous(problem, state, &smaller, index)?;
+            let reason = superfluous(problem, state, &smaller, index)
+                .or_else(|| no_better(problem, &smaller, unseen_um))
+                .or_else(|| useless(state, &covariance, index))?;
             let name = state.components[index].term.name.clone();
             Some((smaller, Dropped { name, reason }))
         })
@@ -72,23 +76,27 @@ fn superfluous(problem: &Problem, state: &State, fewer: &State, index: usize) ->
             "superfluous: {size:.4} {unit} of {after:.4} {unit} noise, p {chance:.1e}"
         ));
     }
-    let unseen = |of: &State| holdout_rms(problem, &of.columns, &of.fit.noises);
-    if unseen(fewer) <= unseen(state) {
-        return Some("superfluous: no better on held-out data without the noise".to_owned());
-    }
-    useless(problem, state, index)
-        .then(|| "useless: no coefficient is two standard errors from zero".to_owned())
+    None
 }
 
-/// True when every coefficient of an effect may be zero by its own standard error.
-fn useless(problem: &Problem, state: &State, index: usize) -> bool {
+fn unseen_um(problem: &Problem, state: &State) -> f64 {
+    holdout_rms(problem, &state.columns, &state.fit.noises)
+}
+
+/// Why an effect is not needed when the model without it is as good on unseen data.
+fn no_better(problem: &Problem, fewer: &State, with_it_um: f64) -> Option<String> {
+    (unseen_um(problem, fewer) <= with_it_um)
+        .then(|| "superfluous: no better on held-out data without the noise".to_owned())
+}
+
+/// Why an effect is not needed when each of its coefficients may be zero by its standard error.
+fn useless(state: &State, covariance: &JointCovariance, index: usize) -> Option<String> {
     let component = &state.components[index];
     let (used, from) = state.coefficients(index);
     if used.is_empty() {
-        return false;
+        return None;
     }
-    let covariance = joint_covariance(problem, state).linear;
-    let covariance = covariance_rows(&covariance, from, component.width());
+    let covariance = covariance_rows(&covariance.linear, from, component.width());
     let sizes = component.estimates(used, &covariance);
     let phase = |parameter: usize| {
         component.term.parameters[parameter].role == helixlock_plant::Role::Phase
@@ -97,4 +105,5 @@ fn useless(problem: &Problem, state: &State, index: usize) -> bool {
         .iter()
         .filter(|estimate| !phase(estimate.parameter))
         .all(|estimate| estimate.value.abs() < 2.0 * estimate.stderr)
+        .then(|| "useless: no coefficient is two standard errors from zero".to_owned())
 }
