@@ -12,6 +12,7 @@ pub mod diagnosis;
 pub mod error;
 pub mod experiment;
 pub mod final_check;
+pub mod finer;
 pub mod fit;
 pub mod fourier;
 pub mod holdout;

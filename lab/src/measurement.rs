@@ -5,6 +5,8 @@ mod headers;
 mod passes;
 mod thinning;
 
+pub use thinning::means;
+
 use std::collections::BTreeMap;
 
 use helixlock_plant::Machine;

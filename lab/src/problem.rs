@@ -1,8 +1,11 @@
 //! A measurement against a machine, as the rows of one least-squares problem.
 
-use helixlock_plant::prediction::{Sensor, gain, meter_um, observe, predict};
-use helixlock_plant::{EffectError, Entry, Machine, Record, Samples, Term};
+use std::ops::Range;
 
+use helixlock_plant::prediction::{Sensor, gain, meter_um, observe, predict};
+use helixlock_plant::{Effect, EffectError, Entry, Machine, Record, Samples, Term};
+
+use crate::finer::Finer;
 use crate::layout::{Block, Layout};
 use crate::measurement::Measurement;
 use crate::sampling::highest_frequency;
@@ -26,6 +29,8 @@ pub struct Problem {
     pub measurement: Measurement,
     /// The samples as the catalogue wants them.
     pub record: Record,
+    /// The samples that those of this problem are means or a choice of, if they are.
+    pub finer: Option<Finer>,
     /// Sensors in the order of `Layout`'s numbers.
     pub sensors: Vec<Sensor>,
     /// What each row is.
@@ -51,12 +56,32 @@ impl Problem {
     ///
     /// [`EffectError`] when an effect of the machine needs a column the measurement lacks.
     pub fn new(machine: &Machine, measurement: &Measurement) -> Result<Self, EffectError> {
+        Self::laid_out(machine, measurement, None)
+    }
+
+    /// The same with means of groups of neighbouring samples.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::new`].
+    pub fn averaged(&self, groups: Vec<Range<usize>>) -> Result<Self, EffectError> {
+        let measurement = self.measurement.averaged(&groups);
+        let finer = Finer { record: self.record.clone(), groups };
+        Self::laid_out(&self.machine, &measurement, Some(finer))
+    }
+
+    fn laid_out(
+        machine: &Machine,
+        measurement: &Measurement,
+        finer: Option<Finer>,
+    ) -> Result<Self, EffectError> {
         let record = record(machine, measurement);
         let sensors: Vec<Sensor> = measurement.observations.keys().copied().collect();
         let mut problem = Self {
             machine: machine.clone(),
             measurement: measurement.clone(),
             record,
+            finer,
             sensors,
             rows: Vec::new(),
             layout: Layout::default(),
@@ -132,10 +157,18 @@ impl Problem {
         let context =
             helixlock_plant::Context { machine: &self.machine, columns: &self.record.columns };
         let basis = term.basis(&context)?;
-        let columns =
-            basis.columns.iter().map(|c| self.column(term.entry, &c.deltas_um(&self.record)));
-        let fixed = basis.fixed.map(|f| self.column(term.entry, &f.deltas_um(&self.record)));
-        Ok(Design { columns: columns.collect(), fixed })
+        let column = |unit: &dyn Effect| self.column(term.entry, &self.deltas_um(unit));
+        let columns = basis.columns.iter().map(|unit| column(unit.as_ref())).collect();
+        Ok(Design { columns, fixed: basis.fixed.map(|unit| column(unit.as_ref())) })
+    }
+
+    /// δ of every sample. The mean of neighbours stands for them, except with an effect that
+    /// depends on the error since the start of the pass: of that one the mean is taken.
+    fn deltas_um(&self, unit: &dyn Effect) -> Vec<f64> {
+        match &self.finer {
+            Some(finer) if unit.feeds_back() => finer.means(&unit.deltas_um(&finer.record)),
+            _ => unit.deltas_um(&self.record),
+        }
     }
 
     /// Rows of one sensor with their layout as sensor 0.
@@ -183,7 +216,13 @@ impl Problem {
             .map(|term| Ok((term.entry, term.effect(&self.machine, &self.record.columns)?)))
             .collect::<Result<Vec<_>, EffectError>>()?;
         self.record.error_um = meter_um(&self.machine, &self.record, &effects);
-        let shown = predict(&self.machine, &self.record)?;
+        if let Some(finer) = &mut self.finer {
+            finer.record.error_um = meter_um(&self.machine, &finer.record, &effects);
+        }
+        let shown = match &self.finer {
+            None => predict(&self.machine, &self.record)?,
+            Some(finer) => finer.mean_of(&predict(&self.machine, &finer.record)?),
+        };
         for (slot, row) in self.predicted.iter_mut().zip(&self.rows) {
             let factor =
                 if row.sensor == Sensor::Counter { self.machine.drive.step_um } else { 1.0 };

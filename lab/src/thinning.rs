@@ -36,16 +36,16 @@ impl Problem {
         let turns: Vec<f64> = self.record.turns().collect();
         let fastest = self.fastest_line().map_or(0.0, |order| order * SAMPLES_A_PERIOD);
         let allowed = usual_rate(&turns) / fastest.max(f64::MIN_POSITIVE);
-        let measurement = if count(together) <= allowed {
-            self.measurement.averaged(together)
+        let groups = if count(together) <= allowed {
+            self.measurement.groups(together)
         } else {
             let every = self.rows.len().div_ceil(PICKED * most);
             if every < 2 {
                 return None;
             }
-            self.measurement.picked(every)
+            self.measurement.picks(every)
         };
-        let mut small = Self::new(&self.machine, &measurement).ok()?;
+        let mut small = self.averaged(groups).ok()?;
         small.extra.clone_from(&self.extra);
         Some(small)
     }

@@ -1,23 +1,29 @@
 //! Means of neighbouring samples, for searches that need not see every one.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::Measurement;
 
+/// Samples on each side of a reversal that stay single: there play and wind-up change quickly.
+const AROUND_REVERSALS: usize = 8;
+
+/// Mean of each group of values.
+#[must_use]
+pub fn means(values: &[f64], groups: &[Range<usize>]) -> Vec<f64> {
+    let mean =
+        |rows: &Range<usize>| values[rows.clone()].iter().sum::<f64>() / crate::count(rows.len());
+    groups.iter().map(mean).collect()
+}
+
 impl Measurement {
-    /// Means of `together` neighbours each, never across passes or reversals.
+    /// Means of groups of neighbours.
     #[must_use]
-    pub fn averaged(&self, together: usize) -> Self {
-        let groups = self.groups(together.max(1));
-        let mean = |values: &[f64]| -> Vec<f64> {
-            groups
-                .iter()
-                .map(|rows| values[rows.clone()].iter().sum::<f64>() / crate::count(rows.len()))
-                .collect()
-        };
+    pub fn averaged(&self, groups: &[Range<usize>]) -> Self {
+        let mean = |values: &[f64]| means(values, groups);
         let observations: BTreeMap<_, _> = self
             .observations
             .iter()
@@ -38,31 +44,24 @@ impl Measurement {
         }
     }
 
-    /// One sample of each group of `every` neighbours, drawn by a fixed seed.
+    /// One sample of each group of `every` neighbours, drawn by a fixed seed, as a group of one.
     #[must_use]
-    pub fn picked(&self, every: usize) -> Self {
+    pub fn picks(&self, every: usize) -> Vec<Range<usize>> {
         let mut chance = ChaCha8Rng::seed_from_u64(0);
-        let rows: Vec<usize> =
-            self.groups(every.max(1)).into_iter().map(|group| chance.random_range(group)).collect();
-        let pick = |values: &[f64]| rows.iter().map(|&row| values[row]).collect::<Vec<f64>>();
-        Self {
-            time_s: pick(&self.time_s),
-            position_mm: pick(&self.position_mm),
-            angle_rev: pick(&self.angle_rev),
-            speed_rpm: pick(&self.speed_rpm),
-            direction: pick(&self.direction),
-            pass: rows.iter().map(|&row| self.pass[row]).collect(),
-            observations: self.observations.iter().map(|(s, v)| (*s, pick(v))).collect(),
-            covariates: self.covariates.iter().map(|(n, v)| (n.clone(), pick(v))).collect(),
-            ..self.clone()
-        }
+        let drawn = self.groups(every).into_iter().map(|group| chance.random_range(group));
+        drawn.map(|row| row..row + 1).collect()
     }
 
-    fn groups(&self, together: usize) -> Vec<std::ops::Range<usize>> {
-        let mut groups: Vec<std::ops::Range<usize>> = Vec::new();
+    /// Groups of `together` neighbours, never across passes or reversals.
+    #[must_use]
+    pub fn groups(&self, together: usize) -> Vec<Range<usize>> {
+        let single = self.near_reversals(together);
+        let mut groups: Vec<Range<usize>> = Vec::new();
         for row in 0..self.len() {
             let joins = groups.last().is_some_and(|rows| {
                 rows.len() < together
+                    && !single[row]
+                    && !single[rows.start]
                     && self.pass[rows.start] == self.pass[row]
                     && self.direction[rows.start].to_bits() == self.direction[row].to_bits()
             });
@@ -72,6 +71,20 @@ impl Measurement {
             }
         }
         groups
+    }
+
+    /// Marks the samples around reversals inside a pass, unless they are a large part of all.
+    fn near_reversals(&self, together: usize) -> Vec<bool> {
+        let mut near = vec![false; self.len()];
+        for row in 1..self.len() {
+            let turns = self.direction[row].to_bits() != self.direction[row - 1].to_bits();
+            if turns && self.pass[row] == self.pass[row - 1] {
+                let to = (row + AROUND_REVERSALS).min(near.len());
+                near[row.saturating_sub(AROUND_REVERSALS)..to].fill(true);
+            }
+        }
+        let few = near.iter().filter(|near| **near).count() * together < self.len();
+        if few { near } else { vec![false; self.len()] }
     }
 }
 
