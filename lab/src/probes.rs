@@ -127,6 +127,11 @@ pub fn chi_squared_tail(value: f64, freedom: f64) -> f64 {
 /// Variance by which a shape of many columns must exceed what it leaves.
 const FAR_ABOVE: f64 = 2.25;
 
+/// True for a shape that stands far above the rest: many columns also follow slow noise.
+fn far_above(rms_um: f64, noise_um: f64) -> bool {
+    FAR_ABOVE * (noise_um * noise_um - rms_um * rms_um) <= rms_um * rms_um
+}
+
 fn smooth(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
     let record = &problem.record;
     let noise = rms(&problem.layout, &fit.left);
@@ -144,8 +149,7 @@ fn smooth(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
         }
         let raw = stacked(problem, &chebyshev(values, order));
         let (rms_um, mut p_value) = probe(problem, model, fit, &raw);
-        // So many columns also follow slow noise; only what stands far above the rest is shape.
-        if 30 < order && rms_um * rms_um < FAR_ABOVE * (noise * noise - rms_um * rms_um) {
+        if 30 < order && !far_above(rms_um, noise) {
             p_value = 1.0;
         }
         let shape = match order {
@@ -155,7 +159,33 @@ fn smooth(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
         };
         found.push(Structure::without_place(along, shape, rms_um, p_value));
     }
+    found.extend(smooth_in_passes(problem, model, fit));
     found
+}
+
+/// Columns of all passes together that their own smooth curves may have.
+const COLUMNS_OF_PASSES: usize = 48;
+
+/// A smooth curve over the travel that is another one in every pass.
+fn smooth_in_passes(problem: &Problem, model: &Columns, fit: &Fit) -> Option<Structure> {
+    let passes = problem.record.passes();
+    let order = (COLUMNS_OF_PASSES / passes.len().max(1)).min(8);
+    let few = problem.rows.len() < 6 * order * passes.len();
+    if passes.len() < 2 || order < 3 || few {
+        return None;
+    }
+    let mut raw = Vec::new();
+    for rows in passes {
+        for curve in chebyshev(&problem.record.position_mm[rows.clone()], order) {
+            let mut whole = vec![0.0; problem.record.len()];
+            whole[rows.clone()].copy_from_slice(&curve);
+            raw.push(whole);
+        }
+    }
+    let (rms_um, chance) = probe(problem, model, fit, &stacked(problem, &raw));
+    let p_value = if far_above(rms_um, rms(&problem.layout, &fit.left)) { chance } else { 1.0 };
+    let shape = "smooth curve, another in each pass";
+    Some(Structure::without_place("position", shape, rms_um, p_value))
 }
 
 /// Anything at all that comes back at the same place in another pass.
@@ -310,6 +340,11 @@ fn quantiles(values: &[f64], points: usize) -> Vec<f64> {
         .collect()
 }
 
+/// True unless the zero of each pass stands for all there is of a column.
+fn varies_inside_a_pass(problem: &Problem, values: &[f64]) -> bool {
+    problem.record.passes().into_iter().any(|rows| 0.0 < spread(&values[rows]))
+}
+
 /// A straight relation to every logged covariate, to direction and to speed.
 fn covariates(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
     let measured = &problem.measurement;
@@ -319,7 +354,7 @@ fn covariates(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
     columns.push(("speed_rpm", &measured.speed_rpm));
     columns
         .into_iter()
-        .filter(|(_, values)| 0.0 < spread(values))
+        .filter(|(_, values)| varies_inside_a_pass(problem, values))
         .map(|(name, values)| {
             let (rms_um, p_value) =
                 probe(problem, model, fit, &stacked(problem, std::slice::from_ref(values)));
