@@ -52,3 +52,4 @@ mod sweep;
 mod synchronisers;
 mod tables;
 mod waveform_readers;
+mod what_is_left;

@@ -37,3 +37,90 @@ impl Finer {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use helixlock_plant::Machine;
+    use helixlock_traces::{Column, Table};
+
+    use crate::measurement::{Measurement, Nominal};
+    use crate::problem::Problem;
+
+    const MACHINE: &str = r#"
+[workpiece]
+lead = "6 mm"
+[spindle]
+speed = "6 rpm"
+[lead_screw]
+lead = "12 mm"
+[grating]
+lines = 13906
+[laser]
+wavelength = "0.63281983 um"
+[dividers]
+a = 110
+b = 150
+[drive]
+step = "0.0125 um"
+frequency = "160 Hz"
+[[effect]]
+kind = "screw-periodic"
+amplitude = "1.5 um"
+phase = "40 deg"
+[[effect]]
+kind = "meter-dead-zone"
+width = "0.8 um"
+"#;
+
+    /// Two passes over 90 mm with the initial phases 0 and 3.
+    fn problem() -> Problem {
+        let machine = Machine::parse(MACHINE, Path::new("machine.toml")).expect("a machine");
+        let column = |name: &str, value: &dyn Fn(u32, u32) -> f64| {
+            let samples = (0..2_u32).flat_map(|pass| (0..900_u32).map(move |row| (pass, row)));
+            Column { name: name.into(), values: samples.map(|(p, r)| value(p, r)).collect() }
+        };
+        let table = Table::new(vec![
+            column("pass", &|pass, _| f64::from(pass + 1)),
+            column("position_mm", &|_, row| 0.1 * f64::from(row)),
+            column("initial_phase", &|pass, _| f64::from(3 * pass)),
+            column("error_um", &|_, _| 0.0),
+        ]);
+        let measurement = Measurement::from_table(&table, &Nominal::from(&machine));
+        Problem::new(&machine, &measurement.expect("a measurement")).expect("all columns")
+    }
+
+    #[test]
+    fn a_thinned_record_predicts_what_all_samples_show() {
+        let whole = problem();
+        let measurement = &whole.measurement;
+        for groups in [measurement.groups(4), measurement.picks(7)] {
+            let small = whole.averaged(groups.clone()).expect("all columns");
+            let expected: Vec<f64> = groups
+                .iter()
+                .map(|rows| {
+                    whole.predicted[rows.clone()].iter().sum::<f64>() / crate::count(rows.len())
+                })
+                .collect();
+            assert_eq!(small.predicted, expected);
+        }
+    }
+
+    #[test]
+    fn columns_of_an_effect_of_the_error_are_means_of_all_samples() {
+        let whole = problem();
+        let dead_zone = &whole.machine.effects[1];
+        let all = whole.design(dead_zone).expect("a column").fixed.expect("it does not scale");
+        let groups = whole.measurement.picks(7);
+        let small = whole.averaged(groups.clone()).expect("all columns");
+        let thin = small.design(dead_zone).expect("a column").fixed.expect("it does not scale");
+        // A pass counts from its first sample: of the whole record there, of those chosen here.
+        for rows in small.record.passes() {
+            let zero = thin[rows.start] - all[groups[rows.start].start];
+            for row in rows {
+                assert!((thin[row] - all[groups[row].start] - zero).abs() < 1e-12);
+            }
+        }
+    }
+}

@@ -92,8 +92,24 @@ pub fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Stru
     all
 }
 
+/// Change inside a pass, against a column's size, that is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// True unless the zero of each pass stands for all there is of a column: a speed, a direction, or
+/// a harmonic that samples at whole parts of a turn always meet at the same angle.
+fn varies_inside_a_pass(problem: &Problem, column: &[f64]) -> bool {
+    let size = column.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    let mut blocks = problem.layout.blocks.iter();
+    blocks.any(|block| ROUNDING * size < spread(&column[block.rows.clone()]))
+}
+
 /// Structure explained by free columns: its size and chance.
 fn probe(problem: &Problem, model: &Columns, fit: &Fit, raw: &[Vec<f64>]) -> (f64, f64) {
+    let varying = raw.iter().filter(|column| varies_inside_a_pass(problem, column));
+    let raw: &[Vec<f64>] = &varying.cloned().collect::<Vec<_>>();
+    if raw.is_empty() {
+        return (0.0, 1.0);
+    }
     let width = count(raw.len());
     let wider = settle(problem, &model.and(&Columns::free(raw.to_vec())), &fit.noises);
     let gain = 2.0 * (wider.log_likelihood - fit.log_likelihood);
@@ -340,11 +356,6 @@ fn quantiles(values: &[f64], points: usize) -> Vec<f64> {
         .collect()
 }
 
-/// True unless the zero of each pass stands for all there is of a column.
-fn varies_inside_a_pass(problem: &Problem, values: &[f64]) -> bool {
-    problem.record.passes().into_iter().any(|rows| 0.0 < spread(&values[rows]))
-}
-
 /// A straight relation to every logged covariate, to direction and to speed.
 fn covariates(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
     let measured = &problem.measurement;
@@ -354,7 +365,7 @@ fn covariates(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
     columns.push(("speed_rpm", &measured.speed_rpm));
     columns
         .into_iter()
-        .filter(|(_, values)| varies_inside_a_pass(problem, values))
+        .filter(|(_, values)| 0.0 < spread(values))
         .map(|(name, values)| {
             let (rms_um, p_value) =
                 probe(problem, model, fit, &stacked(problem, std::slice::from_ref(values)));
