@@ -115,6 +115,7 @@ fn as_json(comparison: &Comparison, measurement: &Measurement) -> Value {
             "sensor": column(sensor.sensor),
             "samples": sensor.samples,
             "effective_samples": sensor.effective_samples,
+            "samples_looked_at": sensor.looked_at,
             "rms_um": sensor.rms_um,
             "peak_to_peak_um": sensor.peak_to_peak_um,
             "outliers": sensor.outliers,

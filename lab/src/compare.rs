@@ -4,6 +4,8 @@ use helixlock_plant::prediction::Sensor;
 
 use crate::amplitude_spectrum::amplitude_spectrum;
 use crate::analysis::State;
+use crate::fit::rms;
+use crate::layout::Layout;
 use crate::lines::{NamedLine, lines};
 use crate::measurement::spread;
 use crate::noise::{Noise, Whitener};
@@ -38,10 +40,12 @@ pub struct SensorResidual {
     pub peak_to_peak_um: f64,
     /// Size in each pass.
     pub passes: Vec<PassSize>,
-    /// The noise that fits best.
+    /// The noise that fits best the samples looked at.
     pub noise: Noise,
-    /// Sample interval, s, that the noise's correlation lengths count.
+    /// Interval of the samples looked at, s, which the noise's correlation lengths count.
     pub interval_s: f64,
+    /// Samples looked at: all, or means of neighbours where there are very many.
+    pub looked_at: usize,
     /// Outliers that were weighed down.
     pub outliers: usize,
     /// Order and amplitude over the spindle angle.
@@ -65,19 +69,27 @@ pub struct Comparison {
     pub residual: Vec<f64>,
 }
 
+/// Rows beyond which structure is looked for in means of neighbouring samples.
+const MOST_ROWS: usize = 30_000;
+
 /// Compares a model with a measurement.
+///
+/// Sizes are those of all samples; noise and structure are looked for in at most some ten
+/// thousand, means of neighbours where there are more.
 #[must_use]
 pub fn compare(problem: &Problem) -> Comparison {
-    let state = State::bare(problem);
-    let along = all_structures(problem, &state.columns, &state.fit);
+    let thinned = problem.thinned(MOST_ROWS);
+    let small = thinned.as_ref().unwrap_or(problem);
+    let state = State::bare(small);
+    let along = all_structures(small, &state.columns, &state.fit);
     let noise_p_value = along.first().map_or(1.0, |first| first.p_value);
     let residual = problem.residual();
     let sensors = (0..problem.sensors.len())
-        .map(|sensor| sensor_residual(problem, &state, &residual, sensor))
+        .map(|sensor| sensor_residual(problem, (small, &state), &residual, sensor))
         .collect();
     Comparison {
         sensors,
-        lines: lines(problem, &state.columns, &state.fit),
+        lines: lines(small, &state.columns, &state.fit),
         noise_only: SIGNIFICANCE < noise_p_value,
         noise_p_value,
         along,
@@ -87,7 +99,7 @@ pub fn compare(problem: &Problem) -> Comparison {
 
 fn sensor_residual(
     problem: &Problem,
-    state: &State,
+    (small, state): (&Problem, &State),
     residual: &[f64],
     sensor: usize,
 ) -> SensorResidual {
@@ -107,17 +119,22 @@ fn sensor_residual(
         })
         .collect();
     let samples: usize = passes.iter().map(|pass| pass.samples).sum();
+    let (layout, rows) = small.of_sensor(sensor);
+    let left: Vec<f64> = rows.iter().map(|&row| state.fit.left[row]).collect();
     let square: f64 =
         passes.iter().map(|pass| pass.rms_um * pass.rms_um * crate::count(pass.samples)).sum();
+    let rms_um = (square / crate::count(samples.max(1))).sqrt();
+    let smaller = (rms_um / rms(&layout, &left).max(f64::MIN_POSITIVE)).powi(2);
     SensorResidual {
         sensor: problem.sensors[sensor],
         samples,
-        effective_samples: effective_samples(problem, state, sensor),
-        rms_um: (square / crate::count(samples.max(1))).sqrt(),
+        effective_samples: smaller * effective_samples(&layout, &state.fit.noises[sensor]),
+        rms_um,
         peak_to_peak_um: passes.iter().map(|pass| pass.peak_to_peak_um).fold(0.0, f64::max),
         passes,
         noise: state.fit.noises[sensor].clone(),
-        interval_s: interval_s(problem),
+        interval_s: interval_s(small),
+        looked_at: rows.len(),
         outliers: blocks()
             .flat_map(|block| block.rows.clone())
             .filter(|&row| 1.0 < problem.layout.inflation[row])
@@ -127,11 +144,9 @@ fn sensor_residual(
 }
 
 /// Variance of a sample over the variance of the best mean: `σ²·1ᵀK⁻¹1`.
-fn effective_samples(problem: &Problem, state: &State, sensor: usize) -> f64 {
-    let (layout, rows) = problem.of_sensor(sensor);
-    let noise = &state.fit.noises[sensor];
-    let whitener = Whitener::new(&layout, std::slice::from_ref(noise));
-    let ones = whitener.whiten_only(&vec![1.0; rows.len()]);
+fn effective_samples(layout: &Layout, noise: &Noise) -> f64 {
+    let whitener = Whitener::new(layout, std::slice::from_ref(noise));
+    let ones = whitener.whiten_only(&vec![1.0; layout.len()]);
     noise.variance() * crate::least_squares::dot(&ones, &ones)
 }
 

@@ -46,11 +46,17 @@ impl Layout {
     /// The layout of some blocks only, and the rows they had here.
     #[must_use]
     pub fn restricted(&self, keep: impl Fn(&Block) -> bool) -> (Self, Vec<usize>) {
+        self.begun(usize::MAX, keep)
+    }
+
+    /// The layout of the first rows of some blocks, and the rows they had here.
+    #[must_use]
+    pub fn begun(&self, most: usize, keep: impl Fn(&Block) -> bool) -> (Self, Vec<usize>) {
         let mut part = Self::default();
         let mut rows = Vec::new();
         for block in self.blocks.iter().filter(|block| keep(block)) {
             let start = rows.len();
-            rows.extend(block.rows.clone());
+            rows.extend(block.rows.clone().take(most));
             part.blocks.push(Block { rows: start..rows.len(), ..block.clone() });
         }
         part.clock = rows.iter().map(|&row| self.clock[row]).collect();

@@ -266,7 +266,8 @@ fn stacked(problem: &Problem, samples: &[Vec<f64>]) -> Vec<Vec<f64>> {
 /// Chebyshev polynomials 1 … order over the range of a coordinate.
 fn chebyshev(values: &[f64], order: usize) -> Vec<Vec<f64>> {
     let low = values.iter().copied().fold(f64::INFINITY, f64::min);
-    let scaled: Vec<f64> = values.iter().map(|v| 2.0 * (v - low) / spread(values) - 1.0).collect();
+    let range = spread(values);
+    let scaled: Vec<f64> = values.iter().map(|v| 2.0 * (v - low) / range - 1.0).collect();
     let mut all = vec![vec![1.0; values.len()], scaled.clone()];
     for degree in 2..=order {
         let next = (0..values.len())

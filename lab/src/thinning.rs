@@ -2,6 +2,7 @@
 
 use crate::candidates::gear_orders;
 use crate::count;
+use crate::layout::Block;
 use crate::measurement::spread;
 use crate::noise::{Noise, SlowPart, Whitener};
 use crate::noise_fit::median;
@@ -14,6 +15,10 @@ const SAMPLES_A_PERIOD: f64 = 6.0;
 
 /// Chance below which a fast line forbids means.
 const SIGNIFICANCE: f64 = 1e-6;
+
+/// Rows of a sensor, from the start of each of its passes, in which fast lines are looked for: a
+/// line of a fiftieth of the noise is clear in as many.
+const LOOKED_AT: usize = 200_000;
 
 /// Rows kept, against those wanted, when samples must be picked instead of averaged.
 const PICKED: usize = 2;
@@ -59,7 +64,10 @@ impl Problem {
     }
 
     fn fastest_line_of(&self, sensor: usize, residual: &[f64]) -> Option<f64> {
-        let (layout, rows) = self.of_sensor(sensor);
+        let of_sensor = |block: &Block| block.sensor == sensor;
+        let blocks = self.layout.blocks.iter().filter(|block| of_sensor(block)).count();
+        let (mut layout, rows) = self.layout.begun(LOOKED_AT / blocks.max(1), of_sensor);
+        layout.blocks.iter_mut().for_each(|block| block.sensor = 0);
         let left: Vec<f64> = rows.iter().map(|&row| residual[row]).collect();
         let all: Vec<f64> = self.record.turns().collect();
         let turns: Vec<f64> = rows.iter().map(|&row| all[self.rows[row].sample]).collect();
