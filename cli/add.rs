@@ -61,8 +61,9 @@ impl Add {
             return Ok(ExitCode::from(1));
         };
         self.write(&written(&base, &added.effects)?)?;
+        let unit = problem.measurement.unit_word();
         if self.json {
-            writeln!(out, "{}", serde_json::to_string_pretty(&as_json(&added))?)?;
+            writeln!(out, "{}", serde_json::to_string_pretty(&as_json(&added, unit))?)?;
         } else {
             print(out, &added, problem.measurement.unit())?;
         }
@@ -79,8 +80,9 @@ impl Add {
 
     /// The file with the effect's table as the user gave it.
     fn with_given_values(&self, file: &MachineFile) -> anyhow::Result<MachineFile> {
-        let text = if Term::card(&self.effect).is_some() {
-            let mut text = format!("\n[[effect]]\nkind = \"{}\"\n", self.effect);
+        let effect = Path::new(&self.effect);
+        let (text, path) = if Term::card(&self.effect).is_some() {
+            let mut text = format!("[[effect]]\nkind = \"{}\"\n", self.effect);
             for pair in &self.values {
                 let Some((key, value)) = pair.split_once('=') else {
                     bail!("--set {pair}: found no `=`, expected KEY=VALUE");
@@ -91,11 +93,11 @@ impl Add {
                 let value = if plain { value.to_owned() } else { format!("\"{value}\"") };
                 text.extend([key.trim(), " = ", &value, "\n"]);
             }
-            text
+            (text, Path::new("--set"))
         } else {
-            effect_text(Path::new(&self.effect))?
+            (effect_text(effect)?, effect)
         };
-        Ok(MachineFile::parse(&format!("{}{text}", file.text()), &self.machine)?)
+        Ok(file.with_text(&text, path)?)
     }
 
     fn write(&self, file: &MachineFile) -> anyhow::Result<()> {
@@ -116,7 +118,7 @@ fn stripped(file: &MachineFile) -> anyhow::Result<(MachineFile, Vec<Term>)> {
 /// Effects of a user's own file, read as part of the machine.
 pub(crate) fn own_effects(file: &MachineFile, path: &Path) -> anyhow::Result<Vec<Term>> {
     let before = file.machine.effects.len();
-    let whole = MachineFile::parse(&format!("{}{}", file.text(), effect_text(path)?), path)?;
+    let whole = file.with_text(&effect_text(path)?, path)?;
     let own = whole.machine.effects[before..].to_vec();
     if own.is_empty() {
         bail!("{}: found no effect, expected a table `[[effect]]`", path.display());
@@ -133,14 +135,14 @@ fn effect_text(path: &Path) -> anyhow::Result<String> {
             kinds.join(", ")
         )
     };
-    let text = std::fs::read_to_string(path).with_context(known)?;
-    Ok(format!("\n{text}"))
+    std::fs::read_to_string(path).with_context(known)
 }
 
-fn as_json(added: &Added) -> serde_json::Value {
+fn as_json(added: &Added, unit: &str) -> serde_json::Value {
     let effects: Vec<_> = added.effects.iter().map(effect_json).collect();
     json!({
         "effects": effects,
+        "unit": unit,
         "rms_before_um": added.rms_um[0],
         "rms_um": added.rms_um[1],
         "holdout_rms_before_um": added.holdout_rms_um[0],

@@ -108,7 +108,7 @@ fn print_line(out: &mut impl Write, line: &NamedLine, unit: &str) -> anyhow::Res
 fn as_json(comparison: &Comparison, measurement: &Measurement) -> Value {
     let column = |sensor| sensor_column(sensor, measurement.rotary);
     json!({
-        "unit": if measurement.rotary { "arcsec" } else { "um" },
+        "unit": measurement.unit_word(),
         "noise_only": comparison.noise_only,
         "noise_p_value": comparison.noise_p_value,
         "sensors": comparison.sensors.iter().map(|sensor| json!({

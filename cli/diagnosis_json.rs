@@ -11,7 +11,7 @@ use std::path::Path;
 pub(crate) fn diagnosis(diagnosis: &Diagnosis, measurement: &Measurement) -> Value {
     json!({
         "verdict": diagnosis.verdict.word(),
-        "unit": if measurement.rotary { "arcsec" } else { "um" },
+        "unit": measurement.unit_word(),
         "noise_um": diagnosis.noise_um,
         "rounds": diagnosis.rounds.iter().map(round).collect::<Vec<_>>(),
         "effects": diagnosis.rounds.last().map(|r| effects(&r.effects)),

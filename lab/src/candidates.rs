@@ -1,6 +1,5 @@
 //! Which effects can be tried on a measurement, and where their nonlinear parameters may lie.
 
-use helixlock_plant::units::{ARCSEC, UM};
 use helixlock_plant::{CATALOGUE, Entry, Formula, Machine, Parameter, Search, Term};
 
 use crate::component::Component;
@@ -74,9 +73,8 @@ fn with_overtones(mut candidate: Candidate, problem: &Problem, found: &[Componen
 
 /// Parameters in µm are in seconds of arc on a rotary chain.
 fn in_unit_of(problem: &Problem, mut term: Term) -> Term {
-    let lengths = term.parameters.iter_mut().filter(|what| what.unit.suffix() == UM.suffix());
-    for what in lengths.filter(|_| problem.machine.rotary) {
-        what.unit = ARCSEC;
+    for what in term.parameters.iter_mut().filter(|_| problem.machine.rotary) {
+        what.unit = what.unit.on_rotary_chain();
     }
     term
 }

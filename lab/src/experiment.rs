@@ -1,4 +1,4 @@
-//! What an operator could do to tell confused effects apart, scored in µm.
+//! What an operator could do to tell confused effects apart, scored in µm (arcsec).
 
 use helixlock_plant::Term;
 
@@ -18,6 +18,8 @@ pub struct Advice {
     pub between: (String, String),
     /// Root mean square by which their predictions would differ, µm (arcsec).
     pub separation_um: f64,
+    /// Unit of that.
+    pub unit: &'static str,
 }
 
 /// A change of the measurement that an operator can make.
@@ -89,6 +91,7 @@ fn pair_advice(problem: &Problem, a: &Term, b: &Term) -> Vec<Advice> {
                 action: experiment.action.to_owned(),
                 between: (a.name.clone(), b.name.clone()),
                 separation_um,
+                unit: problem.measurement.unit(),
             })
         })
         .filter(|advice| WORTHWHILE_UM < advice.separation_um)
@@ -114,8 +117,8 @@ pub fn for_pair(advice: &[Advice], name: &str, component: &Component) -> String 
     let card = Term::card(component.term.kind()).map(|card| card.separated_by);
     match (best, card) {
         (Some(best), Some(card)) => format!(
-            "{}: {} and {} would differ by {:.3} µm; also: {card}",
-            best.action, best.between.0, best.between.1, best.separation_um
+            "{}: {} and {} would differ by {:.3} {}; also: {card}",
+            best.action, best.between.0, best.between.1, best.separation_um, best.unit
         ),
         (Some(best), None) => best.action.clone(),
         (None, card) => card.unwrap_or("log one more sensor").to_owned(),

@@ -8,7 +8,7 @@ mod write;
 use std::path::Path;
 
 use crate::dividers::{fringes_per_mm, settable_cycle};
-use crate::error::{MachineError, place};
+use crate::error::MachineError;
 use crate::lead::Lead;
 use crate::term::Term;
 
@@ -212,11 +212,15 @@ impl Machine {
     ///
     /// [`MachineError`] with the place of the first thing that is wrong.
     pub fn parse(text: &str, path: &Path) -> Result<Self, MachineError> {
-        let document = toml_edit::Document::parse(text).map_err(|error| MachineError::Syntax {
-            at: place(path, text, error.span().map_or(0, |span| span.start)),
-            message: error.message().trim().replace('\n', ", ").into(),
-        })?;
-        let source = section::Source { path, text };
+        Self::parse_source(section::Source { path, text, behind: None })
+    }
+
+    fn parse_source(source: section::Source<'_>) -> Result<Self, MachineError> {
+        let document =
+            toml_edit::Document::parse(source.text).map_err(|error| MachineError::Syntax {
+                at: source.at(Some(error.span().unwrap_or_default())),
+                message: error.message().trim().replace('\n', ", ").into(),
+            })?;
         parts::machine(&section::Section::root(source, document.as_table()))
     }
 

@@ -31,6 +31,8 @@ pub enum Dimension {
     Expansion,
     /// Length per force, in m/N.
     Compliance,
+    /// Angle per force, in rad/N.
+    AngularCompliance,
     /// Force, in N.
     Force,
     /// Length per time, in m/s.
@@ -57,6 +59,15 @@ pub struct Unit {
 impl Unit {
     const fn new(symbol: &'static str, dimension: Dimension, size: (f64, f64)) -> Self {
         Self { symbol, dimension, size, zero: 0.0 }
+    }
+
+    /// The unit of the same parameter on a rotary chain, whose δ is in seconds of arc.
+    #[must_use]
+    pub fn on_rotary_chain(self) -> Self {
+        [(UM, ARCSEC), (UM_PER_H, ARCSEC_PER_H), (UM_PER_N, ARCSEC_PER_N)]
+            .into_iter()
+            .find_map(|(length, angle)| (self == length).then_some(angle))
+            .unwrap_or(self)
     }
 
     /// The unit as the tail of a column or key name, such as `um_per_m`; empty for a number.
@@ -114,10 +125,16 @@ pub const UM_PER_M3: Unit = Unit::new("um/m^3", Dimension::CurvatureChange, (1.0
 pub const PPM_PER_K: Unit = Unit::new("ppm/K", Dimension::Expansion, (1.0, 1e6));
 /// Micrometre per newton.
 pub const UM_PER_N: Unit = Unit::new("um/N", Dimension::Compliance, (1.0, 1e6));
+/// Second of arc per newton.
+pub const ARCSEC_PER_N: Unit =
+    Unit::new("arcsec/N", Dimension::AngularCompliance, (std::f64::consts::PI, 648_000.0));
 /// Newton.
 pub const N: Unit = Unit::new("N", Dimension::Force, (1.0, 1.0));
 /// Micrometre per hour.
 pub const UM_PER_H: Unit = Unit::new("um/h", Dimension::Drift, (1.0, 3.6e9));
+/// Second of arc per hour.
+pub const ARCSEC_PER_H: Unit =
+    Unit::new("arcsec/h", Dimension::Rotation, (1.0, 1_296_000.0 * 3600.0));
 /// Parts per million per hour.
 pub const PPM_PER_H: Unit = Unit::new("ppm/h", Dimension::RelativeDrift, (1.0, 3.6e9));
 /// No unit: counts and ratios.
@@ -147,6 +164,7 @@ pub const UNITS: &[Unit] = &[
     Unit::new("deg/s", Dimension::Rotation, (1.0, 360.0)),
     Unit::new("deg/h", Dimension::Rotation, (1.0, 1_296_000.0)),
     Unit::new("arcsec/s", Dimension::Rotation, (1.0, 1_296_000.0)),
+    ARCSEC_PER_H,
     DEG_C,
     Unit::new("°C", Dimension::Temperature, (1.0, 1.0)),
     Unit { symbol: "K", dimension: Dimension::Temperature, size: (1.0, 1.0), zero: -273.15 },
@@ -184,6 +202,7 @@ pub const UNITS: &[Unit] = &[
     UM_PER_N,
     Unit::new("nm/N", Dimension::Compliance, (1.0, 1e9)),
     Unit::new("um/kN", Dimension::Compliance, (1.0, 1e9)),
+    ARCSEC_PER_N,
     N,
     Unit::new("kN", Dimension::Force, (1e3, 1.0)),
     UM_PER_H,

@@ -9,7 +9,7 @@ use crate::custom::Custom;
 use crate::error::{EffectError, MachineError};
 use crate::measured_curve::MeasuredCurve;
 use crate::term::{Formula, Term};
-use crate::units::{ARCSEC, Dimension, NUMBER, UM, Unit};
+use crate::units::{Dimension, NUMBER};
 use crate::{CATALOGUE, Card, Columns, Context, Entry, Parameter, Search};
 
 type Result<T> = std::result::Result<T, MachineError>;
@@ -46,7 +46,9 @@ fn from_card(section: &Section<'_>, machine: &Machine, card: &'static Card) -> R
     section.only(&keys)?;
     let mut term = Term::candidate(card);
     for (value, parameter) in term.values.iter_mut().zip(&mut term.parameters) {
-        parameter.unit = in_output_unit(parameter.unit, machine.rotary);
+        if machine.rotary {
+            parameter.unit = parameter.unit.on_rotary_chain();
+        }
         *value = if by_gear && parameter.search == Search::GearOrder {
             gear_order(section, machine, parameter)?
         } else {
@@ -61,11 +63,6 @@ fn from_card(section: &Section<'_>, machine: &Machine, card: &'static Card) -> R
 
 fn refused(section: &Section<'_>, key: &str, reason: EffectError) -> MachineError {
     MachineError::Effect { at: section.value_at(key), reason: Box::new(reason) }
-}
-
-/// δ of a rotary chain is in seconds of arc.
-fn in_output_unit(unit: Unit, rotary: bool) -> Unit {
-    if rotary && unit == UM { ARCSEC } else { unit }
 }
 
 fn value_of(section: &Section<'_>, parameter: &Parameter) -> Result<f64> {

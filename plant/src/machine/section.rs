@@ -15,11 +15,19 @@ use crate::units::{QuantityError, Unit, read_quantity, spellings};
 pub(crate) struct Source<'a> {
     pub(crate) path: &'a Path,
     pub(crate) text: &'a str,
+    /// Where in the text another file begins, and its path.
+    pub(crate) behind: Option<(usize, &'a Path)>,
 }
 
 impl Source<'_> {
     pub(crate) fn at(&self, span: Option<Range<usize>>) -> At {
-        span.map_or_else(|| At::file(self.path), |span| place(self.path, self.text, span.start))
+        span.map_or_else(
+            || At::file(self.path),
+            |span| match self.behind.filter(|(from, _)| *from <= span.start) {
+                Some((from, path)) => place(path, &self.text[from..], span.start - from),
+                None => place(self.path, self.text, span.start),
+            },
+        )
     }
 
     fn quoted(&self, span: Option<Range<usize>>) -> String {

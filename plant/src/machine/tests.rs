@@ -126,6 +126,27 @@ fn writing_back_keeps_comments_and_order() {
     assert_eq!(phase.text(), SG7430.replace("\"30 deg\"", "\"45 deg\""));
 }
 
+/// `effect = [{ … }]` is as good as tables, and an own file may follow either.
+#[test]
+fn effects_in_a_line_become_tables() {
+    let (head, table) = SG7430.split_once("[[effect]]").expect("it has an effect");
+    let inline = table.split('#').next().unwrap_or_default().trim().replace('\n', ", ");
+    let text = format!("effect = [{{ {inline} }}]\n{head}");
+    let file = MachineFile::parse(&text, Path::new("machine.toml")).expect("a machine");
+    let own = "# mine\n[[effect]]\nkind = \"phase-drift\"\nrate = \"1 um/h\"\n";
+    let more = file.with_text(own, Path::new("own.toml")).expect("added");
+    assert_eq!(more.machine.effects.len(), 2);
+    assert!(more.text().contains("\n[[effect]]\nkind = \"screw-periodic\"\n"), "{}", more.text());
+    assert!(more.text().ends_with(own));
+    let same = file.with_effect(&more.machine.effects[1]).expect("added");
+    assert_eq!(same.machine.effects[1].values, more.machine.effects[1].values);
+    let wrong = file.with_text(&own.replace("1 um/h", "1 um"), Path::new("own.toml"));
+    let message = wrong.expect_err("no drift").to_string();
+    assert!(message.starts_with("own.toml:4:8: "), "{message}");
+    let open = file.with_text("[[effect]\n", Path::new("own.toml")).expect_err("open").to_string();
+    assert!(open.starts_with("own.toml:1:"), "{open}");
+}
+
 #[test]
 fn settings_that_have_no_place_are_refused() {
     let file = MachineFile::parse(SG7430, Path::new("machine.toml")).expect("a machine");
@@ -163,6 +184,13 @@ fn a_rotary_chain_reads() {
          order = 180\n[[effect]]\nkind = \"gear-error\"\ngear = \"worm\"\namplitude = \"5 arcsec\"\n",
     );
     assert!(machine.rotary);
+    let drifting = "output.rotary = true\nspindle.speed = \"1 rpm\"\n[[effect]]\n\
+                    kind = \"phase-drift\"\nrate = \"1 deg/h\"\n";
+    let drift = parse(drifting).effects[0].clone();
+    assert_eq!(
+        (drift.parameters[0].key().as_str(), drift.values[0]),
+        ("rate_arcsec_per_h", 3600.0)
+    );
     assert_eq!(machine.effects[0].values, [5.0, 0.0, 180.0]);
     assert!(
         refusal(

@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value, value};
 
 use super::Machine;
+use super::section::Source;
 use helixlock_traces::At;
 
-use crate::error::{MachineError, place};
+use crate::error::MachineError;
 use crate::term::{Formula, Term};
 
 /// A machine together with the text it came from.
@@ -45,13 +46,15 @@ impl MachineFile {
     ///
     /// [`MachineError`] with the place of the first thing that is wrong.
     pub fn parse(text: &str, path: &Path) -> Result<Self, MachineError> {
-        let machine = Machine::parse(text, path)?;
-        let document =
-            text.parse().map_err(|error: toml_edit::TomlError| MachineError::Syntax {
-                at: place(path, text, error.span().map_or(0, |span| span.start)),
-                message: error.message().into(),
-            })?;
-        Ok(Self { machine, path: path.into(), document })
+        Self::parse_source(Source { path, text, behind: None })
+    }
+
+    fn parse_source(source: Source<'_>) -> Result<Self, MachineError> {
+        let machine = Machine::parse_source(source)?;
+        let document = source.text.parse().map_err(|error: toml_edit::TomlError| {
+            MachineError::Syntax { at: source.at(error.span()), message: error.message().into() }
+        })?;
+        Ok(Self { machine, path: source.path.into(), document })
     }
 
     /// The text, as it would be written to a file.
@@ -69,6 +72,22 @@ impl MachineFile {
         let mut document = self.document.clone();
         effect_tables(&mut document).push(effect_table(&self.machine, term));
         self.reread(document)
+    }
+
+    /// The file with the tables of another one behind it, such as a user's own `[[effect]]`.
+    ///
+    /// # Errors
+    ///
+    /// [`MachineError`] with its place in the file that is wrong.
+    pub fn with_text(&self, toml: &str, path: &Path) -> Result<Self, MachineError> {
+        let mut document = self.document.clone();
+        if document.contains_key("effect") {
+            effect_tables(&mut document);
+        }
+        let own = format!("{document}\n");
+        let text = format!("{own}{toml}");
+        let behind = Some((own.len(), path));
+        Self::parse_source(Source { path: &self.path, text: &text, behind })
     }
 
     /// The file with other values in one of its effects, counted from 0.
@@ -158,12 +177,15 @@ fn below<'i>(item: &'i mut Item, word: &str) -> Option<&'i mut Item> {
 
 /// The array `[[effect]]`, made when there is none; an inline array becomes tables.
 fn effect_tables(document: &mut DocumentMut) -> &mut ArrayOfTables {
-    let item =
-        document.entry("effect").or_insert_with(|| Item::ArrayOfTables(ArrayOfTables::new()));
-    if !item.is_array_of_tables() {
+    if let Some((mut key, item)) = document.get_key_value_mut("effect")
+        && !item.is_array_of_tables()
+    {
+        key.leaf_decor_mut().clear();
         let taken = std::mem::take(item);
         *item = taken.into_array_of_tables().map_or_else(|other| other, Item::ArrayOfTables);
     }
+    let item =
+        document.entry("effect").or_insert_with(|| Item::ArrayOfTables(ArrayOfTables::new()));
     match item {
         Item::ArrayOfTables(tables) => tables,
         _ => unreachable!("reading refused an `effect` that is no array of tables"),
