@@ -91,8 +91,11 @@ const FILES: &[(&str, &[u8])] = &[
     ("CRLF and a bad cell", b"time_s,error_um\r\n1,2\r\n3,x\r\n"),
     ("a lone carriage return and a bad cell", b"time_s,error_um\r1,2\r3,x\r"),
     ("a line break in a name", b"\"time\n_s\",error_um\n1,2\n"),
-    ("a bad cell behind quoted commas", b"\"a,b\",error_um\n\"1\",x\n"),
-    ("a bad cell behind wide characters", "time_s,\u{8bef}\u{5dee}_um\n1,\u{8bef}\n".as_bytes()),
+    ("a bad cell behind quoted commas", b"\"a,b\",error_um\n\"1\",x\n2,3\n"),
+    (
+        "a bad cell behind wide characters",
+        "time_s,\u{8bef}\u{5dee}_um\n1,\u{8bef}\n2,3\n".as_bytes(),
+    ),
     ("bytes that are no text", b"time_s,error_um\n1,\xFF\xFE\n"),
     ("TOML", b"title = \"a machine\"\n[spindle]\nspeed = \"6 rpm\"\n"),
 ];

@@ -2,7 +2,8 @@
 //!
 //! Semicolons or tabs may stand for the commas, and a column may hold ISO 8601 instants. An empty
 //! cell is a missing value. Text such as `NaN`, `inf`, `1,5` or `5 mm` is refused with its line and
-//! column, because what it stands for would have to be guessed.
+//! column, because what it stands for would have to be guessed. A column of words, such as the
+//! operator's name, is left out and remembered.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -11,14 +12,16 @@ use ::csv::{ByteRecord, QuoteStyle, ReaderBuilder};
 
 use crate::error::{At, TraceError};
 use crate::number::write_number;
-use crate::table::{Column, Table};
+use crate::table::Table;
 
+mod cells;
 mod place;
 mod stamp;
 
 /// What may separate cells instead of the comma.
 const SEPARATORS: [u8; 2] = [b';', b'\t'];
 
+use cells::{CUT_OFF, DECIMAL_COMMA, Reading};
 use place::{Line, Source};
 
 /// Reads comma-separated text; `path` is for messages only.
@@ -47,27 +50,28 @@ pub fn read_csv(bytes: &[u8], path: &Path) -> Result<Table, TraceError> {
     if !source.next(&mut reader, &mut record)? {
         return Err(TraceError::Empty { at: At::file(path), found: "an empty file" });
     }
-    let mut table = empty_table(header(&record, &source.line(&reader))?, path);
-    let mut stamped = vec![false; table.columns.len()];
-    let mut next_line = 0;
+    let names = header(&record, &source.line(&reader))?;
+    let mut columns: Vec<Reading> = names.into_iter().map(Reading::new).collect();
+    let mut line_jumps = Vec::new();
+    let (mut rows, mut next_line) = (0, 0);
     while source.next(&mut reader, &mut record)? {
         let line = source.line(&reader);
         if line.number != next_line {
-            table.line_jumps.push((table.rows(), line.number));
+            line_jumps.push((rows, line.number));
         }
         next_line = line.number + 1;
-        push_row(&mut table, &mut stamped, &record, &line)?;
+        push_row(&mut columns, &record, &line)?;
+        rows += 1;
     }
-    if table.rows() == 0 {
+    if rows == 0 {
         return Err(TraceError::Empty { at: At::file(path), found: "a header only" });
     }
-    for (column, _) in table.columns.iter_mut().zip(&stamped).filter(|(_, stamped)| **stamped) {
-        column.name = stamp::column_name(&column.name);
+    let (columns, text) = cells::told_apart(columns)?;
+    let table = Table { path: path.to_owned(), columns, text, line_jumps };
+    match twice(&table) {
+        Some(name) => Err(TraceError::DuplicateColumn { at: At::file(path), name }),
+        None => Ok(table),
     }
-    if let Some(name) = twice(&table) {
-        return Err(TraceError::DuplicateColumn { at: At::file(path), name });
-    }
-    Ok(table)
 }
 
 /// What separates the cells of the first line that is no comment; quoted names do not count.
@@ -152,9 +156,6 @@ impl<W: Write> RowWriter<W> {
     }
 }
 
-const CUT_OFF: &str = "\n\nhint: the file ends here, it may have been cut off";
-const DECIMAL_COMMA: &str = "\n\nhint: write the decimal sign as a point";
-
 /// Names of the columns, from the first record.
 fn header(record: &ByteRecord, line: &Line) -> Result<Vec<String>, TraceError> {
     let refuse = |cell: usize, found: String, expected: &'static str| {
@@ -190,19 +191,9 @@ fn text_of(cell: &[u8]) -> String {
         .map_or_else(|_| cell.iter().map(|byte| char::from(*byte)).collect(), ToOwned::to_owned)
 }
 
-fn empty_table(names: Vec<String>, path: &Path) -> Table {
-    let columns = names.into_iter().map(|name| Column { name, values: Vec::new() }).collect();
-    Table { path: path.to_owned(), columns, line_jumps: Vec::new() }
-}
-
-/// Adds a row; `stamped` says which columns hold instants of a clock.
-fn push_row(
-    table: &mut Table,
-    stamped: &mut [bool],
-    record: &ByteRecord,
-    line: &Line,
-) -> Result<(), TraceError> {
-    let (found, expected) = (record.len(), table.columns.len());
+/// Adds a row.
+fn push_row(columns: &mut [Reading], record: &ByteRecord, line: &Line) -> Result<(), TraceError> {
+    let (found, expected) = (record.len(), columns.len());
     if found != expected {
         let hint = ragged_hint(record, expected, line);
         return Err(TraceError::Ragged { at: line.whole(), found, expected, hint });
@@ -210,86 +201,10 @@ fn push_row(
     if line.last && line.is_open() {
         return Err(TraceError::OpenQuote { at: line.whole() });
     }
-    let columns = table.columns.iter_mut().zip(stamped);
-    for (index, (cell, (column, stamped))) in record.iter().zip(columns).enumerate() {
-        match value(cell, column, stamped) {
-            Some(value) => column.values.push(value),
-            None => return Err(bad_cell(cell, &column.name, line, index)),
-        }
+    for (index, (cell, column)) in record.iter().zip(columns).enumerate() {
+        column.push(cell, line, index)?;
     }
     Ok(())
-}
-
-/// The next value of a column; its first cell decides whether it holds numbers or instants.
-fn value(cell: &[u8], column: &Column, stamped: &mut bool) -> Option<f64> {
-    let plain = number(cell);
-    if plain.is_some_and(|value| !*stamped || value.is_nan()) {
-        return plain;
-    }
-    let undecided = || column.values.iter().all(|value| value.is_nan());
-    if plain.is_some() || !(*stamped || undecided()) {
-        return None;
-    }
-    let instant = stamp::seconds(cell)?;
-    *stamped = true;
-    Some(instant)
-}
-
-/// The cell as a number, NaN when it is empty; `None` when it is anything but finite.
-fn number(cell: &[u8]) -> Option<f64> {
-    let bare = cell.trim_ascii();
-    if bare.len() < cell.len() && cell.contains(&b'\n') {
-        return None; // a quote was not closed on its line
-    }
-    if bare.is_empty() {
-        return Some(f64::NAN);
-    }
-    let value: f64 = std::str::from_utf8(bare).ok()?.parse().ok()?;
-    value.is_finite().then_some(value)
-}
-
-fn bad_cell(cell: &[u8], name: &str, line: &Line, index: usize) -> TraceError {
-    let found = String::from_utf8_lossy(cell.trim_ascii());
-    let unfinished = found.ends_with(['-', '+', 'e', 'E', '.']);
-    let hint = if line.last && unfinished { CUT_OFF } else { cell_hint(&found) };
-    TraceError::Cell { at: line.at(index), name: name.into(), found: shortened(&found), hint }
-}
-
-/// At most forty characters, so that a message stays a line.
-fn shortened(text: &str) -> String {
-    const LONGEST: usize = 40;
-    match text.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{}…", &text[..end]),
-        None => text.to_owned(),
-    }
-}
-
-/// Numbers with blanks between them.
-fn is_row(text: &str) -> bool {
-    text.split_whitespace().all(|word| word.parse::<f64>().is_ok())
-}
-
-/// A number beyond the largest that can be held.
-fn is_too_large(text: &str) -> bool {
-    text.parse::<f64>().is_ok_and(f64::is_infinite)
-}
-
-fn cell_hint(found: &str) -> &'static str {
-    let word = found.trim_start_matches(['+', '-']).to_ascii_lowercase();
-    let decimal_comma = found.contains(',') && found.replacen(',', ".", 1).parse::<f64>().is_ok();
-    if found.split_whitespace().nth(1).is_some() && is_row(found) {
-        "\n\nhint: put commas between cells"
-    } else if decimal_comma {
-        DECIMAL_COMMA
-    } else if matches!(word.as_str(), "nan" | "na" | "n/a" | "null" | "none" | "-" | "") {
-        "\n\nhint: leave the cell empty where a value is missing"
-    } else if found.starts_with('\u{2212}') {
-        "\n\nhint: write minus as `-`"
-    } else if matches!(word.as_str(), "inf" | "infinity") || is_too_large(found) {
-        "\n\nhint: only finite numbers can be used"
-    } else {
-        ""
-    }
 }
 
 fn ragged_hint(record: &ByteRecord, expected: usize, line: &Line) -> &'static str {
@@ -298,6 +213,8 @@ fn ragged_hint(record: &ByteRecord, expected: usize, line: &Line) -> &'static st
         CUT_OFF
     } else if record.len() == 2 * expected && record.iter().all(digits) {
         DECIMAL_COMMA
+    } else if expected == 1 {
+        "\n\nhint: put `#` before the lines above the header"
     } else {
         ""
     }

@@ -16,5 +16,5 @@ pub mod vcd;
 
 pub use capture::{Capture, CapturedSignal, read_capture};
 pub use error::{At, TraceError};
-pub use table::{Column, Table, read_table};
+pub use table::{Column, Table, TextColumn, read_table};
 pub use vcd::{Tick, Variable, VcdReader, VcdWriter};

@@ -66,7 +66,7 @@ fn read_columns(bytes: Vec<u8>, path: &Path) -> Result<Table, TraceError> {
         let values = read_column(&reader, index, descriptor, rows).map_err(broken)?;
         columns.push(Column { name, values });
     }
-    let table = Table { path: path.to_owned(), columns, line_jumps: Vec::new() };
+    let table = Table { path: path.to_owned(), columns, ..Table::default() };
     check_rows(&table)?;
     Ok(table)
 }

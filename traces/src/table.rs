@@ -14,6 +14,28 @@ pub struct Column {
     pub values: Vec<f64>,
 }
 
+/// A column that was left out because it holds words.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TextColumn {
+    /// Name as in the header.
+    pub name: String,
+    /// Its first word.
+    pub first: String,
+    /// Where that stands.
+    pub at: At,
+    /// What the likely reason is; empty, or a line of its own.
+    pub(crate) hint: &'static str,
+}
+
+impl TextColumn {
+    /// The refusal of this column, for who needs numbers of it.
+    #[must_use]
+    pub fn refused(&self) -> TraceError {
+        let Self { name, first, at, hint } = self.clone();
+        TraceError::Cell { at, name, found: first, hint }
+    }
+}
+
 /// Columns of equal length, in the order of the file.
 #[derive(Clone, Debug, Default)]
 pub struct Table {
@@ -21,6 +43,8 @@ pub struct Table {
     pub path: PathBuf,
     /// The columns.
     pub columns: Vec<Column>,
+    /// Columns of words, which are not among `columns`.
+    pub text: Vec<TextColumn>,
     /// `(row, line)` where the numbering of lines jumps; empty for formats without lines.
     pub(crate) line_jumps: Vec<(usize, usize)>,
 }
@@ -55,13 +79,18 @@ impl Table {
     ///
     /// # Errors
     ///
-    /// [`TraceError::NoColumn`] names the columns there are.
+    /// [`TraceError::NoColumn`] names the columns there are; [`TraceError::Cell`] when the column
+    /// holds words.
     pub fn require(&self, name: &str) -> Result<&[f64], TraceError> {
-        self.column(name).ok_or_else(|| TraceError::NoColumn {
-            path: self.path.clone(),
-            name: name.to_owned(),
-            found: self.names().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", "),
-        })
+        let missing = || match self.text.iter().find(|text| text.name == name) {
+            Some(text) => text.refused(),
+            None => TraceError::NoColumn {
+                path: self.path.clone(),
+                name: name.to_owned(),
+                found: self.names().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", "),
+            },
+        };
+        self.column(name).ok_or_else(missing)
     }
 
     /// Where a row (from 0) stands in its file; no line for formats that have none.
@@ -115,6 +144,10 @@ fn foreign_kind(bytes: &[u8]) -> Option<&'static str> {
         (b"$version", "a value change dump"),
         (b"$timescale", "a value change dump"),
     ];
+    // A sigrok session is a ZIP archive whose first file is called `version`.
+    if bytes.starts_with(b"PK\x03\x04") && bytes.get(30..37) == Some(b"version") {
+        return Some("a sigrok session (`sigrok-cli -i FILE -O vcd` makes a capture of it)");
+    }
     let known = KINDS.iter().find(|(start, _)| bytes.starts_with(start)).map(|(_, kind)| *kind);
     known.or_else(|| bytes.contains(&0).then_some("binary data"))
 }
@@ -147,6 +180,8 @@ mod tests {
     #[test]
     fn foreign_files_are_recognised() {
         assert_eq!(foreign_kind(b"PK\x03\x04rest"), Some("a spreadsheet or a ZIP archive"));
+        let session = [&b"PK\x03\x04"[..], &[0; 26], b"version"].concat();
+        assert!(foreign_kind(&session).is_some_and(|kind| kind.starts_with("a sigrok session")));
         assert_eq!(foreign_kind(b"a,b\n1,2\0\n"), Some("binary data"));
         assert_eq!(foreign_kind(b"a,b\n1,2\n"), None);
     }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::table::Column;
 
 fn read(text: &str) -> Result<Table, TraceError> {
     read_csv(text.as_bytes(), Path::new("data.csv"))
@@ -21,7 +22,7 @@ fn byte_order_mark_crlf_and_missing_cells() {
 #[test]
 fn a_bad_cell_is_named_by_line_and_column() {
     assert_eq!(
-        refusal("time_s,µ_um\r\n# µ\r\n1,  abc\r\n"),
+        refusal("time_s,µ_um\r\n# µ\r\n1,  abc\r\n2,1\r\n"),
         "data.csv:3:5: column `µ_um`: found `abc`, expected a number or an empty cell"
     );
 }
@@ -91,4 +92,27 @@ fn quoted_separators_separate_nothing() {
     write_csv(&table, &mut text).unwrap();
     assert_eq!(read_csv(&text, Path::new("data.csv")).unwrap().names().count(), 2);
     assert_eq!(read("\"a,b\";c\n1;2\n").unwrap().names().count(), 2);
+}
+
+#[test]
+fn a_column_of_words_is_left_out_and_remembered() {
+    let table = read("operator,error_um\n Li,1\n,2\nOtto,3\n").unwrap();
+    assert_eq!(table.names().collect::<Vec<_>>(), ["error_um"]);
+    assert_eq!((table.text[0].name.as_str(), table.text[0].first.as_str()), ("operator", "Li"));
+    let refused = table.require("operator").unwrap_err().to_string();
+    assert!(refused.starts_with("data.csv:2:2: column `operator`: found `Li`"), "{refused}");
+}
+
+#[test]
+fn a_word_among_numbers_is_a_mistake() {
+    let found = |text: &str| refusal(text).lines().next().unwrap().to_owned();
+    let expected = "expected a number or an empty cell";
+    assert_eq!(
+        found("a,b,c\n1,x,x\n2,x,3\n3,4,4\n5,x,x\n6,x,6\n"),
+        format!("data.csv:2:5: column `c`: found `x`, {expected}")
+    );
+    // What was meant to be a number is no word, nor is a file of words one of data.
+    for text in ["a,b\n1,5 mm\n2,6 mm\n", "a;b\n1;0,5\n2;0,6\n", "a,b\nx,y\nz,w\n"] {
+        assert!(found(text).ends_with(expected), "{text}");
+    }
 }
