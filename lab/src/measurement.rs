@@ -3,6 +3,7 @@
 mod coordinates;
 mod headers;
 mod passes;
+mod quantised;
 mod thinning;
 
 pub use thinning::means;
@@ -11,7 +12,7 @@ use std::collections::BTreeMap;
 
 use helixlock_plant::Machine;
 use helixlock_plant::prediction::Sensor;
-use helixlock_traces::Table;
+use helixlock_traces::{Table, TextColumn};
 
 use crate::error::LabError;
 
@@ -118,12 +119,16 @@ impl Measurement {
     /// A missing observation or coordinate, an observation of the other kind of machine,
     /// a direction that is no sign, or fewer than 16 usable samples.
     pub fn from_table(table: &Table, nominal: &Nominal) -> Result<Self, LabError> {
-        if let Some((understood, mut notes)) = headers::understood(table) {
-            let mut measurement = Self::from_named(&understood, nominal)?;
-            notes.append(&mut measurement.notes);
-            return Ok(Self { notes, ..measurement });
-        }
-        Self::from_named(table, nominal)
+        let mut notes = left_out(table)?;
+        let mut measurement = match headers::understood(table) {
+            Some((understood, more)) => {
+                notes.extend(more);
+                Self::from_named(&understood, nominal)?
+            }
+            None => Self::from_named(table, nominal)?,
+        };
+        notes.append(&mut measurement.notes);
+        Ok(Self { notes, ..measurement })
     }
 
     /// As [`Self::from_table`], for columns that have our names.
@@ -158,7 +163,7 @@ impl Measurement {
             ));
         }
         let passes = passes::split(table, &coordinates, &rows, &mut notes);
-        Ok(assemble(table, nominal, &coordinates, passes, notes))
+        Ok(assemble(table, nominal, &coordinates, passes, notes).without_treads())
     }
 
     /// Number of samples.
@@ -179,6 +184,12 @@ impl Measurement {
         if self.rotary { "arcsec" } else { "µm" }
     }
 
+    /// The same as files spell it.
+    #[must_use]
+    pub fn unit_word(&self) -> &'static str {
+        if self.rotary { "arcsec" } else { "um" }
+    }
+
     /// True when `name` is logged and takes more than one value.
     #[must_use]
     pub fn varies(&self, name: &str) -> bool {
@@ -192,6 +203,18 @@ pub fn spread(values: &[f64]) -> f64 {
     let low = values.iter().copied().fold(f64::INFINITY, f64::min);
     let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     if low <= high { high - low } else { 0.0 }
+}
+
+/// A note on every column of words; refuses those that should hold numbers.
+fn left_out(table: &Table) -> Result<Vec<String>, LabError> {
+    let note = |text: &TextColumn| {
+        if headers::is_known(&text.name) {
+            return Err(text.refused().into());
+        }
+        let TextColumn { name, first, .. } = text;
+        Ok(format!("column `{name}` holds words, the first `{first}`, and is left out"))
+    };
+    table.text.iter().map(note).collect()
 }
 
 fn check_kind(table: &Table, nominal: &Nominal, path: &str) -> Result<(), LabError> {

@@ -40,8 +40,13 @@ impl Structure {
     }
 }
 
-/// Probes are counted together; more than these are never made.
+/// Probes beside those of logged columns.
 const PROBES: f64 = 12.0;
+
+/// Number of probes, for they are counted together: every logged column is one more.
+fn probes(problem: &Problem) -> f64 {
+    PROBES + count(problem.measurement.covariates.len())
+}
 
 /// A chance smaller than this is structure.
 pub const SIGNIFICANCE: f64 = 1e-4;
@@ -116,20 +121,15 @@ fn probe(problem: &Problem, model: &Columns, fit: &Fit, raw: &[Vec<f64>]) -> (f6
     let before = rms(&problem.layout, &fit.left);
     let after = rms(&problem.layout, &wider.left);
     let size = (before * before - after * after).max(0.0).sqrt();
-    let mut p_value = tail(gain, width);
+    let mut p_value = (probes(problem) * chi_squared_tail(gain, width)).min(1.0);
     if MANY <= raw.len() && matters(size, before, p_value) {
-        p_value = (PROBES * calibration::chance(problem, model, fit, raw, gain)).min(1.0);
+        p_value = (probes(problem) * calibration::chance(problem, model, fit, raw, gain)).min(1.0);
     }
     (size, p_value)
 }
 
 /// Columns from which on χ² is too optimistic and the chance is found by trying noise.
 const MANY: usize = 6;
-
-/// Chance of a likelihood ratio with so many free numbers, all probes counted.
-fn tail(gain: f64, width: f64) -> f64 {
-    (PROBES * chi_squared_tail(gain, width)).min(1.0)
-}
 
 /// Chance that χ² with `freedom` degrees of freedom exceeds a value.
 #[must_use]
@@ -208,14 +208,14 @@ fn smooth_in_passes(problem: &Problem, model: &Columns, fit: &Fit) -> Option<Str
 fn repeats(problem: &Problem, fit: &Fit) -> Option<Structure> {
     let (correlation, chance) = crate::repeatability::repeatability(problem, fit)?;
     let rms_um = rms(&problem.layout, &fit.left) * correlation.max(0.0).sqrt();
-    let p_value = (PROBES * chance).min(1.0);
+    let p_value = (probes(problem) * chance).min(1.0);
     Some(Structure::without_place("position", "repeats from pass to pass", rms_um, p_value))
 }
 
 /// Several jumps, wherever they are.
 fn jumping(problem: &Problem, fit: &Fit) -> Option<Structure> {
     let (rms_um, chance) = crate::jumps::jumps(problem, fit)?;
-    let p_value = (PROBES * chance).min(1.0);
+    let p_value = (probes(problem) * chance).min(1.0);
     Some(Structure::without_place("time", "several jumps", rms_um, p_value))
 }
 
@@ -291,7 +291,7 @@ fn lines(problem: &Problem, fit: &Fit) -> Vec<Structure> {
                 along: along.to_owned(),
                 shape,
                 rms_um: line.amplitude / std::f64::consts::SQRT_2,
-                p_value: (PROBES * line.p_value).min(1.0),
+                p_value: (probes(problem) * line.p_value).min(1.0),
                 at: Some(line.frequency),
                 at_stderr: Some(line.frequency_stderr),
                 line: Some(line),

@@ -119,9 +119,18 @@ pub(super) fn understood(table: &Table) -> Option<(Table, Vec<String>)> {
     changed
 }
 
+/// True for a column that has one of our names, or can be given one.
+pub(super) fn is_known(name: &str) -> bool {
+    is_ours(name) || meaning(name).is_some()
+}
+
+fn is_ours(name: &str) -> bool {
+    helixlock_plant::COVARIATES.contains(&name) || super::NOT_COVARIATES.contains(&name)
+}
+
 /// Our name for a column, with factor and offset.
 fn meaning(name: &str) -> Option<(&'static str, f64, f64)> {
-    if helixlock_plant::COVARIATES.contains(&name) || super::NOT_COVARIATES.contains(&name) {
+    if is_ours(name) {
         return None;
     }
     let lower = name.trim().to_lowercase();

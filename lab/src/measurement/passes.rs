@@ -24,7 +24,7 @@ pub(crate) fn split(
     notes: &mut Vec<String>,
 ) -> Passes {
     let groups = match table.column("pass") {
-        Some(names) => by_name(names, rows, notes),
+        Some(names) => in_order_of_time(by_name(names, rows, notes), coordinates),
         None => by_jumps(coordinates, rows, notes),
     };
     let mut passes = Passes {
@@ -64,6 +64,23 @@ fn by_name(names: &[f64], rows: &[usize], notes: &mut Vec<String>) -> Vec<(f64, 
         notes.push(format!("{missing} rows without a pass are left out"));
     }
     groups.sort_by(|a, b| a.0.total_cmp(&b.0));
+    groups
+}
+
+/// Passes as they were taken where one clock ran through all of them, whatever they are called.
+fn in_order_of_time(
+    mut groups: Vec<(f64, Vec<usize>)>,
+    coordinates: &Coordinates,
+) -> Vec<(f64, Vec<usize>)> {
+    let span = |rows: &[usize]| {
+        let times = || rows.iter().map(|&row| coordinates.time_s[row]);
+        (times().fold(f64::INFINITY, f64::min), times().fold(f64::NEG_INFINITY, f64::max))
+    };
+    let mut spans: Vec<(f64, f64)> = groups.iter().map(|(_, rows)| span(rows)).collect();
+    spans.sort_by(|a, b| a.0.total_cmp(&b.0));
+    if coordinates.timed && spans.windows(2).all(|pair| pair[0].1 <= pair[1].0) {
+        groups.sort_by(|a, b| span(&a.1).0.total_cmp(&span(&b.1).0));
+    }
     groups
 }
 
