@@ -75,6 +75,8 @@ impl Learn {
             let page = pages::learn::page(&file.machine.title, &problem, &diagnosis, &check);
             let mut value = diagnosis_json::ledger(&book, &diagnosis, data);
             value["final_check"] = check.json();
+            value["title"] = Value::from(file.machine.title.as_str());
+            value["unit"] = Value::from(problem.measurement.unit_word());
             write_folder(folder, &book, &value, &page)?;
         }
         if self.json {
@@ -137,6 +139,7 @@ fn undo(folder: &Path, out: &mut impl Write) -> anyhow::Result<ExitCode> {
     let mut files = Batch::new(folder)?;
     files.write_content("machine.toml", machine)?;
     files.write_json("ledger.json", &book)?;
+    files.write_content("report.html", pages::undone::page(&book).html())?;
     files.keep()?;
     writeln!(out, "{added} taken back")?;
     Ok(ExitCode::SUCCESS)

@@ -54,6 +54,10 @@ fn rounds_are_kept_and_can_be_taken_back() {
         assert_eq!((undone.status, undone.stderr.as_str()), (0, ""));
         assert!(undone.stdout.ends_with(" taken back\n"), "{}", undone.stdout);
         assert_eq!(rounds[kept]["machine"], machine().as_str(), "{left} rounds are left");
+        let report = fs::read_to_string(out.join("report.html")).expect("a report");
+        let taken = rounds[kept + 1]["added"].as_str().expect("a name");
+        assert!(report.contains("taken back: "), "{report}");
+        assert!(!report.contains(&format!("+ {taken}")), "the picture still has {taken}");
     }
     assert_eq!(machine(), example("thermal-day/machine.toml"));
     let undone = helixlock(&["learn", "--undo", "-o", &out_word]);

@@ -11,3 +11,13 @@ pub(crate) fn kept_beside_source() -> Config {
         ..Config::default()
     }
 }
+
+/// A few cases of something slow; `PROPTEST_CASES` and `PROPTEST_RNG_SEED` make a campaign of them.
+pub(crate) fn few(cases: u32) -> Config {
+    let kept = kept_beside_source();
+    let campaign = Config::default();
+    match std::env::var_os("PROPTEST_CASES") {
+        Some(_) => Config { cases: campaign.cases, rng_seed: campaign.rng_seed, ..kept },
+        None => Config { cases, ..kept },
+    }
+}

@@ -5,7 +5,7 @@ use helixlock_lab::problem::Problem;
 use helixlock_report::{Page, Part, Table};
 
 use crate::closed_loop_check::Checked;
-use crate::pages::learn_pictures::{before_and_after, closed_loop, falling};
+use crate::pages::learn_pictures::{Left, before_and_after, closed_loop, falling};
 use crate::words::chance;
 
 /// The page.
@@ -22,7 +22,8 @@ pub(crate) fn page(title: &str, problem: &Problem, diagnosis: &Diagnosis, check:
             chance(left.p_value)
         ))
     }));
-    parts.push(falling(diagnosis, unit));
+    let left: Vec<Left> = diagnosis.rounds.iter().map(Left::from).collect();
+    parts.push(falling(&left, unit));
     parts.extend((0..problem.sensors.len()).map(|i| before_and_after(problem, diagnosis, i)));
     parts.extend(closed_loop(check));
     parts.extend(next(diagnosis, unit));

@@ -15,10 +15,28 @@ use crate::pages::spectrum;
 /// Samples shown closely: few enough that dots and curve stay apart.
 const CLOSE: usize = 150;
 
+/// What a round's model leaves.
+pub(crate) struct Left<'a> {
+    /// The effect it added.
+    pub(crate) added: Option<&'a str>,
+    /// Root mean square, µm (arcsec).
+    pub(crate) rms_um: f64,
+    /// The same on held-out data.
+    pub(crate) holdout_rms_um: f64,
+}
+
+impl<'a> From<&'a Round> for Left<'a> {
+    fn from(round: &'a Round) -> Self {
+        let Round { rms_um, holdout_rms_um, .. } = *round;
+        Self { added: round.added.as_deref(), rms_um, holdout_rms_um }
+    }
+}
+
 /// The error of each round's model.
-pub(crate) fn falling(diagnosis: &Diagnosis, unit: &str) -> Part {
-    let rounds = || (0_u32..).map(f64::from).zip(&diagnosis.rounds);
-    let series = |name, colour, style, value: fn(&Round) -> f64| {
+pub(crate) fn falling(rounds: &[Left], unit: &str) -> Part {
+    let all = rounds;
+    let rounds = || (0_u32..).map(f64::from).zip(all);
+    let series = |name, colour, style, value: fn(&Left) -> f64| {
         Series::new(name, colour, style, rounds().map(|(n, round)| [n, value(round)]))
     };
     let series = vec![
@@ -36,10 +54,10 @@ pub(crate) fn falling(diagnosis: &Diagnosis, unit: &str) -> Part {
     panel.labels = rounds()
         .map(|(n, round)| Label {
             at: [n, round.rms_um.max(round.holdout_rms_um) + 0.04 * highest],
-            text: round.added.as_ref().map_or("as it is".into(), |added| format!("+ {added}")),
+            text: round.added.map_or("as it is".into(), |added| format!("+ {added}")),
         })
         .collect();
-    let rises = diagnosis.rounds.windows(2).any(|pair| pair[0].rms_um < pair[1].rms_um);
+    let rises = all.windows(2).any(|pair| pair[0].rms_um < pair[1].rms_um);
     let hidden = if rises {
         " Two effects that hide each other are found together; the first of them alone leaves more."
     } else {

@@ -9,4 +9,5 @@ pub(crate) mod sim;
 mod spectrum;
 pub(crate) mod straightness;
 pub(crate) mod transmission;
+pub(crate) mod undone;
 mod waveforms;
