@@ -40,12 +40,12 @@ pub fn amplitude_spectrum(problem: &Problem, left: &[f64], sensor: usize) -> Vec
     )]
     let points = (0.5 * usual_rate(&turns) / step).clamp(4.0, MOST_POINTS) as usize;
     let rows = count(values.len());
-    let sums = fourier::sums(&turns, &values, step, points);
+    let sizes = fourier::sizes(&turns, &values, step, points);
     let orders = (0..points).map(|index| step * count(index));
     orders
-        .zip(sums)
+        .zip(sizes)
         .filter(|(order, _)| 1.5 / range <= *order)
-        .map(|(order, sum)| [order, 2.0 * sum.norm() / rows])
+        .map(|(order, size)| [order, 2.0 * size / rows])
         .collect()
 }
 

@@ -288,6 +288,9 @@ pub fn tried(problem: &Problem, now: &State) -> Vec<Judged> {
     let white = Stage::new(problem, &now.columns, &plain_noises(problem, &now.fit));
     let first = judged_shortlist(problem, now, &[trials(&white, now), trials(&coloured, now)]);
     let Some(best) = first.first() else { return first };
+    if best.fit.noises.iter().zip(&now.fit.noises).all(|(a, b)| a.is_like(b)) {
+        return first;
+    }
     // Under the noise that the best one leaves, its rivals show what they can really do.
     let clear = Stage::new(problem, &now.columns, &best.fit.noises);
     let again = trials(&clear, now);
@@ -324,7 +327,10 @@ fn judged_shortlist(problem: &Problem, now: &State, lists: &[Vec<Trial>]) -> Vec
         let near = |place: usize, trial: &Trial| place < SHORTLIST || 0.7 * best < trial.gain;
         for (place, trial) in list.iter().enumerate() {
             if near(place, trial) {
-                chosen.entry(trial.component.term.name.clone()).or_default().push(trial);
+                let known = chosen.entry(trial.component.term.name.clone()).or_default();
+                if !known.iter().any(|other| trial.leaves_as_much_as(other)) {
+                    known.push(trial);
+                }
             }
         }
         tried = tried.max(count(list.len()));

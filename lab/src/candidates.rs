@@ -5,7 +5,7 @@ use helixlock_plant::{CATALOGUE, Entry, Formula, Machine, Parameter, Search, Ter
 use crate::component::Component;
 use crate::count;
 use crate::measurement::spread;
-use crate::order_spectrum::Scan;
+use crate::order_spectrum::{Scan, strongest_first};
 use crate::problem::Problem;
 use crate::stage::Stage;
 
@@ -230,13 +230,15 @@ fn frequencies(stage: &Stage<'_>, low: f64, high: f64) -> Vec<f64> {
     const MOST: usize = 16;
     let times = row_times(stage.problem);
     let scan = time_scan(stage, &times, low, high);
-    let mut points = scan.spectrum(&stage.target[..times.len()]);
-    points.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+    let resolution = scan.resolution();
     let mut peaks: Vec<f64> = Vec::new();
-    for point in points {
-        let apart = |known: &f64| scan.resolution() < (known - point.frequency).abs();
-        if peaks.len() < MOST && peaks.iter().all(apart) {
+    for point in strongest_first(scan.spectrum(&stage.target[..times.len()])) {
+        let apart = |known: &f64| resolution < (known - point.frequency).abs();
+        if peaks.iter().all(apart) {
             peaks.push(point.frequency);
+        }
+        if peaks.len() == MOST {
+            break;
         }
     }
     peaks

@@ -27,6 +27,9 @@ pub struct Columns {
     pub fixed: Option<Vec<f64>>,
 }
 
+/// Columns whitened at once, so that two threads share what a fit has.
+const TOGETHER: usize = 8;
+
 impl Columns {
     /// Columns of some components.
     ///
@@ -72,15 +75,27 @@ impl Columns {
     /// Whitened with one more row a prior, so that plain least squares obeys it.
     #[must_use]
     pub fn whitened(&self, whitener: &Whitener) -> Vec<Vec<f64>> {
+        let together = |part: &[&[f64]]| whitener.whiten_all(part);
         let mut white: Vec<Vec<f64>> =
-            self.raw.par_iter().map(|column| whitener.whiten(column)).collect();
+            self.views().par_chunks(TOGETHER).flat_map_iter(together).collect();
+        self.hold_to_priors(&mut white);
+        white
+    }
+
+    /// The columns as slices.
+    #[must_use]
+    pub fn views(&self) -> Vec<&[f64]> {
+        self.raw.iter().map(Vec::as_slice).collect()
+    }
+
+    /// Lengthens whitened columns by one row a prior.
+    pub fn hold_to_priors(&self, white: &mut [Vec<f64>]) {
         for (index, prior) in self.priors.iter().enumerate() {
             let Some((_, deviation)) = prior else { continue };
             for (other, column) in white.iter_mut().enumerate() {
                 column.push(if other == index { 1.0 / deviation } else { 0.0 });
             }
         }
-        white
     }
 
     /// The whitened target with the rows of the priors.

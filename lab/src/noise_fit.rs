@@ -3,10 +3,12 @@
 //! Restricted: the offsets of the passes are projected out and counted, so that short passes do
 //! not make the noise look smaller than it is (Patterson and Thompson 1971).
 
+use nalgebra::SVector;
+
 use crate::count;
 use crate::layout::Layout;
-use crate::noise::{Noise, SlowPart, square_and_log_determinant};
-use crate::simplex::{Search, minimise};
+use crate::noise::{Noise, SlowPart, squares_and_log_determinants};
+use crate::quasi_newton::{Descent, minimise};
 
 /// A fitted noise model with its log likelihood.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,6 +21,13 @@ pub struct NoiseFit {
 
 /// Longest correlation tried, against the longest block: beyond it a random walk looks alike.
 const LONGEST_AGAINST_BLOCK: f64 = 3.0;
+
+/// Logarithm of the shortest length tried, in sample intervals: anything shorter is white.
+const SHORTEST: f64 = -1.0;
+
+/// Least distance of the logarithms of two lengths that a search begins with: nearer ones are as
+/// good as one, and a length at its bound has nothing beyond it.
+const ROOM: f64 = 0.5;
 
 /// Fits the noise of one sensor to its residual.
 ///
@@ -42,28 +51,35 @@ pub fn fit_noise(layout: &Layout, residual: &[f64], warm: Option<&Noise>) -> Noi
 }
 
 fn adjusted(layout: &Layout, residual: &[f64], warm: &Noise) -> NoiseFit {
-    let start: Vec<f64> = warm
-        .slow
-        .iter()
-        .flat_map(|part| {
-            [libm::log((part.variance / warm.white).max(1e-6)), libm::log(part.length)]
-        })
-        .collect();
-    searched(layout, residual, &start, longest_block(layout).max(2.0), 0.4)
+    let of = |part: &SlowPart| {
+        [libm::log((part.variance / warm.white).max(1e-6)), libm::log(part.length)]
+    };
+    let span = longest_block(layout).max(2.0);
+    match warm.slow.as_slice() {
+        [one] => searched(layout, residual, of(one), span),
+        [one, two, ..] => searched(layout, residual, joined(of(one), of(two)), span),
+        [] => profile(layout, residual, &Noise::white()),
+    }
 }
 
 fn one_part(layout: &Layout, residual: &[f64], span: f64) -> NoiseFit {
     let starts = [[0.0, libm::log(3.0)], [0.0, libm::log((0.2 * span).max(4.0))]];
-    best_of(starts.iter().map(|start| searched(layout, residual, start, span, 1.0)))
+    best_of(starts.into_iter().map(|start| searched(layout, residual, start, span)))
 }
 
 fn two_parts(layout: &Layout, residual: &[f64], one: &Noise, span: f64) -> NoiseFit {
     let part = one.slow.first().copied().unwrap_or(SlowPart { variance: 1.0, length: 3.0 });
     let known = [libm::log((part.variance / one.white).max(1e-6)), libm::log(part.length)];
     let longer = [known[0] - 1.0, (known[1] + 2.5).min(libm::log(span))];
-    let shorter = [known[0] - 1.0, (known[1] - 2.0).max(-1.0)];
-    let starts = [longer, shorter].map(|other| [known[0], known[1], other[0], other[1]]);
-    best_of(starts.iter().map(|start| searched(layout, residual, start, span, 1.0)))
+    let shorter = [known[0] - 1.0, (known[1] - 2.0).max(SHORTEST)];
+    let longer = (known[1] + ROOM < longer[1]).then_some(longer);
+    let shorter = (shorter[1] < known[1] - ROOM).then_some(shorter);
+    let starts = longer.into_iter().chain(shorter).map(|other| joined(known, other));
+    best_of(starts.map(|start| searched(layout, residual, start, span)))
+}
+
+fn joined(one: [f64; 2], two: [f64; 2]) -> [f64; 4] {
+    [one[0], one[1], two[0], two[1]]
 }
 
 fn best_of(fits: impl Iterator<Item = NoiseFit>) -> NoiseFit {
@@ -71,31 +87,49 @@ fn best_of(fits: impl Iterator<Item = NoiseFit>) -> NoiseFit {
         .unwrap_or(NoiseFit { noise: Noise::white(), log_likelihood: f64::NEG_INFINITY })
 }
 
-fn searched(layout: &Layout, residual: &[f64], start: &[f64], span: f64, edge: f64) -> NoiseFit {
-    let shape = |point: &[f64]| shaped(point, span);
-    let search = Search { evaluations: 24 * start.len(), tolerance: 0.05 };
-    let steps = vec![edge; start.len()];
-    let (point, _) =
-        minimise(|p| -profile(layout, residual, &shape(p)).log_likelihood, start, &steps, search);
-    profile(layout, residual, &shape(&point))
+/// How far a parameter may go at once, and what the likelihood may still gain at the end.
+const DESCENT: Descent = Descent { iterations: 24, longest: 1.5, tolerance: 0.02 };
+
+fn searched<const D: usize>(
+    layout: &Layout,
+    residual: &[f64],
+    start: [f64; D],
+    span: f64,
+) -> NoiseFit {
+    let losses = |points: &[SVector<f64, D>]| {
+        let shapes: Vec<Noise> =
+            points.iter().map(|point| shaped(point.as_slice(), span)).collect();
+        profiles(layout, residual, &shapes).into_iter().map(|fit| -fit.log_likelihood).collect()
+    };
+    let point = minimise(losses, SVector::from(start), DESCENT);
+    profile(layout, residual, &shaped(point.as_slice(), span))
 }
 
 /// Noise of white variance 1 from log variances and log lengths, kept within sensible bounds.
 fn shaped(point: &[f64], span: f64) -> Noise {
     let slow = point.chunks_exact(2).map(|pair| SlowPart {
         variance: libm::exp(pair[0].clamp(-12.0, 14.0)),
-        length: libm::exp(pair[1].clamp(-1.0, libm::log(LONGEST_AGAINST_BLOCK * span))),
+        length: libm::exp(pair[1].clamp(SHORTEST, libm::log(LONGEST_AGAINST_BLOCK * span))),
     });
     Noise { white: 1.0, slow: slow.collect() }
 }
 
-/// The likelihood of a noise shape, its scale at its best value.
-fn profile(layout: &Layout, residual: &[f64], shape: &Noise) -> NoiseFit {
-    let (square, log_determinant) = square_and_log_determinant(layout, shape, residual);
+/// The likelihood of noise shapes with equally many parts, their scales at their best values.
+fn profiles(layout: &Layout, residual: &[f64], shapes: &[Noise]) -> Vec<NoiseFit> {
     let freedom = count(layout.len().saturating_sub(layout.blocks.len())).max(1.0);
-    let scale = (square / freedom).max(f64::MIN_POSITIVE);
-    let log_likelihood = -0.5 * (freedom * (libm::log(scale) + 1.0) + log_determinant);
-    NoiseFit { noise: shape.scaled(scale), log_likelihood }
+    let swept = squares_and_log_determinants(layout, shapes, residual);
+    let with_shape = swept.into_iter().zip(shapes);
+    with_shape
+        .map(|((square, log_determinant), shape)| {
+            let scale = (square / freedom).max(f64::MIN_POSITIVE);
+            let log_likelihood = -0.5 * (freedom * (libm::log(scale) + 1.0) + log_determinant);
+            NoiseFit { noise: shape.scaled(scale), log_likelihood }
+        })
+        .collect()
+}
+
+fn profile(layout: &Layout, residual: &[f64], shape: &Noise) -> NoiseFit {
+    best_of(profiles(layout, residual, std::slice::from_ref(shape)).into_iter())
 }
 
 fn longest_block(layout: &Layout) -> f64 {

@@ -60,6 +60,12 @@ pub struct Point {
 /// Scan points a frequency resolution cell; three lose at most a tenth of a peak's gain.
 const POINTS_A_CELL: f64 = 3.0;
 
+/// Share of the best gain below which a peak of the scan is not settled.
+const HOPELESS: f64 = 0.5;
+
+/// Points that are put in order first; a search seldom needs more.
+const ORDERED: usize = 512;
+
 /// Most scan points; a scan for more covers the lowest ones.
 const MOST_POINTS: usize = 1 << 17;
 
@@ -82,17 +88,17 @@ impl Scan<'_> {
         let step = self.resolution() / POINTS_A_CELL;
         let points = self.points(step);
         let weighted = self.whitener.unwhiten(white);
-        let sums = fourier::sums(self.turns, &weighted, step, points);
+        let sizes = fourier::sizes(self.turns, &weighted, step, points);
         let stretches = self.stretches();
         let mut spectrum = Vec::with_capacity(points);
-        for (index, sum) in sums.iter().enumerate() {
+        for (index, size) in sizes.iter().enumerate() {
             let frequency = step * count(index);
             if frequency < self.lowest {
                 continue;
             }
             let information: f64 = stretches.iter().map(|s| s.information(frequency)).sum();
-            let power = sum.norm_sqr() / information.max(f64::MIN_POSITIVE);
-            let amplitude = sum.norm() / information.max(f64::MIN_POSITIVE);
+            let power = size * size / information.max(f64::MIN_POSITIVE);
+            let amplitude = size / information.max(f64::MIN_POSITIVE);
             spectrum.push(Point { frequency, amplitude, gain: power });
         }
         spectrum
@@ -144,13 +150,16 @@ impl Scan<'_> {
 
     fn strongest_in_band(&self, white: &[f64]) -> Option<Line> {
         let spectrum = self.spectrum(white);
-        let mut peaks: Vec<&Point> = spectrum.iter().collect();
-        peaks.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+        let peaks = strongest_first(spectrum);
         let mut tried: Vec<f64> = Vec::new();
         let mut best: Option<(f64, f64)> = None;
         for peak in peaks {
             if tried.iter().any(|known| (known - peak.frequency).abs() < self.resolution()) {
                 continue;
+            }
+            // A scan shows every peak at nine tenths of its gain at least.
+            if best.is_some_and(|(_, gain)| peak.gain < HOPELESS * gain) {
+                break;
             }
             tried.push(peak.frequency);
             let refined = self.settled(white, peak.frequency);
@@ -182,7 +191,8 @@ impl Scan<'_> {
     fn wave(&self, frequency: f64) -> [Vec<f64>; 2] {
         let pairs = self.turns.iter().map(|u| libm::sincos(std::f64::consts::TAU * frequency * u));
         let (sine, cosine): (Vec<f64>, Vec<f64>) = pairs.unzip();
-        [self.whitener.whiten(&sine), self.whitener.whiten(&cosine)]
+        let white = self.whitener.whiten_all(&[&sine, &cosine]);
+        <[Vec<f64>; 2]>::try_from(white).unwrap_or_default()
     }
 
     /// Amplitude, phase and all standard errors of the sinusoid at a settled frequency.
@@ -237,7 +247,7 @@ impl Scan<'_> {
         points + 1
     }
 
-    fn stretches(&self) -> Vec<Stretch<'_>> {
+    fn stretches(&self) -> Vec<Stretch> {
         let blocks = self.layout.blocks.iter().filter(|block| 1 < block.rows.len());
         blocks
             .map(|block| {
@@ -245,7 +255,7 @@ impl Scan<'_> {
                 let clock = self.layout.clock[last] - self.layout.clock[first];
                 let turns = crate::measurement::spread(&self.turns[block.rows.clone()]);
                 Stretch {
-                    noise: &self.noises[block.sensor],
+                    density: Density::of(&self.noises[block.sensor]),
                     rows: count(block.rows.len()),
                     cycles_a_sample: turns / clock.max(f64::MIN_POSITIVE),
                 }
@@ -255,28 +265,60 @@ impl Scan<'_> {
 }
 
 /// A block as the spectrum sees it: so many samples under noise of known colour.
-struct Stretch<'a> {
-    noise: &'a Noise,
+struct Stretch {
+    density: Density,
     rows: f64,
     cycles_a_sample: f64,
 }
 
-impl Stretch<'_> {
+impl Stretch {
     /// Information a sinusoid of frequency `f` gets here: half the samples over the noise density.
     fn information(&self, frequency: f64) -> f64 {
-        0.5 * self.rows / density(self.noise, frequency * self.cycles_a_sample)
+        0.5 * self.rows / self.density.at(frequency * self.cycles_a_sample)
     }
 }
 
-/// Power density of evenly sampled noise at a frequency in cycles a sample, white level = white.
-#[must_use]
-pub fn density(noise: &Noise, cycles: f64) -> f64 {
-    let wave = libm::cos(std::f64::consts::TAU * cycles);
-    let slow = noise.slow.iter().map(|part| {
-        let kept = libm::exp(-1.0 / part.length);
-        part.variance * (1.0 - kept * kept) / (1.0 - 2.0 * kept * wave + kept * kept)
+/// Points in the order of their gains.
+pub fn strongest_first(mut points: Vec<Point>) -> impl Iterator<Item = Point> {
+    let falling = |a: &Point, b: &Point| b.gain.total_cmp(&a.gain);
+    let first = ORDERED.min(points.len());
+    if first < points.len() {
+        points.select_nth_unstable_by(first, falling);
+    }
+    let mut rest = points.split_off(first);
+    points.sort_by(falling);
+    // The rest is put in order only if somebody asks for it.
+    let rest = std::iter::once_with(move || {
+        rest.sort_by(falling);
+        rest
     });
-    noise.white + slow.sum::<f64>()
+    points.into_iter().chain(rest.flatten())
+}
+
+/// Power density of evenly sampled noise.
+struct Density {
+    white: f64,
+    /// Variance of each slow part, and what an interval leaves of it.
+    slow: Vec<(f64, f64)>,
+}
+
+impl Density {
+    fn of(noise: &Noise) -> Self {
+        let slow = noise.slow.iter().map(|part| (part.variance, libm::exp(-1.0 / part.length)));
+        Self { white: noise.white, slow: slow.collect() }
+    }
+
+    /// At a frequency in cycles a sample; that of white noise is its variance.
+    fn at(&self, cycles: f64) -> f64 {
+        if self.slow.is_empty() {
+            return self.white;
+        }
+        let wave = libm::cos(std::f64::consts::TAU * cycles);
+        let slow = self.slow.iter().map(|(variance, kept)| {
+            variance * (1.0 - kept * kept) / (1.0 - 2.0 * kept * wave + kept * kept)
+        });
+        self.white + slow.sum::<f64>()
+    }
 }
 
 /// Chance of a gain of two columns as large at any of `looks` places in noise of known colour.

@@ -317,14 +317,14 @@ fn step(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
     for (along, values) in axes {
         let places = quantiles(values, 200);
         let stage = crate::stage::Stage::new(problem, model, &fit.noises);
-        let best = places
-            .iter()
-            .map(|&place| {
-                let raw = stacked(problem, &[above(values, place)]);
-                (place, stage.gain(&Columns::free(raw)).gain)
-            })
-            .max_by(|a, b| a.1.total_cmp(&b.1));
-        let Some((place, _)) = best else { continue };
+        let columns = |place: &f64| Columns::free(stacked(problem, &[above(values, *place)]));
+        let gains = |some: &[f64]| {
+            let columns: Vec<Columns> = some.iter().map(columns).collect();
+            stage.gains(&columns.iter().collect::<Vec<_>>())
+        };
+        let gains = places.chunks(16).flat_map(gains).map(|gain| gain.gain);
+        let best = places.iter().zip(gains).max_by(|a, b| a.1.total_cmp(&b.1));
+        let Some((&place, _)) = best else { continue };
         let raw = stacked(problem, &[above(values, place)]);
         let (rms_um, p_value) = probe(problem, model, fit, &raw);
         found.push(Structure {

@@ -5,6 +5,7 @@ use std::ops::Range;
 use helixlock_plant::prediction::{Sensor, gain, meter_um, observe, predict};
 use helixlock_plant::{Effect, EffectError, Entry, Machine, Record, Samples, Term};
 
+use crate::designs::Designs;
 use crate::finer::Finer;
 use crate::layout::{Block, Layout};
 use crate::measurement::Measurement;
@@ -47,6 +48,8 @@ pub struct Problem {
     pub highest_order: f64,
     /// Highest frequency in time that the samples resolve, Hz.
     pub highest_hz: f64,
+    /// Columns of effects on these samples; they depend on the machine and the record alone.
+    pub designs: Designs,
 }
 
 impl Problem {
@@ -90,6 +93,7 @@ impl Problem {
             extra: Vec::new(),
             highest_order: 0.0,
             highest_hz: 0.0,
+            designs: Designs::default(),
         };
         let turns: Vec<f64> = problem.record.turns().collect();
         problem.highest_order = highest_frequency(&turns);
@@ -112,7 +116,8 @@ impl Problem {
     ///
     /// As [`Self::new`].
     pub fn with_machine(&self, machine: &Machine) -> Result<Self, EffectError> {
-        let mut problem = Self { machine: machine.clone(), ..self.clone() };
+        let designs = Designs::default();
+        let mut problem = Self { machine: machine.clone(), designs, ..self.clone() };
         problem.predict()?;
         Ok(problem)
     }
@@ -131,15 +136,14 @@ impl Problem {
             .iter()
             .map(|&sensor| observe(&self.machine, &self.record, entry, sensor, deltas))
             .collect();
-        self.layout
-            .blocks
-            .iter()
-            .flat_map(|block| {
-                let shown = &shown[block.sensor];
-                let factor = self.unit(self.sensors[block.sensor]);
-                block.rows.clone().map(move |row| factor * shown[self.rows[row].sample])
-            })
-            .collect()
+        let mut column = Vec::with_capacity(self.rows.len());
+        for block in &self.layout.blocks {
+            let shown = &shown[block.sensor];
+            let factor = self.unit(self.sensors[block.sensor]);
+            let rows = &self.rows[block.rows.clone()];
+            column.extend(rows.iter().map(|row| factor * shown[row.sample]));
+        }
+        column
     }
 
     /// True when some sensor sees an entry.
@@ -241,6 +245,10 @@ pub struct Design {
     pub fixed: Option<Vec<f64>>,
 }
 
+/// Intervals this near to the usual one, as a share of it, are taken for it: times are written with
+/// so many digits, and no noise knows the difference.
+const WRITTEN: f64 = 1e-3;
+
 /// Clock of the noise in median intervals: time if it was logged, else the count of samples.
 fn clock(measurement: &Measurement) -> Vec<f64> {
     let time = &measurement.time_s;
@@ -253,7 +261,13 @@ fn clock(measurement: &Measurement) -> Vec<f64> {
         .collect();
     let usual = noise_fit::median(&mut intervals);
     if measurement.timed && 0.0 < usual {
-        return time.iter().map(|t| t / usual).collect();
+        let mut clock = time.first().map_or(0.0, |first| first / usual);
+        let later = time.windows(2).map(|pair| {
+            let interval = (pair[1] - pair[0]) / usual;
+            clock += if (interval - 1.0).abs() < WRITTEN { 1.0 } else { interval };
+            clock
+        });
+        return time.first().map(|first| first / usual).into_iter().chain(later).collect();
     }
     (0..time.len()).map(count).collect()
 }

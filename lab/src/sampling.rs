@@ -40,11 +40,11 @@ pub fn highest_frequency(coordinate: &[f64]) -> f64 {
         clippy::cast_sign_loss,
         reason = "clamped to small positive numbers"
     )]
-    let window = fourier::sums(coordinate, &vec![1.0; coordinate.len()], step, points as usize);
+    let window = fourier::sizes(coordinate, &vec![1.0; coordinate.len()], step, points as usize);
     let returns = window
         .iter()
         .enumerate()
-        .map(|(index, sum)| (step * count(index), sum.norm() / count(coordinate.len())))
+        .map(|(index, size)| (step * count(index), size / count(coordinate.len())))
         .find(|(frequency, size)| 0.6 * rate < *frequency && ALIKE < *size);
     let end = step * points;
     returns.map_or(end, |(frequency, _)| frequency).max(rate) * 0.5

@@ -1,5 +1,7 @@
 //! A model and its noise held fixed while many candidates are tried on what it leaves.
 
+use std::borrow::Cow;
+
 use crate::fit::Columns;
 use crate::least_squares::{self, LinearFit, dot};
 use crate::noise::{Noise, Whitener};
@@ -18,6 +20,8 @@ pub struct Stage<'a> {
     basis: Vec<Vec<f64>>,
     /// Whitened residual of the model, with the rows of its priors.
     pub target: Vec<f64>,
+    /// Its square.
+    square: f64,
 }
 
 /// What a candidate takes away under the stage's noise.
@@ -37,35 +41,41 @@ impl<'a> Stage<'a> {
         let basis = orthonormal(model.whitened(&whitener));
         let mut target = model.target(&whitener, &problem.residual());
         project(&basis, &mut target);
-        Self { problem, noises: noises.to_vec(), whitener, basis, target }
-    }
-
-    /// Whitened columns of a candidate, free of what the model explains.
-    #[must_use]
-    pub fn cleared(&self, columns: &Columns) -> Vec<Vec<f64>> {
-        let rows = self.problem.rows.len();
-        let mut white = columns.whitened(&self.whitener);
-        for column in &mut white {
-            let priors = column.split_off(rows);
-            column.resize(self.target.len(), 0.0);
-            project(&self.basis, column);
-            column.extend(priors);
-        }
-        white
+        let square = dot(&target, &target);
+        Self { problem, noises: noises.to_vec(), whitener, basis, target, square }
     }
 
     /// Gain of a candidate's columns.
     #[must_use]
     pub fn gain(&self, columns: &Columns) -> Gain {
-        let white = self.cleared(columns);
+        self.gain_of(columns, self.whitener.whiten_all(&columns.views()))
+    }
+
+    /// Gains of several candidates, each by itself; their columns are whitened together.
+    #[must_use]
+    pub fn gains(&self, candidates: &[&Columns]) -> Vec<Gain> {
+        let views: Vec<&[f64]> = candidates.iter().flat_map(|columns| columns.views()).collect();
+        let mut white = self.whitener.whiten_all(&views).into_iter();
+        let mut own = |columns: &&Columns| white.by_ref().take(columns.raw.len()).collect();
+        candidates.iter().map(|columns| self.gain_of(columns, own(columns))).collect()
+    }
+
+    fn gain_of(&self, columns: &Columns, mut white: Vec<Vec<f64>>) -> Gain {
+        for column in &mut white {
+            column.resize(self.target.len(), 0.0);
+            project(&self.basis, column);
+        }
+        columns.hold_to_priors(&mut white);
         let views: Vec<&[f64]> = white.iter().map(Vec::as_slice).collect();
         let fit = least_squares::fit(&views, &self.target_for(columns));
-        Gain { gain: dot(&self.target, &self.target) - fit.residual_square, fit }
+        Gain { gain: self.square - fit.residual_square, fit }
     }
 
     /// The target without a candidate's fixed part, with the rows of its priors.
-    #[must_use]
-    pub fn target_for(&self, columns: &Columns) -> Vec<f64> {
+    fn target_for(&self, columns: &Columns) -> Cow<'_, [f64]> {
+        if columns.fixed.is_none() && columns.priors.iter().all(Option::is_none) {
+            return Cow::Borrowed(&self.target);
+        }
         let mut target = self.target.clone();
         if let Some(fixed) = &columns.fixed {
             let mut white = self.whitener.whiten(fixed);
@@ -75,7 +85,7 @@ impl<'a> Stage<'a> {
         }
         let priors = columns.priors.iter().flatten();
         target.extend(priors.map(|(mean, deviation)| mean / deviation));
-        target
+        Cow::Owned(target)
     }
 }
 

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use crate::candidates::{Candidate, between_samples};
 use crate::component::Component;
 use crate::count;
+use crate::designs::usable;
 use crate::fit::Columns;
 use crate::simplex::{self, minimise};
 use crate::stage::{Gain, Stage};
@@ -31,23 +32,85 @@ impl Trial {
     }
 }
 
+/// Relative difference of coefficients below which two trials leave the same noise.
+const ALIKE: f64 = 0.01;
+
+impl Trial {
+    /// True when another trial has the same columns and hardly other coefficients: what a fit
+    /// begins with is then the same, and so is where it ends.
+    #[must_use]
+    pub fn leaves_as_much_as(&self, other: &Self) -> bool {
+        let (own, others) = (&self.component, &other.component);
+        let alike = |(a, b): (&f64, &f64)| (a - b).abs() <= ALIKE * a.abs().max(b.abs());
+        own.term.nonlinear() == others.term.nonlinear()
+            && own.kept == others.kept
+            && own.whole == others.whole
+            && self.coefficients.len() == other.coefficients.len()
+            && self.coefficients.iter().zip(&other.coefficients).all(alike)
+    }
+}
+
 /// The best of one candidate; `None` when it explains nothing.
 #[must_use]
 pub fn try_candidate(stage: &Stage<'_>, candidate: &Candidate) -> Option<Trial> {
-    let gains: Vec<f64> = (0..candidate.grid.len())
-        .into_par_iter()
-        .map(|point| gain_at(stage, &Component::new(candidate.at(point))).map_or(0.0, |g| g.gain))
-        .collect();
-    let mut order: Vec<usize> = (0..gains.len()).collect();
-    order.sort_by(|&a, &b| gains[b].total_cmp(&gains[a]));
-    let starts = order.into_iter().take(3).filter(|&point| 0.0 < gains[point]);
-    let refined = starts.map(|point| refined(stage, candidate, point));
+    let gains = gains_of(stage, &stage.problem.designs.of(stage.problem, candidate));
+    let starts = starts(&candidate.grid, &gains);
+    let refined = starts.into_iter().map(|point| refined(stage, candidate, point));
     let term = refined.max_by(|a, b| a.1.total_cmp(&b.1))?.0;
     let component = reduced(stage, Component::new(term));
     let (component, choices) = counted(stage, component)?;
     let best = gain_at(stage, &component)?;
     let coefficients = best.fit.coefficients;
     Some(Trial { component, gain: best.gain, looks: candidate.looks * choices, coefficients })
+}
+
+/// Columns whose gains are worked out together.
+const TOGETHER: usize = 16;
+
+/// Gains of many columns; nothing is gained by those that say nothing.
+fn gains_of(stage: &Stage<'_>, all: &[Option<Columns>]) -> Vec<f64> {
+    let of = |some: &[Option<Columns>]| {
+        let usable: Vec<&Columns> = some.iter().flatten().collect();
+        let mut gains = stage.gains(&usable).into_iter().map(|gain| gain.gain);
+        let gain = |columns: &Option<Columns>| {
+            columns.as_ref().and_then(|_| gains.next()).unwrap_or_default()
+        };
+        some.iter().map(gain).collect::<Vec<f64>>()
+    };
+    all.par_chunks(TOGETHER).flat_map_iter(of).collect()
+}
+
+/// Share of the best gain of a grid from which a place may lead further up than the best.
+const HOPEFUL: f64 = 0.5;
+
+/// Places of a grid where it is worth looking further: the three best, without those next to a
+/// better one, which lead to the same top.
+fn starts(grid: &[Vec<f64>], gains: &[f64]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..gains.len()).filter(|&point| 0.0 < gains[point]).collect();
+    order.sort_by(|&a, &b| gains[b].total_cmp(&gains[a]));
+    order.truncate(3);
+    let best = order.first().map_or(0.0, |&point| gains[point]);
+    order.retain(|&point| HOPEFUL * best < gains[point]);
+    let axes: Vec<Vec<f64>> = (0..grid.first().map_or(0, Vec::len))
+        .map(|axis| {
+            let mut values: Vec<f64> = grid.iter().map(|point| point[axis]).collect();
+            values.sort_by(f64::total_cmp);
+            values.dedup();
+            values
+        })
+        .collect();
+    let rank = |axis: usize, value: f64| axes[axis].partition_point(|known| *known < value);
+    let next_to = |a: usize, b: usize| {
+        let pairs = grid[a].iter().zip(&grid[b]).enumerate();
+        pairs.into_iter().all(|(axis, (a, b))| rank(axis, *a).abs_diff(rank(axis, *b)) <= 1)
+    };
+    let mut starts: Vec<usize> = Vec::new();
+    for point in order {
+        if !starts.iter().any(|&better| next_to(better, point)) {
+            starts.push(point);
+        }
+    }
+    starts
 }
 
 /// Largest step that a count is looked for, µm; it sets what a whole number must pay.
@@ -80,19 +143,7 @@ fn counted(stage: &Stage<'_>, component: Component) -> Option<(Component, f64)> 
 /// Gain of a component under the stage's noise; `None` when its columns cannot be made.
 #[must_use]
 pub fn gain_at(stage: &Stage<'_>, component: &Component) -> Option<Gain> {
-    let columns = Columns::of(stage.problem, std::slice::from_ref(component)).ok()?;
-    let usable = columns.raw.iter().all(|column| is_usable(column));
-    usable.then(|| stage.gain(&columns))
-}
-
-/// Smallest swing, µm, of a column that says anything: what lies below is the far end of a bump
-/// outside the data, and would ask for coefficients of hundreds of digits.
-const SMALLEST_SWING_UM: f64 = 1e-12;
-
-fn is_usable(column: &[f64]) -> bool {
-    let swing_um = crate::measurement::spread(column);
-    let finite = column.iter().all(|value| value.is_finite());
-    finite && (swing_um <= 0.0 || SMALLEST_SWING_UM < swing_um)
+    usable(stage.problem, component).map(|columns| stage.gain(&columns))
 }
 
 /// Nonlinear values improved from a grid point, within their ranges.
@@ -136,15 +187,15 @@ fn sharpened(stage: &Stage<'_>, candidate: &Candidate, start: &[f64]) -> Vec<f64
         let reach = gaps.len() / 96 + 2;
         let near = gaps.partition_point(|gap| *gap < best[place]);
         let nearby = &gaps[near.saturating_sub(reach)..(near + reach).min(gaps.len())];
-        let gain = |gap: f64| {
+        let columns = |gap: &f64| {
             let mut values = best.clone();
-            values[place] = gap;
-            let component = Component::new(candidate.term.with_nonlinear(&values));
-            gain_at(stage, &component).map_or(0.0, |gain| gain.gain)
+            values[place] = *gap;
+            usable(stage.problem, &Component::new(candidate.term.with_nonlinear(&values)))
         };
-        let scored: Vec<(f64, f64)> = nearby.par_iter().map(|&gap| (gap, gain(gap))).collect();
-        if let Some(top) = scored.into_iter().max_by(|a, b| a.1.total_cmp(&b.1)) {
-            best[place] = top.0;
+        let columns: Vec<Option<Columns>> = nearby.par_iter().map(columns).collect();
+        let gains = gains_of(stage, &columns);
+        if let Some(top) = nearby.iter().zip(gains).max_by(|a, b| a.1.total_cmp(&b.1)) {
+            best[place] = *top.0;
         }
     }
     best
@@ -190,4 +241,23 @@ fn without(component: &Component, atom: &[usize]) -> Component {
         smaller.kept[column] = false;
     }
     smaller
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_search_goes_on_from_tops_that_are_apart() {
+        let grid: Vec<Vec<f64>> =
+            (0..20).map(|i| vec![count(i % 5), libm::exp(count(i / 5))]).collect();
+        let mut gains = vec![1.0; 20];
+        // A top with a neighbour across a corner, and another top two places on.
+        (gains[6], gains[12], gains[8]) = (50.0, 40.0, 30.0);
+        assert_eq!(starts(&grid, &gains), [6, 8]);
+        gains[8] = 20.0;
+        assert_eq!(starts(&grid, &gains), [6]);
+        assert!(starts(&grid, &[0.0; 20]).is_empty());
+        assert_eq!(starts(&[vec![]], &[3.0]), [0]);
+    }
 }

@@ -238,7 +238,27 @@ impl Record {
 
     /// All samples as instants.
     pub fn instants(&self) -> impl Iterator<Item = Instant<'_>> {
-        (0..self.len()).map(|index| self.instant(index))
+        let rows = self.len();
+        let width = self.columns.len();
+        // Of equal length beyond doubt, so that no sample asks again.
+        let (time_s, position_mm) = (&self.time_s[..rows], &self.position_mm[..rows]);
+        let (spindle_rad, speed_rpm) = (&self.spindle_rad[..rows], &self.speed_rpm[..rows]);
+        let (direction, pass) = (&self.direction[..rows], &self.pass[..rows]);
+        let travelled_mm = &self.travelled_mm[..rows];
+        let since_reversal_mm = &self.since_reversal_mm[..rows];
+        let error_um = &self.error_um[..rows];
+        (0..rows).map(move |row| Instant {
+            time_s: time_s[row],
+            position_mm: position_mm[row],
+            spindle_rad: spindle_rad[row],
+            speed_rpm: speed_rpm[row],
+            direction: direction[row],
+            pass: pass[row],
+            travelled_mm: travelled_mm[row],
+            since_reversal_mm: since_reversal_mm[row],
+            error_um: error_um[row],
+            covariates: &self.covariates[row * width..(row + 1) * width],
+        })
     }
 
     /// A logged column, or `None` when it is not there.
