@@ -71,7 +71,7 @@ impl Passes {
 /// Noise that forgets over `length` samples, of 0.1 µm, with as much white noise.
 fn noise(seed: u64, length: f64) -> impl FnMut() -> f64 {
     let mut chance = ChaCha8Rng::seed_from_u64(seed);
-    let kept = (-1.0 / length).exp();
+    let kept = libm::exp(-1.0 / length);
     let mut slow = 0.0;
     move || {
         let mut normal = || -> f64 { StandardNormal.sample(&mut chance) };
@@ -93,7 +93,7 @@ fn noise_at_two_speeds_and_in_two_directions_is_noise() {
 #[test]
 fn a_smooth_error_of_each_pass_s_own_is_not_noise() {
     let turning = |time_s: f64, position_mm: f64, direction: f64| {
-        let wave = (position_mm / 450.0 * std::f64::consts::TAU).cos();
+        let wave = libm::cos(position_mm / 450.0 * std::f64::consts::TAU);
         1.5 * direction * (1.0 - time_s / 4000.0) * wave
     };
     let diagnosis = diagnose(&Passes::new(&turning, &mut noise(7, 5.0)).problem());
