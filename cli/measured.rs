@@ -39,35 +39,22 @@ pub(crate) fn problem(
     data: &Path,
     signals: &Signals,
 ) -> anyhow::Result<Problem> {
-    let (machine, measurement) = if is_dump(data)? {
+    let measurement = if is_dump(data)? {
         captured(machine, data, signals)?
     } else if signals.named() {
         bail!("{}: found a table, expected a VCD capture with the named signals", data.display());
     } else {
         let table = read_table(data)?;
-        (machine.clone(), Measurement::from_table(&table, &Nominal::from(machine))?)
+        Measurement::from_table(&table, &Nominal::from(machine))?
     };
-    Problem::new(&machine, &measurement)
+    Problem::new(machine, &measurement)
         .with_context(|| format!("{}: does not carry the machine's effects", data.display()))
 }
 
-/// The samples of a capture, and the machine as the capture shows it.
-///
-/// Captured steps are known moves of the table: with them a closed loop is an open one whose motor
-/// was turned by hand, and its hunting is no part of the error.
-fn captured(
-    machine: &Machine,
-    data: &Path,
-    signals: &Signals,
-) -> anyhow::Result<(Machine, Measurement)> {
-    let trains = signals.read(machine, data)?;
-    let (table, mut notes) = trains.table(machine)?;
-    let mut machine = machine.clone();
-    if trains.steps.is_some() {
-        machine.loop_closed = false;
-        notes.push("the captured steps are taken off: the error is that without them".to_owned());
-    }
-    let mut measurement = Measurement::from_table(&table, &Nominal::from(&machine))?;
+/// The samples of a capture.
+fn captured(machine: &Machine, data: &Path, signals: &Signals) -> anyhow::Result<Measurement> {
+    let (table, notes) = signals.read(machine, data)?.table(machine)?;
+    let mut measurement = Measurement::from_table(&table, &Nominal::from(machine))?;
     measurement.notes.splice(0..0, notes);
-    Ok((machine, measurement))
+    Ok(measurement)
 }

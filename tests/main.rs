@@ -7,6 +7,7 @@ mod boards;
 mod calibrator;
 mod captures;
 mod certify;
+mod closed_loop_data;
 mod command_line;
 mod compensation_exports;
 mod cumulative_compensator;

@@ -13,7 +13,7 @@ use crate::holdout::holdout_rms;
 use crate::likeness;
 use crate::noise::{Noise, Whitener};
 use crate::noise_fit::median;
-use crate::probes::{chi_squared_tail, matters};
+use crate::probes::{above_hunting, chi_squared_tail, matters};
 use crate::problem::Problem;
 use crate::pruning::{Dropped, pruned};
 use crate::setting_trial::setting_trials;
@@ -177,6 +177,7 @@ fn acceptable(problem: &Problem, now: &State, judged: &Judged) -> bool {
     let size = (before * before - judged.rms_um * judged.rms_um).max(0.0).sqrt();
     let unseen = holdout_rms(problem, &now.columns, &now.fit.noises);
     matters(size, judged.rms_um, judged.p_value)
+        && above_hunting(problem, size)
         && judged.holdout_rms_um < unseen
         && plausible(problem, judged)
         && repeats(judged, now)

@@ -184,10 +184,15 @@ fn adjusted_noises(problem: &Problem, left: &[f64], near: &[Noise]) -> Vec<Noise
     with_index.map(|(sensor, noise)| noise_of(problem, left, sensor, Some(noise))).collect()
 }
 
+/// Least noise of a sensor, µm: a meter's clock is no finer, and a simulated record without any
+/// would weigh so much that nothing else could be calculated.
+const LEAST_UM: f64 = 1e-4;
+
 fn noise_of(problem: &Problem, left: &[f64], sensor: usize, near: Option<&Noise>) -> Noise {
     let (layout, rows) = problem.of_sensor(sensor);
     let part: Vec<f64> = rows.iter().map(|&row| left[row]).collect();
-    fit_noise(&layout, &part, near).noise
+    let noise = fit_noise(&layout, &part, near).noise;
+    Noise { white: noise.white.max(LEAST_UM * LEAST_UM), ..noise }
 }
 
 /// Root mean square about the offset of each pass, all sensors together, µm.

@@ -27,7 +27,7 @@ pub struct Nominal {
     pub step_um: f64,
     /// True for chains without a workpiece, measured in arcsec.
     pub rotary: bool,
-    /// True when the corrector works, so that the counter is a sensor.
+    /// True when the corrector works, so that a counter without a recorder is a sensor.
     pub closed: bool,
 }
 
@@ -236,10 +236,9 @@ fn check_kind(table: &Table, nominal: &Nominal, path: &str) -> Result<(), LabErr
 }
 
 fn observed_columns<'a>(table: &'a Table, nominal: &Nominal) -> Vec<(Sensor, &'a [f64])> {
-    // Steps of an open loop were made by hand: they are a cause, not an observation.
     let sees = |sensor: &Sensor| match sensor {
         Sensor::Recorder => true,
-        Sensor::Counter => nominal.closed && !nominal.rotary,
+        Sensor::Counter => nominal.closed && !nominal.rotary && !steps_are_moves(table, nominal),
         Sensor::Thread => !nominal.rotary,
     };
     let sensors = Sensor::ALL.into_iter().filter(sees);
@@ -247,6 +246,15 @@ fn observed_columns<'a>(table: &'a Table, nominal: &Nominal) -> Vec<(Sensor, &'a
         .filter_map(|s| table.column(sensor_column(s, nominal.rotary)).map(|c| (s, c)))
         .filter(|(_, values)| values.iter().any(|value| value.is_finite()))
         .collect()
+}
+
+/// True when the steps are known moves of the table: a cause, not an observation.
+///
+/// Those of an open loop were made by hand. In a closed loop the recorder says what they have left
+/// of the error; recorder and steps together are the open loop's error without the hunting.
+fn steps_are_moves(table: &Table, nominal: &Nominal) -> bool {
+    let filled = |name| table.column(name).is_some_and(|c| c.iter().any(|v| v.is_finite()));
+    !nominal.closed || filled(sensor_column(Sensor::Recorder, nominal.rotary))
 }
 
 fn names(table: &Table) -> String {
@@ -268,6 +276,9 @@ fn assemble(
         observations.insert(sensor, pick(values).iter().map(|value| value * factor).collect());
     }
     let covariates = covariates(table, nominal, &passes, &mut notes);
+    if nominal.closed && covariates.contains_key("steps") {
+        notes.push("the steps are known and taken off: the error is that without them".to_owned());
+    }
     Measurement {
         rotary: nominal.rotary,
         time_s: pick(&coordinates.time_s),
@@ -292,7 +303,8 @@ fn covariates(
 ) -> BTreeMap<String, Vec<f64>> {
     let mut known = BTreeMap::new();
     let covariate = |name: &str| {
-        let own = !NOT_COVARIATES.contains(&name) || (name == "steps" && !nominal.closed);
+        let own =
+            !NOT_COVARIATES.contains(&name) || (name == "steps" && steps_are_moves(table, nominal));
         own && !is_of_another_run(name)
     };
     for column in table.columns.iter().filter(|column| covariate(&column.name)) {

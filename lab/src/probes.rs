@@ -67,6 +67,15 @@ pub fn matters(size_um: f64, noise_um: f64, p_value: f64) -> bool {
     p_value < SIGNIFICANCE && SHARE_OF_NOISE * noise_um < size_um
 }
 
+/// True for something larger than what a hunting loop, whose steps are not known, may show.
+///
+/// A swing of ±u from comparison to comparison is a sawtooth of what the loop follows: u/√3 in
+/// all, as a line at any frequency, and u/√12 of it slow.
+#[must_use]
+pub fn above_hunting(problem: &Problem, size_um: f64) -> bool {
+    problem.hunting_um / f64::sqrt(12.0) <= size_um
+}
+
 /// True for a line so clear that no flaw of a noise model or of a smooth formula makes it.
 fn clear_line(structure: &Structure, noise_um: f64) -> bool {
     structure.line.is_some() && structure.p_value < CLEAR.1 && CLEAR.0 * noise_um < structure.rms_um
@@ -80,6 +89,8 @@ pub fn structures(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structur
     let mut found = all_structures(problem, model, fit);
     found.retain(|s| matters(s.rms_um, noise, s.p_value) || clear_line(s, noise));
     found.retain(|s| exact < s.rms_um);
+    // What is no effect may be any of its lines.
+    found.retain(|s| above_hunting(problem, 0.5 * s.rms_um));
     found
 }
 
@@ -212,9 +223,15 @@ fn repeats(problem: &Problem, fit: &Fit) -> Option<Structure> {
     Some(Structure::without_place("position", "repeats from pass to pass", rms_um, p_value))
 }
 
+/// Swings of a loop that a jump must exceed to be none of them, with the noise of two samples.
+const LOOP_JUMP: f64 = 3.0;
+
 /// Several jumps, wherever they are.
 fn jumping(problem: &Problem, fit: &Fit) -> Option<Structure> {
     let (rms_um, chance) = crate::jumps::jumps(problem, fit)?;
+    if rms_um < LOOP_JUMP * problem.hunting_um {
+        return None;
+    }
     let p_value = (probes(problem) * chance).min(1.0);
     Some(Structure::without_place("time", "several jumps", rms_um, p_value))
 }

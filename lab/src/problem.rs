@@ -50,6 +50,8 @@ pub struct Problem {
     pub highest_hz: f64,
     /// Columns of effects on these samples; they depend on the machine and the record alone.
     pub designs: Designs,
+    /// How far a closed loop whose steps are not known swings either way, µm; 0 for any other.
+    pub hunting_um: f64,
 }
 
 impl Problem {
@@ -81,7 +83,7 @@ impl Problem {
         let record = record(machine, measurement);
         let sensors: Vec<Sensor> = measurement.observations.keys().copied().collect();
         let mut problem = Self {
-            machine: machine.clone(),
+            machine: as_measured(machine, measurement),
             measurement: measurement.clone(),
             record,
             finer,
@@ -94,6 +96,7 @@ impl Problem {
             highest_order: 0.0,
             highest_hz: 0.0,
             designs: Designs::default(),
+            hunting_um: 0.0,
         };
         let turns: Vec<f64> = problem.record.turns().collect();
         problem.highest_order = highest_frequency(&turns);
@@ -102,6 +105,7 @@ impl Problem {
         problem.predict()?;
         let residual = problem.residual();
         problem.mark_outliers(&residual);
+        problem.hunting_um = hunting_um(&problem, &residual);
         Ok(problem)
     }
 
@@ -117,7 +121,8 @@ impl Problem {
     /// As [`Self::new`].
     pub fn with_machine(&self, machine: &Machine) -> Result<Self, EffectError> {
         let designs = Designs::default();
-        let mut problem = Self { machine: machine.clone(), designs, ..self.clone() };
+        let machine = as_measured(machine, &self.measurement);
+        let mut problem = Self { machine, designs, ..self.clone() };
         problem.predict()?;
         Ok(problem)
     }
@@ -234,6 +239,36 @@ impl Problem {
         }
         Ok(())
     }
+}
+
+/// The machine as the samples show it: where the steps are known, a closed loop is an open one
+/// whose motor was turned by hand, and its hunting is no part of the error.
+fn as_measured(machine: &Machine, measurement: &Measurement) -> Machine {
+    let known = measurement.covariates.contains_key("steps");
+    Machine { loop_closed: machine.loop_closed && !known, ..machine.clone() }
+}
+
+/// Largest swing that neighbouring samples may hide: a filter at a third of the comparisons leaves
+/// a third of it, and half of all samples differ by less than half of that.
+const SWINGS: f64 = 6.0;
+
+/// What the motor moves from one comparison to the next, at the slowest speed of the samples; less
+/// where neighbours differ too little for it.
+fn hunting_um(problem: &Problem, residual: &[f64]) -> f64 {
+    let machine = &problem.machine;
+    if !machine.loop_closed || machine.rotary {
+        return 0.0;
+    }
+    let speeds = problem.record.speed_rpm.iter().copied();
+    let slower = (machine.spindle.speed_rpm / speeds.fold(f64::INFINITY, f64::min)).max(1.0);
+    let swing_um =
+        slower * machine.drive.step_um * machine.drive.frequency_hz / machine.comparison_hz();
+    let blocks = problem.layout.blocks.iter();
+    let mut steps: Vec<f64> = blocks
+        .flat_map(|block| residual[block.rows.clone()].windows(2))
+        .map(|pair| (pair[1] - pair[0]).abs())
+        .collect();
+    swing_um.min(SWINGS * noise_fit::median(&mut steps))
 }
 
 /// Columns of one effect.

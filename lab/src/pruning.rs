@@ -7,7 +7,7 @@ use crate::component::Component;
 use crate::count;
 use crate::fit::{covariance_rows, rms};
 use crate::holdout::holdout_rms;
-use crate::probes::{chi_squared_tail, matters};
+use crate::probes::{above_hunting, chi_squared_tail, matters};
 use crate::problem::Problem;
 use crate::uncertainty::{JointCovariance, joint_covariance};
 
@@ -71,7 +71,7 @@ fn superfluous(problem: &Problem, state: &State, fewer: &State, index: usize) ->
     if gain < width * libm::log(count(problem.rows.len()).max(3.0)) {
         return Some(format!("superfluous beside the others: evidence {gain:.1} only"));
     }
-    if !matters(size, after, chance) {
+    if !matters(size, after, chance) || !above_hunting(problem, size) {
         return Some(format!(
             "superfluous: {size:.4} {unit} of {after:.4} {unit} noise, p {chance:.1e}"
         ));
