@@ -74,7 +74,7 @@ fn sentence(text: &str) -> String {
 fn role(card: &Card) -> &'static str {
     match (card.candidate, card.random) {
         (false, _) => "not looked for in data",
-        (true, true) => "chance: its size can be found, not its course",
+        (true, true) => "chance: simulated, and never named from data; its size shows as noise",
         (true, false) => "looked for in data",
     }
 }

@@ -8,7 +8,10 @@
 //!
 //! The drive goes on while the table sticks: δ falls as the travel grows, until the table jumps by J.
 //! Jumps are far shorter than the way between two comparisons, so a recorder shows them as scatter of
-//! J/√12 that is gone above `n_c`: its size can be found, not its course.
+//! J/√12 that is gone above `n_c`.
+//!
+//! It is not named from data: scatter has no course of its own, and electrical noise or vibration
+//! may change with the speed as well. A pass above `n_c` tells it.
 
 use super::shape::rough;
 use crate::units::{RPM, UM};
@@ -29,7 +32,7 @@ pub(super) const CARD: Card = Card {
     needs: &[],
     signature: "scatter below a certain speed",
     confused_with: &["fringe-slip", "vibration", "turbulence"],
-    separated_by: "raise the speed n: above the critical one it is gone",
+    separated_by: "raise the speed n: above the critical one the scatter is gone for good, and comes back below",
     source: "relaxation oscillation of a sliding mass, drive slow against the jump",
     random: true,
     candidate: true,

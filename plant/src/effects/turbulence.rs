@@ -8,6 +8,10 @@
 //!
 //! w is a sum of 24 sinusoids, evenly spaced in the logarithm from 1 mHz to 10 Hz, each with a phase
 //! from the seed: the same seed gives the same air. 0.05 µm at 1 m is 0.027 µm at 0.5 m.
+//!
+//! It is not named from data. One course of it in one pass is a slow curve, which vibration, drift
+//! and the noise of the recorder make as well; what sets it apart, growth with the travel, is the
+//! growth of everything that is proportional to the travel. Two dwells tell it.
 
 use std::f64::consts::TAU;
 
@@ -30,7 +34,7 @@ pub(super) const CARD: Card = Card {
     needs: &[],
     signature: "noise that grows with the travel",
     confused_with: &["vibration"],
-    separated_by: "lock the table and cover the beam",
+    separated_by: "lock the table at either end of its travel and record, then once more with the beam covered: air is the scatter that grows from end to end and goes with the cover",
     source: "growth with L^0.9 and 1/f: measured in workshops, order of magnitude",
     random: true,
     candidate: true,
