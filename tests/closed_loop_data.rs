@@ -63,15 +63,15 @@ fn passes(effect: &str) -> Table {
             simulate(&machine, &Options::default(), &mut |_| {}).expect("a machine that runs");
         let trace = run.closed.trace;
         for row in PULLING_IN..trace.time_s.len() {
-            let mut noisy = |value: f64| value + noise.sample(&mut chance);
+            let mut blurred = |value: f64| value + noise.sample(&mut chance);
             let cells = [
                 pass,
                 trace.time_s[row] + 1000.0 * pass,
                 trace.position_mm[row],
                 speed_rpm,
-                noisy(trace.filtered_error_um[row]),
+                blurred(trace.filtered_error_um[row]),
                 counted(trace.steps[row]),
-                noisy(trace.lead_error_um[row]),
+                blurred(trace.lead_error_um[row]),
                 air_c,
                 air_c,
             ];
