@@ -10,7 +10,7 @@ use helixlock_plant::Machine;
 use helixlock_traces::{Column, Table};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, StandardNormal};
+use rand_distr::{Distribution, StandardNormal, StudentT};
 
 const SAMPLES: u16 = 600;
 
@@ -98,4 +98,68 @@ fn a_smooth_error_of_each_pass_s_own_is_not_noise() {
     };
     let diagnosis = diagnose(&Passes::new(&turning, &mut noise(7, 5.0)).problem());
     assert_eq!(diagnosis.verdict, Verdict::Unexplained);
+}
+
+/// A kink, and a step at one place of every pass: a cubic with a bump follows the one, a slip in
+/// each pass the other, both to within the noise.
+#[test]
+fn plain_shapes_are_not_named_after_effects_that_imitate_them() {
+    let kink = |x: f64| 0.004 * (x - 410.0).max(0.0);
+    let step = |x: f64| if x < 450.25 { 0.0 } else { 1.3 };
+    let shapes: [(&str, &dyn Fn(f64) -> f64); 2] = [("kink", &kink), ("step", &step)];
+    for (name, shape) in shapes {
+        let passes = Passes::new(&|_, x, _| shape(x), &mut noise(5, 3.0));
+        let diagnosis = diagnose(&passes.problem());
+        assert_eq!(diagnosis.verdict, Verdict::Unexplained, "{name}");
+        let shapes: Vec<&str> = diagnosis.residual.iter().map(|s| s.shape.as_str()).collect();
+        assert!(shapes.iter().any(|shape| shape.starts_with(name)), "{name}: {shapes:?}");
+    }
+}
+
+/// Slow noise of 0.1 µm with heavy tails (Student's law of three degrees of freedom).
+fn heavy_noise(seed: u64, kept: f64) -> impl FnMut() -> f64 {
+    let mut chance = ChaCha8Rng::seed_from_u64(seed);
+    let law = StudentT::new(3.0).expect("three degrees of freedom");
+    let mut slow = 0.0;
+    move || {
+        slow = kept * slow + (1.0 - kept * kept).sqrt() * law.sample(&mut chance) / f64::sqrt(3.0);
+        0.1 * slow
+    }
+}
+
+/// A heavy sample of slow noise looks like a slip for a while; in Gaussian noise, what these
+/// records hold would be beyond doubt.
+#[test]
+fn heavy_tails_of_slow_noise_are_no_slips() {
+    for seed in [4, 9, 25, 34, 37] {
+        let passes = Passes::new(&|_, _, _| 0.0, &mut heavy_noise(seed, 0.98));
+        let found = diagnose(&passes.problem());
+        let last = &found.rounds[found.rounds.len() - 1];
+        let named: Vec<&str> = last.effects.iter().map(|effect| effect.name.as_str()).collect();
+        assert!(named.is_empty(), "seed {seed}: {named:?}");
+    }
+}
+
+/// One fringe lost between two samples, in noise that swings as far and forgets over 50 samples:
+/// a few samples beside its place, nothing of it is to be seen.
+#[test]
+fn a_slip_in_slow_noise_is_found_at_its_sample() {
+    let fringe_um = 0.316_410_182_654_969;
+    for lost_at in [211.0, 301.0, 401.0, 650.0, 2601.0] {
+        let slipped = |t: f64, _: f64, _: f64| if t < lost_at { 0.0 } else { fringe_um };
+        let mut chance = ChaCha8Rng::seed_from_u64(3);
+        let mut slow = 0.0;
+        let mut noise = || {
+            let fresh: f64 = StandardNormal.sample(&mut chance);
+            slow = 0.98 * slow + 0.04 * fresh;
+            slow
+        };
+        let diagnosis = diagnose(&Passes::new(&slipped, &mut noise).problem());
+        let slip = &diagnosis.rounds[diagnosis.rounds.len() - 1].effects;
+        let names: Vec<&str> = slip.iter().map(|effect| effect.name.as_str()).collect();
+        assert_eq!(names, ["fringe-slip"], "at {lost_at} s");
+        let value = |key: &str| slip[0].parameters.iter().find(|p| p.key == key).unwrap().value;
+        assert!((value("count").abs() - 1.0).abs() < 0.01);
+        assert!((value("time_s") - lost_at).abs() < 2.5, "{} for {lost_at} s", value("time_s"));
+    }
 }

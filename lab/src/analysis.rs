@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use helixlock_plant::Role;
 use rayon::prelude::*;
 
-use crate::candidates::{candidates, is_frequency, turn_scan};
+use crate::acceptance::acceptable;
+use crate::candidates::candidates;
 use crate::component::Component;
 use crate::count;
 use crate::fit::{Columns, Fit, noises_of, rms, settle};
@@ -13,7 +14,7 @@ use crate::holdout::holdout_rms;
 use crate::likeness;
 use crate::noise::{Noise, Whitener};
 use crate::noise_fit::median;
-use crate::probes::{above_hunting, chi_squared_tail, matters};
+use crate::probes::chi_squared_tail;
 use crate::problem::Problem;
 use crate::pruning::{Dropped, pruned};
 use crate::setting_trial::setting_trials;
@@ -169,75 +170,6 @@ fn add_together(problem: &mut Problem, steps: &mut Vec<Step>, members: Vec<Compo
     }
     let left = steps[steps.len() - 1].state.fit.left.clone();
     problem.mark_outliers(&left);
-}
-
-/// True when an effect is beyond chance, helps on unseen data and is large enough to matter.
-fn acceptable(problem: &Problem, now: &State, judged: &Judged) -> bool {
-    let before = rms(&problem.layout, &now.fit.left);
-    let size = (before * before - judged.rms_um * judged.rms_um).max(0.0).sqrt();
-    let unseen = holdout_rms(problem, &now.columns, &now.fit.noises);
-    matters(size, judged.rms_um, judged.p_value)
-        && above_hunting(problem, size)
-        && judged.holdout_rms_um < unseen
-        && plausible(problem, judged)
-        && repeats(judged, now)
-        && locked_to_time(problem, now, judged)
-}
-
-/// True unless a frequency in time was found that an order of the spindle explains as well.
-///
-/// At one speed the two are one: such a line is nobody's until the speed is changed.
-fn locked_to_time(problem: &Problem, now: &State, judged: &Judged) -> bool {
-    if !judged.component.term.parameters.iter().any(is_frequency) {
-        return true;
-    }
-    let stage = Stage::new(problem, &now.columns, &judged.fit.noises);
-    let own = crate::trial::gain_at(&stage, &judged.component).map_or(0.0, |gain| gain.gain);
-    let turns: Vec<f64> = problem.record.turns().collect();
-    let of_row: Vec<f64> = problem.rows.iter().map(|row| turns[row.sample]).collect();
-    let scan = turn_scan(&stage, &of_row);
-    let line = scan.strongest(&stage.target[..of_row.len()]);
-    line.is_none_or(|line| line.gain + TIME_LOCK < own)
-}
-
-/// Evidence that tells time from angle.
-const TIME_LOCK: f64 = 12.0;
-
-/// True unless an effect that is there once would be added a second time.
-///
-/// Lines come in numbers, and so do slips; of curves and bumps a sum can imitate anything.
-fn repeats(judged: &Judged, now: &State) -> bool {
-    let term = &judged.component.term;
-    let periodic =
-        term.parameters.iter().any(|what| what.role == Role::Amplitude || what.name == "count");
-    let before = now.components.iter().filter(|other| other.term.name == term.name).count();
-    before == 0 || (periodic && before < 3)
-}
-
-/// True when all parameters lie in their plausible ranges, to within two standard errors, and the
-/// shape shows enough of itself.
-#[must_use]
-pub fn plausible(problem: &Problem, judged: &Judged) -> bool {
-    let component = &judged.component;
-    if !likeness::shows_both_flanks(problem, component) {
-        return false;
-    }
-    let from = judged.fit.linear.coefficients.len() - component.width();
-    let covariance =
-        crate::fit::covariance_rows(&judged.fit.linear.covariance, from, component.width());
-    let used = &judged.fit.linear.coefficients[from..];
-    component.estimates(used, &covariance).iter().all(|estimate| {
-        // A square that would have to be negative is fitted as 0.
-        if component.term.parameters[estimate.parameter].role == Role::Squared
-            && estimate.value <= 0.0
-        {
-            return false;
-        }
-        let range = &component.term.parameters[estimate.parameter].range;
-        let slack = 2.0 * estimate.stderr;
-        range.start() >= range.end()
-            || (*range.start() <= estimate.value + slack && estimate.value - slack <= *range.end())
-    })
 }
 
 /// Two or three effects of known size that together beat every single effect.

@@ -109,6 +109,11 @@ pub fn candidate(stage: &Stage<'_>, term: Term) -> Option<Candidate> {
         .collect();
     let grid = product(&thinned(axes));
     let mut looks = count(grid.len());
+    if term.parameters.iter().any(|what| what.search == Search::Time) {
+        // Beside the grid, every sudden change is looked at.
+        let gaps = between_samples(&stage.problem.record.time_s).len();
+        looks *= (count(gaps) / count(INSTANTS)).max(1.0);
+    }
     if term.parameters.iter().any(is_frequency) {
         let times = row_times(stage.problem);
         looks *= time_scan(stage, &times, 0.0, f64::INFINITY).looks() / 16.0;

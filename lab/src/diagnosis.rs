@@ -7,6 +7,7 @@ use crate::component::Component;
 use crate::experiment::{self, Advice};
 use crate::fit::{covariance_rows, rms};
 use crate::holdout::holdout_rms;
+use crate::plain_shapes::better_shape;
 use crate::probes::{Structure, structures};
 use crate::problem::Problem;
 use crate::pruning::pruned;
@@ -144,7 +145,8 @@ pub fn diagnose(problem: &Problem) -> Diagnosis {
     }
     let last = &steps[steps.len() - 1].state;
     let found = rivals(&small, last, &steps[0].tried);
-    let residual = structures(&small, &last.columns, &last.fit);
+    let mut residual = structures(&small, &last.columns, &last.fit);
+    residual.extend(better_shape(&small, last));
     let experiments = experiment::advice(&small, last, &found);
     let state = states[states.len() - 1].clone();
     Diagnosis {

@@ -1,21 +1,13 @@
 //! Jumps in a residual: changes from sample to sample that no slow noise makes.
 
-use statrs::distribution::{Continuous, ContinuousCDF, DiscreteCDF, Poisson, StudentsT};
-
-use crate::count;
 use crate::fit::Fit;
 use crate::noise::Whitener;
 use crate::noise_fit::median;
 use crate::problem::Problem;
+use crate::tails::chance_beyond;
 
 /// A whitened sample beyond this many deviations is a jump.
 const DEVIATIONS: f64 = 5.0;
-
-/// Degrees of freedom of the tails that noise may have; the last are nearly Gaussian.
-const TAILS: [f64; 8] = [2.5, 3.0, 4.0, 5.0, 7.0, 10.0, 20.0, 200.0];
-
-/// Widths of the bulk that are tried, against unit deviation.
-const WIDTHS: [f64; 9] = [0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2];
 
 /// Usual size of the jumps, µm (arcsec), and the chance of so many in noise.
 ///
@@ -35,38 +27,14 @@ pub fn jumps(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
     if sizes.len() < 2 {
         return None;
     }
-    let p_value = chance(&white, sizes.len());
+    let p_value = chance_beyond(&white, DEVIATIONS, sizes.len());
     Some((median(&mut sizes), p_value))
-}
-
-/// Chance of so many samples beyond [`DEVIATIONS`], in noise with the tails of the others.
-///
-/// Noise may have tails by itself. The samples within are held against Student's law of every
-/// tail and width, cut off there; each law says its own chance, and has the weight of its
-/// likelihood.
-fn chance(white: &[f64], jumps: usize) -> f64 {
-    let bulk: Vec<f64> = white.iter().copied().filter(|z| z.abs() <= DEVIATIONS).collect();
-    let beyond = u64::try_from(jumps).unwrap_or(u64::MAX) - 1;
-    let laws = TAILS.iter().flat_map(|tail| WIDTHS.iter().map(|width| (*width, *tail)));
-    let weighed: Vec<(f64, f64)> = laws
-        .filter_map(|(width, tail)| {
-            let law = StudentsT::new(0.0, width, tail).ok()?;
-            let outside = 2.0 * law.sf(DEVIATIONS);
-            let inside = libm::log1p(-outside);
-            let likelihood: f64 = bulk.iter().map(|z| law.ln_pdf(*z) - inside).sum();
-            let expected = (outside * count(white.len())).max(f64::MIN_POSITIVE);
-            Some((likelihood, Poisson::new(expected).map_or(1.0, |law| law.sf(beyond))))
-        })
-        .collect();
-    let best = weighed.iter().map(|(likelihood, _)| *likelihood).fold(f64::NEG_INFINITY, f64::max);
-    let weight = |likelihood: f64| libm::exp(likelihood - best);
-    let all: f64 = weighed.iter().map(|(likelihood, _)| weight(*likelihood)).sum();
-    weighed.iter().map(|(likelihood, chance)| weight(*likelihood) * chance).sum::<f64>() / all
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::count;
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
     use rand_distr::{Distribution, StandardNormal, StudentT};
@@ -74,7 +42,7 @@ mod tests {
     /// Samples beyond the limit, and their chance.
     fn judged(values: &[f64]) -> Option<f64> {
         let jumps = values.iter().filter(|value| DEVIATIONS < value.abs()).count();
-        (1 < jumps).then(|| chance(values, jumps))
+        (1 < jumps).then(|| chance_beyond(values, DEVIATIONS, jumps))
     }
 
     /// Heavy tails are no jumps: fewer than one in a hundred records of them is taken for some.

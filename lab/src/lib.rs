@@ -1,5 +1,6 @@
 //! Model against measurement.
 
+pub mod acceptance;
 pub mod adding;
 pub mod amplitude_spectrum;
 pub mod analysis;
@@ -27,6 +28,7 @@ pub mod measurement;
 pub mod noise;
 pub mod noise_fit;
 pub mod order_spectrum;
+pub mod plain_shapes;
 pub mod probes;
 pub mod problem;
 pub mod pruning;
@@ -39,6 +41,7 @@ pub mod setting_trial;
 pub mod settings;
 pub mod simplex;
 pub mod stage;
+pub mod tails;
 mod thinning;
 pub mod trial;
 pub mod uncertainty;

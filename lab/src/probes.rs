@@ -12,6 +12,7 @@ use crate::lines::LineSearch;
 use crate::measurement::spread;
 use crate::order_spectrum::Line;
 use crate::problem::Problem;
+use crate::tails::chance_with_tails;
 
 /// What is left, in the words of a person.
 #[derive(Debug, Clone, PartialEq)]
@@ -344,17 +345,36 @@ fn step(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
         let Some((&place, _)) = best else { continue };
         let raw = stacked(problem, &[above(values, place)]);
         let (rms_um, p_value) = probe(problem, model, fit, &raw);
+        let mut p_value = (p_value * count(places.len())).min(1.0);
+        if matters(rms_um, rms(&problem.layout, &fit.left), p_value) {
+            p_value = p_value.max(step_with_tails(problem, model, fit, raw, places.len()));
+        }
         found.push(Structure {
             along: along.to_owned(),
             shape: "step".to_owned(),
             rms_um,
-            p_value: (p_value * count(places.len())).min(1.0),
+            p_value,
             at: Some(place),
             at_stderr: None,
             line: None,
         });
     }
     found
+}
+
+/// Chance of a step when the noise may have tails.
+fn step_with_tails(
+    problem: &Problem,
+    model: &Columns,
+    fit: &Fit,
+    raw: Vec<Vec<f64>>,
+    places: usize,
+) -> f64 {
+    let (width, looks) = (count(raw.len()), probes(problem) * count(places));
+    let wider = settle(problem, &model.and(&Columns::free(raw)), &fit.noises);
+    let gain = 2.0 * (wider.log_likelihood - fit.log_likelihood);
+    let of_gain = |gain| looks * chi_squared_tail(gain, width);
+    chance_with_tails(problem, [fit, &wider], gain, of_gain).min(1.0)
 }
 
 fn above(values: &[f64], place: f64) -> Vec<f64> {

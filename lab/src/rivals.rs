@@ -1,6 +1,7 @@
 //! Who explains the data as well as an effect that was found, so that no name is safe.
 
-use crate::analysis::{Judged, State, pattern, plausible, tried};
+use crate::acceptance::plausible;
+use crate::analysis::{Judged, State, pattern, tried};
 use crate::component::Component;
 use crate::least_squares::dot;
 use crate::likeness::{by_physics, far_fetched};

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use crate::count;
 use crate::fit::Columns;
 use crate::least_squares::{self, LinearFit, dot};
 use crate::noise::{Noise, Whitener};
@@ -23,6 +24,9 @@ pub struct Stage<'a> {
     /// Its square.
     square: f64,
 }
+
+/// Whitened square a row that is more than noise.
+const MORE_THAN_NOISE: f64 = 2.0;
 
 /// What a candidate takes away under the stage's noise.
 #[derive(Debug, Clone)]
@@ -49,6 +53,13 @@ impl<'a> Stage<'a> {
     #[must_use]
     pub fn gain(&self, columns: &Columns) -> Gain {
         self.gain_of(columns, self.whitener.whiten_all(&columns.views()))
+    }
+
+    /// True when what a fit leaves is no more than the stage's noise: only then are its standard
+    /// errors a measure.
+    #[must_use]
+    pub fn is_noise(&self, fit: &LinearFit) -> bool {
+        fit.residual_square < MORE_THAN_NOISE * count(self.problem.rows.len())
     }
 
     /// Gains of several candidates, each by itself; their columns are whitened together.

@@ -53,15 +53,55 @@ impl Trial {
 /// The best of one candidate; `None` when it explains nothing.
 #[must_use]
 pub fn try_candidate(stage: &Stage<'_>, candidate: &Candidate) -> Option<Trial> {
-    let gains = gains_of(stage, &stage.problem.designs.of(stage.problem, candidate));
-    let starts = starts(&candidate.grid, &gains);
-    let refined = starts.into_iter().map(|point| refined(stage, candidate, point));
+    let mut grid = candidate.grid.clone();
+    let mut gains = gains_of(stage, &stage.problem.designs.of(stage.problem, candidate));
+    let sudden = sudden_places(stage, candidate);
+    let columns: Vec<Option<Columns>> =
+        sudden.par_iter().map(|place| columns_at(stage, candidate, place)).collect();
+    gains.extend(gains_of(stage, &columns));
+    grid.extend(sudden);
+    let starts = starts(&grid, &gains);
+    let refined = starts.into_iter().map(|point| refined(stage, candidate, &grid[point]));
     let term = refined.max_by(|a, b| a.1.total_cmp(&b.1))?.0;
     let component = reduced(stage, Component::new(term));
     let (component, choices) = counted(stage, component)?;
     let best = gain_at(stage, &component)?;
     let coefficients = best.fit.coefficients;
     Some(Trial { component, gain: best.gain, looks: candidate.looks * choices, coefficients })
+}
+
+/// Sudden changes that an effect of one moment is tried at.
+const SUDDEN: usize = 16;
+
+/// Instants of the most sudden changes, for effects of one moment.
+///
+/// Slow noise takes back a step that is tried a few samples too early or too late, so that it
+/// shows at its own instant only, which a grid may miss.
+fn sudden_places(stage: &Stage<'_>, candidate: &Candidate) -> Vec<Vec<f64>> {
+    let terms = candidate.term.nonlinear_indices();
+    let of_time = |&index: &usize| candidate.term.parameters[index].search == Search::Time;
+    let (Some(axis), Some(first)) = (terms.iter().position(of_time), candidate.grid.first()) else {
+        return Vec::new();
+    };
+    let (rows, time_s) = (&stage.problem.rows, &stage.problem.record.time_s);
+    let mut later: Vec<usize> = (1..rows.len())
+        .filter(|&row| time_s[rows[row - 1].sample] < time_s[rows[row].sample])
+        .collect();
+    let size = |row: usize| stage.target[row].abs();
+    later.sort_by(|&a, &b| size(b).total_cmp(&size(a)));
+    later.truncate(SUDDEN);
+    let before = |row: usize| 0.5 * (time_s[rows[row - 1].sample] + time_s[rows[row].sample]);
+    let at = |row: usize| {
+        let mut place = first.clone();
+        place[axis] = before(row);
+        place
+    };
+    later.into_iter().map(at).collect()
+}
+
+/// Columns of a candidate at some nonlinear values; `None` where they say nothing.
+fn columns_at(stage: &Stage<'_>, candidate: &Candidate, place: &[f64]) -> Option<Columns> {
+    usable(stage.problem, &Component::new(candidate.term.with_nonlinear(place)))
 }
 
 /// Columns whose gains are worked out together.
@@ -127,7 +167,8 @@ fn counted(stage: &Stage<'_>, component: Component) -> Option<(Component, f64)> 
         let value = free.coefficients[column];
         let stderr = free.covariance[(column, column)].max(0.0).sqrt();
         let whole = value.round();
-        if whole == 0.0 || 4.0 * stderr + 0.02 < (value - whole).abs() {
+        let near = 4.0 * stderr + 0.02;
+        if whole == 0.0 || (stage.is_noise(&free) && near < (value - whole).abs()) {
             return None;
         }
         held.whole[column] = Some(whole);
@@ -147,8 +188,12 @@ pub fn gain_at(stage: &Stage<'_>, component: &Component) -> Option<Gain> {
 }
 
 /// Nonlinear values improved from a grid point, within their ranges.
-fn refined(stage: &Stage<'_>, candidate: &Candidate, point: usize) -> (helixlock_plant::Term, f64) {
-    let start = &sharpened(stage, candidate, &candidate.grid[point]);
+fn refined(
+    stage: &Stage<'_>,
+    candidate: &Candidate,
+    place: &[f64],
+) -> (helixlock_plant::Term, f64) {
+    let start = &sharpened(stage, candidate, place);
     let free: Vec<usize> = (0..start.len()).filter(|&i| candidate.steps[i] != 0.0).collect();
     let ranges: Vec<(f64, f64)> = candidate
         .term
@@ -190,7 +235,7 @@ fn sharpened(stage: &Stage<'_>, candidate: &Candidate, start: &[f64]) -> Vec<f64
         let columns = |gap: &f64| {
             let mut values = best.clone();
             values[place] = *gap;
-            usable(stage.problem, &Component::new(candidate.term.with_nonlinear(&values)))
+            columns_at(stage, candidate, &values)
         };
         let columns: Vec<Option<Columns>> = nearby.par_iter().map(columns).collect();
         let gains = gains_of(stage, &columns);

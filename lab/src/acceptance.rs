@@ -1,0 +1,106 @@
+//! Whether the best effect of a round may be taken into a model.
+
+use helixlock_plant::{Role, Search};
+
+use crate::analysis::{Judged, State};
+use crate::candidates::{is_frequency, turn_scan};
+use crate::component::Component;
+use crate::count;
+use crate::fit::{covariance_rows, rms};
+use crate::holdout::holdout_rms;
+use crate::likeness;
+use crate::probes::{SIGNIFICANCE, above_hunting, chi_squared_tail, matters};
+use crate::problem::Problem;
+use crate::stage::Stage;
+use crate::tails::chance_with_tails;
+use crate::trial::gain_at;
+
+/// True when an effect is beyond chance, helps on unseen data and is large enough to matter.
+#[must_use]
+pub fn acceptable(problem: &Problem, now: &State, judged: &Judged) -> bool {
+    let before = rms(&problem.layout, &now.fit.left);
+    let size = (before * before - judged.rms_um * judged.rms_um).max(0.0).sqrt();
+    let unseen = holdout_rms(problem, &now.columns, &now.fit.noises);
+    matters(size, judged.rms_um, judged.p_value)
+        && above_hunting(problem, size)
+        && judged.holdout_rms_um < unseen
+        && plausible(problem, judged)
+        && repeats(judged, now)
+        && locked_to_time(problem, now, judged)
+        && !rests_on_one_sample(problem, now, judged)
+}
+
+/// True unless a frequency in time was found that an order of the spindle explains as well.
+///
+/// At one speed the two are one: such a line is nobody's until the speed is changed.
+fn locked_to_time(problem: &Problem, now: &State, judged: &Judged) -> bool {
+    if !judged.component.term.parameters.iter().any(is_frequency) {
+        return true;
+    }
+    let stage = Stage::new(problem, &now.columns, &judged.fit.noises);
+    let own = gain_at(&stage, &judged.component).map_or(0.0, |gain| gain.gain);
+    let turns: Vec<f64> = problem.record.turns().collect();
+    let of_row: Vec<f64> = problem.rows.iter().map(|row| turns[row.sample]).collect();
+    let scan = turn_scan(&stage, &of_row);
+    let line = scan.strongest(&stage.target[..of_row.len()]);
+    line.is_none_or(|line| line.gain + TIME_LOCK < own)
+}
+
+/// Evidence that tells time from angle.
+const TIME_LOCK: f64 = 12.0;
+
+/// True for an effect that one sample alone speaks for, which the tails of the noise explain too.
+fn rests_on_one_sample(problem: &Problem, now: &State, judged: &Judged) -> bool {
+    let freedom = count(judged.component.width().max(1));
+    let other_samples = |gain| chi_squared_tail(gain, freedom) * judged.looks;
+    SIGNIFICANCE < chance_with_tails(problem, [&now.fit, &judged.fit], judged.gain, other_samples)
+}
+
+/// True unless an effect that is there once would be added a second time.
+///
+/// Lines come in numbers, and so do slips; of curves and bumps a sum can imitate anything.
+fn repeats(judged: &Judged, now: &State) -> bool {
+    let term = &judged.component.term;
+    let periodic =
+        term.parameters.iter().any(|what| what.role == Role::Amplitude || what.name == "count");
+    let before = now.components.iter().filter(|other| other.term.name == term.name).count();
+    before == 0 || (periodic && before < 3)
+}
+
+/// True when all parameters lie in their plausible ranges, to within two standard errors, and the
+/// shape shows enough of itself.
+#[must_use]
+pub fn plausible(problem: &Problem, judged: &Judged) -> bool {
+    let component = &judged.component;
+    if !likeness::shows_both_flanks(problem, component) || at_an_end(component) {
+        return false;
+    }
+    let from = judged.fit.linear.coefficients.len() - component.width();
+    let covariance = covariance_rows(&judged.fit.linear.covariance, from, component.width());
+    let used = &judged.fit.linear.coefficients[from..];
+    component.estimates(used, &covariance).iter().all(|estimate| {
+        // A square that would have to be negative is fitted as 0.
+        if component.term.parameters[estimate.parameter].role == Role::Squared
+            && estimate.value <= 0.0
+        {
+            return false;
+        }
+        let range = &component.term.parameters[estimate.parameter].range;
+        let slack = 2.0 * estimate.stderr;
+        range.start() >= range.end()
+            || (*range.start() <= estimate.value + slack && estimate.value - slack <= *range.end())
+    })
+}
+
+/// True when the fit would go on beyond the range of a nonlinear parameter: what it follows there
+/// is another shape than the one the effect is named for.
+fn at_an_end(component: &Component) -> bool {
+    let term = &component.term;
+    term.nonlinear_indices().iter().any(|&index| {
+        let (what, value) = (&term.parameters[index], term.values[index]);
+        let (low, high) = (*what.range.start(), *what.range.end());
+        matches!(what.search, Search::Linear | Search::Logarithmic)
+            && low < high
+            && !(low < value && value < high)
+    })
+}
