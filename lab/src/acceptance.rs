@@ -6,7 +6,7 @@ use crate::analysis::{Judged, State};
 use crate::candidates::{is_frequency, turn_scan};
 use crate::component::Component;
 use crate::count;
-use crate::fit::{covariance_rows, rms};
+use crate::fit::{covariance_rows, swift_rms};
 use crate::holdout::holdout_rms;
 use crate::likeness;
 use crate::probes::{SIGNIFICANCE, above_hunting, chi_squared_tail, matters};
@@ -18,13 +18,18 @@ use crate::trial::gain_at;
 /// True when an effect is beyond chance, helps on unseen data and is large enough to matter.
 #[must_use]
 pub fn acceptable(problem: &Problem, now: &State, judged: &Judged) -> bool {
-    let before = rms(&problem.layout, &now.fit.left);
-    let size = (before * before - judged.rms_um * judged.rms_um).max(0.0).sqrt();
+    let component = &judged.component;
+    let from = judged.fit.linear.coefficients.len() - component.width();
+    let used = &judged.fit.linear.coefficients[from..];
+    let size = component.size_um(problem, used);
     let unseen = holdout_rms(problem, &now.columns, &now.fit.noises);
-    matters(size, judged.rms_um, judged.p_value)
+    matters(size, swift_rms(&problem.layout, &judged.fit.left), judged.p_value)
         && above_hunting(problem, size)
         && judged.holdout_rms_um < unseen
         && plausible(problem, judged)
+        && likeness::turns_enough(problem, component, used)
+        && likeness::lets_motion_through(problem, component)
+        && !at_an_end(component)
         && repeats(judged, now)
         && locked_to_time(problem, now, judged)
         && !rests_on_one_sample(problem, now, judged)
@@ -53,7 +58,7 @@ const TIME_LOCK: f64 = 12.0;
 fn rests_on_one_sample(problem: &Problem, now: &State, judged: &Judged) -> bool {
     let freedom = count(judged.component.width().max(1));
     let other_samples = |gain| chi_squared_tail(gain, freedom) * judged.looks;
-    SIGNIFICANCE < chance_with_tails(problem, [&now.fit, &judged.fit], judged.gain, other_samples)
+    SIGNIFICANCE < chance_with_tails(problem, [&now.fit, &judged.fit], other_samples)
 }
 
 /// True unless an effect that is there once would be added a second time.
@@ -72,12 +77,12 @@ fn repeats(judged: &Judged, now: &State) -> bool {
 #[must_use]
 pub fn plausible(problem: &Problem, judged: &Judged) -> bool {
     let component = &judged.component;
-    if !likeness::shows_both_flanks(problem, component) || at_an_end(component) {
+    if !likeness::shows_both_flanks(problem, component) {
         return false;
     }
     let from = judged.fit.linear.coefficients.len() - component.width();
-    let covariance = covariance_rows(&judged.fit.linear.covariance, from, component.width());
     let used = &judged.fit.linear.coefficients[from..];
+    let covariance = covariance_rows(&judged.fit.linear.covariance, from, component.width());
     component.estimates(used, &covariance).iter().all(|estimate| {
         // A square that would have to be negative is fitted as 0.
         if component.term.parameters[estimate.parameter].role == Role::Squared

@@ -164,7 +164,7 @@ fn add_together(problem: &mut Problem, steps: &mut Vec<Step>, members: Vec<Compo
         let before = &steps[steps.len() - 1].state;
         let components = [before.components.clone(), vec![member.clone()]].concat();
         let bare = State::bare(problem).fit.noises;
-        let Some(state) = State::of(problem, components, &bare) else { return };
+        let Some(state) = State::settled(problem, components, &bare) else { return };
         let added = Some(member.term.name);
         steps.push(Step { state, tried: Vec::new(), added, dropped: Vec::new() });
     }

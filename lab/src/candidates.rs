@@ -1,10 +1,11 @@
 //! Which effects can be tried on a measurement, and where their nonlinear parameters may lie.
 
-use helixlock_plant::{CATALOGUE, Entry, Formula, Machine, Parameter, Search, Term};
+use helixlock_plant::{CATALOGUE, Entry, Formula, Machine, Parameter, Record, Search, Term};
 
 use crate::component::Component;
 use crate::count;
 use crate::measurement::spread;
+use crate::noise_fit::median;
 use crate::order_spectrum::{Scan, strongest_first};
 use crate::problem::Problem;
 use crate::stage::Stage;
@@ -172,20 +173,32 @@ fn evenly(low: f64, high: f64, points: usize) -> Vec<f64> {
     (0..points).map(|i| low + (high - low) * (count(i) + 0.5) / count(points)).collect()
 }
 
-/// Values that the record can tell apart: times and widths between a few samples and its length.
+/// Values that the record can tell apart: times between two samples and twice its length, widths
+/// from a two-hundredth of the travel on.
 fn logarithmic(problem: &Problem, parameter: &Parameter) -> Vec<f64> {
     let (mut low, mut high) = (*parameter.range.start(), *parameter.range.end());
-    let scale = match parameter.unit.suffix().as_str() {
-        "s" => Some(spread(&problem.record.time_s)),
-        "mm" => Some(spread(&problem.record.position_mm)),
+    let told = match parameter.unit.suffix().as_str() {
+        "s" => Some((interval_s(&problem.record), spread(&problem.record.time_s))),
+        "mm" => {
+            let travel_mm = spread(&problem.record.position_mm);
+            Some((travel_mm / 200.0, travel_mm))
+        }
         _ => None,
     };
-    if let Some(scale) = scale.filter(|scale| 0.0 < *scale) {
-        low = low.max(scale / 200.0);
-        high = high.min(scale * 2.0).max(low);
+    if let Some((least, whole)) = told.filter(|(_, whole)| 0.0 < *whole) {
+        low = low.max(least);
+        high = high.min(whole * 2.0).max(low);
     }
     let (from, to) = (libm::log(low.max(1e-12)), libm::log(high.max(1e-12)));
     evenly(from, to, PLAIN).into_iter().map(libm::exp).collect()
+}
+
+/// Median time between two samples of a pass.
+fn interval_s(record: &Record) -> f64 {
+    let pairs = (1..record.len()).filter(|&row| record.pass[row] == record.pass[row - 1]);
+    let mut intervals: Vec<f64> =
+        pairs.map(|row| (record.time_s[row] - record.time_s[row - 1]).abs()).collect();
+    median(&mut intervals)
 }
 
 fn whole(low: f64, high: f64) -> Vec<f64> {

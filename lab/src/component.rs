@@ -2,6 +2,7 @@
 
 use helixlock_plant::{EffectError, Estimate, Role, Term};
 
+use crate::fit::{Columns, rms};
 use crate::problem::{Design, Problem};
 
 /// An effect with the columns a fit may use.
@@ -86,6 +87,15 @@ impl Component {
         let mut used = used.iter();
         let value = |kept: &bool| if *kept { used.next().copied().unwrap_or(0.0) } else { 0.0 };
         self.kept.iter().map(value).collect()
+    }
+
+    /// Root mean square of the effect at some coefficients of the columns in use, about the zero
+    /// of each pass, µm (arcsec); 0 when it cannot be worked out.
+    #[must_use]
+    pub fn size_um(&self, problem: &Problem, used: &[f64]) -> f64 {
+        let nothing = vec![0.0; problem.rows.len()];
+        Columns::of(problem, std::slice::from_ref(self))
+            .map_or(0.0, |columns| rms(&problem.layout, &columns.left(&nothing, used)))
     }
 
     /// The term with the values that belong to these coefficients of the columns in use.

@@ -8,6 +8,7 @@ use crate::experiment::{self, Advice};
 use crate::fit::{covariance_rows, rms};
 use crate::holdout::holdout_rms;
 use crate::plain_shapes::better_shape;
+use crate::polish::polished;
 use crate::probes::{Structure, structures};
 use crate::problem::Problem;
 use crate::pruning::pruned;
@@ -139,6 +140,9 @@ pub fn diagnose(problem: &Problem) -> Diagnosis {
     let mut small = problem.thinned(MOST_ROWS).unwrap_or_else(|| problem.clone());
     let mut steps = search(&mut small);
     let (problem, mut states) = on_all_rows(problem, &small, &steps);
+    if let Some(last) = states.pop() {
+        states.push(polished(&problem, last));
+    }
     if let Some((step, state)) = pruned_again(&problem, &small, &states[states.len() - 1]) {
         steps.push(step);
         states.push(state);

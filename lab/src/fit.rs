@@ -10,7 +10,7 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use crate::component::Component;
-use crate::layout::Layout;
+use crate::layout::{Block, Layout};
 use crate::least_squares::{self, LinearFit};
 use crate::noise::{Noise, Whitener};
 use crate::noise_fit::fit_noise;
@@ -205,6 +205,29 @@ pub fn rms(layout: &Layout, left: &[f64]) -> f64 {
         square += part.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>();
     }
     (square / crate::count(layout.len().max(1))).sqrt()
+}
+
+/// Stretches a pass is cut into to tell what is swift from what is slow.
+const STRETCHES: usize = 10;
+
+/// Root mean square about the mean of each tenth of a pass, µm: slow effects that are still to be
+/// found are no noise for a swift one.
+#[must_use]
+pub fn swift_rms(layout: &Layout, left: &[f64]) -> f64 {
+    let mut stretches = layout.clone();
+    stretches.blocks = layout
+        .blocks
+        .iter()
+        .flat_map(|block| {
+            let length = block.rows.len().div_ceil(STRETCHES).max(1);
+            let starts = block.rows.clone().step_by(length);
+            starts.map(move |start| Block {
+                rows: start..(start + length).min(block.rows.end),
+                ..block.clone()
+            })
+        })
+        .collect();
+    rms(&stretches, left)
 }
 
 /// A part of a covariance as plain rows.

@@ -29,6 +29,7 @@ pub mod noise;
 pub mod noise_fit;
 pub mod order_spectrum;
 pub mod plain_shapes;
+pub mod polish;
 pub mod probes;
 pub mod problem;
 pub mod pruning;

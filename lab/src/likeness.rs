@@ -5,6 +5,8 @@ use helixlock_plant::{Entry, Role, Search, Term};
 
 use crate::analysis::{State, pattern};
 use crate::component::Component;
+use crate::count;
+use crate::fit::Columns;
 use crate::least_squares::{self, dot};
 use crate::measurement::spread;
 use crate::noise::Whitener;
@@ -110,6 +112,58 @@ fn slips_at_reversal(problem: &Problem, component: &Component) -> bool {
     let window = near.saturating_sub(3)..(near + 3).min(record.len());
     let passes = problem.measurement.pass[window.clone()].windows(2).all(|p| p[0] == p[1]);
     passes && 0.0 < spread(&problem.measurement.direction[window])
+}
+
+/// True unless a play is so wide that none of the motor's moves gets through it: a loop that made
+/// them has seen what they do.
+#[must_use]
+pub fn lets_motion_through(problem: &Problem, component: &Component) -> bool {
+    let steps = problem.measurement.covariates.get("steps");
+    let (true, Some(steps)) = (component.term.kind() == "corrector-lost-motion", steps) else {
+        return true;
+    };
+    let moved_um = spread(steps) * problem.machine.drive.step_um;
+    component.term.nonlinear().iter().all(|width_um| *width_um < moved_um)
+}
+
+/// Share of a wave's square that a parabola must leave for it to be seen as a wave.
+const WAVE: f64 = 0.01;
+
+/// True unless a wave is seen over so small a part of itself that it is a piece of a parabola over
+/// the travel and the time: that is any drift.
+#[must_use]
+pub fn turns_enough(problem: &Problem, component: &Component, used: &[f64]) -> bool {
+    if component.term.parameters.iter().all(|what| what.role != Role::Amplitude) {
+        return true;
+    }
+    let Ok(columns) = Columns::of(problem, std::slice::from_ref(component)) else { return false };
+    let shape = about_passes(problem, columns.left(&vec![0.0; problem.rows.len()], used));
+    let curve = |of: &dyn Fn(usize) -> f64| {
+        let values = problem.rows.iter().map(|row| of(row.sample)).collect();
+        about_passes(problem, values)
+    };
+    let (angle, time) = (&problem.record.spindle_rad, &problem.record.time_s);
+    let parabola = [
+        curve(&|row| angle[row]),
+        curve(&|row| angle[row] * angle[row]),
+        curve(&|row| time[row]),
+        curve(&|row| time[row] * time[row]),
+    ];
+    let views: Vec<&[f64]> = parabola.iter().map(Vec::as_slice).collect();
+    let fit = least_squares::fit(&views, &shape);
+    WAVE * dot(&shape, &shape) < fit.residual_square
+}
+
+/// Values about the mean of each pass of each sensor.
+fn about_passes(problem: &Problem, mut values: Vec<f64>) -> Vec<f64> {
+    for block in &problem.layout.blocks {
+        let part = &mut values[block.rows.clone()];
+        let mean = part.iter().sum::<f64>() / count(part.len().max(1));
+        for value in part {
+            *value -= mean;
+        }
+    }
+    values
 }
 
 /// True when a bump lies inside the travel with both its flanks: half a bump is any curve.

@@ -372,9 +372,8 @@ fn step_with_tails(
 ) -> f64 {
     let (width, looks) = (count(raw.len()), probes(problem) * count(places));
     let wider = settle(problem, &model.and(&Columns::free(raw)), &fit.noises);
-    let gain = 2.0 * (wider.log_likelihood - fit.log_likelihood);
     let of_gain = |gain| looks * chi_squared_tail(gain, width);
-    chance_with_tails(problem, [fit, &wider], gain, of_gain).min(1.0)
+    chance_with_tails(problem, [fit, &wider], of_gain).min(1.0)
 }
 
 fn above(values: &[f64], place: f64) -> Vec<f64> {

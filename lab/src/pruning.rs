@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use crate::analysis::State;
 use crate::component::Component;
 use crate::count;
-use crate::fit::{covariance_rows, rms};
+use crate::fit::{covariance_rows, swift_rms};
 use crate::holdout::holdout_rms;
 use crate::probes::{above_hunting, chi_squared_tail, matters};
 use crate::problem::Problem;
@@ -63,9 +63,8 @@ fn without(problem: &Problem, state: &State, index: usize) -> Option<State> {
 fn superfluous(problem: &Problem, state: &State, fewer: &State, index: usize) -> Option<String> {
     let width = count(state.components[index].width().max(1));
     let gain = 2.0 * (state.fit.log_likelihood - fewer.fit.log_likelihood);
-    let (after, before) =
-        (rms(&problem.layout, &state.fit.left), rms(&problem.layout, &fewer.fit.left));
-    let size = (before * before - after * after).max(0.0).sqrt();
+    let size = state.components[index].size_um(problem, state.coefficients(index).0);
+    let after = swift_rms(&problem.layout, &state.fit.left);
     let unit = problem.measurement.unit();
     let chance = chi_squared_tail(gain, width);
     if gain < width * libm::log(count(problem.rows.len()).max(3.0)) {

@@ -48,7 +48,6 @@ pub fn chance_beyond(white: &[f64], limit: f64, reached: usize) -> f64 {
 pub fn chance_with_tails(
     problem: &Problem,
     [before, after]: [&Fit; 2],
-    gain: f64,
     of_gain: impl Fn(f64) -> f64,
 ) -> f64 {
     let whitener = Whitener::new(&problem.layout, &after.noises);
@@ -56,7 +55,7 @@ pub fn chance_with_tails(
     let taken = |row: usize| before[row] * before[row] - after[row] * after[row];
     let loudest = (0..before.len()).max_by(|&a, &b| taken(a).total_cmp(&taken(b)));
     let Some(row) = loudest else { return 1.0 };
-    let by_others = of_gain(gain - taken(row));
+    let by_others = of_gain((0..before.len()).map(taken).sum::<f64>() - taken(row));
     after.swap_remove(row);
     by_others.min(chance_beyond(&after, before[row].abs(), 1))
 }

@@ -25,15 +25,9 @@ pub fn joint_covariance(problem: &Problem, state: &State) -> JointCovariance {
     let mut columns = state.columns.clone();
     columns.fixed = None;
     let linear_width = columns.raw.len();
-    let mut places = Vec::new();
-    for (index, component) in state.components.iter().enumerate() {
-        for place in 0..component.term.nonlinear_indices().len() {
-            if let Some(slope) = slope(problem, state, index, component, place) {
-                columns = columns.and(&Columns::free(vec![slope]));
-                places.push((index, place));
-            }
-        }
-    }
+    let slopes = slopes(problem, state);
+    let raw = slopes.iter().map(|slope| slope.column.clone()).collect();
+    columns = columns.and(&Columns::free(raw));
     let whitener = Whitener::new(&problem.layout, &state.fit.noises);
     let white = columns.whitened(&whitener);
     let views: Vec<&[f64]> = white.iter().map(Vec::as_slice).collect();
@@ -44,12 +38,37 @@ pub fn joint_covariance(problem: &Problem, state: &State) -> JointCovariance {
         .iter()
         .map(|component| vec![None; component.term.nonlinear_indices().len()])
         .collect();
-    for (offset, (index, place)) in places.into_iter().enumerate() {
+    for (offset, slope) in slopes.iter().enumerate() {
         let at = linear_width + offset;
-        nonlinear[index][place] = Some(covariance[(at, at)].max(0.0).sqrt());
+        nonlinear[slope.component][slope.place] = Some(covariance[(at, at)].max(0.0).sqrt());
     }
     let linear = covariance.view((0, 0), (linear_width, linear_width)).into_owned();
     JointCovariance { linear, nonlinear }
+}
+
+/// How the fitted model changes with one nonlinear value.
+#[derive(Debug)]
+pub struct Slope {
+    /// Index of the component.
+    pub component: usize,
+    /// Which of its nonlinear values.
+    pub place: usize,
+    /// Change of the model a unit of the value, row by row.
+    pub column: Vec<f64>,
+}
+
+/// A slope for every continuous nonlinear value of a model that shows in the data.
+#[must_use]
+pub fn slopes(problem: &Problem, state: &State) -> Vec<Slope> {
+    let mut slopes = Vec::new();
+    for (index, component) in state.components.iter().enumerate() {
+        for place in 0..component.term.nonlinear_indices().len() {
+            if let Some(column) = slope(problem, state, index, component, place) {
+                slopes.push(Slope { component: index, place, column });
+            }
+        }
+    }
+    slopes
 }
 
 /// Change of a component's fitted pattern with one nonlinear parameter; `None` for a parameter
