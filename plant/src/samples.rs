@@ -1,6 +1,7 @@
 //! From what a measurement says of its samples to a complete [`Record`].
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use crate::{Machine, Record, Samples};
 
@@ -20,8 +21,7 @@ pub(crate) fn complete(machine: &Machine, samples: &Samples) -> Option<Record> {
         .position_mm
         .clone()
         .unwrap_or_else(|| turns.iter().map(|turn| turn * lead_mm).collect());
-    let (travelled_mm, since_reversal_mm) = ways(&position_mm, &pass);
-    let record = Record {
+    let mut record = Record {
         time_s: times(samples, &turns, &speed_rpm, &pass),
         direction: samples.direction.clone().unwrap_or_else(|| directions(&position_mm, &pass)),
         spindle_rad: turns.iter().map(|turn| turn * TAU).collect(),
@@ -29,10 +29,9 @@ pub(crate) fn complete(machine: &Machine, samples: &Samples) -> Option<Record> {
         position_mm,
         speed_rpm,
         pass,
-        travelled_mm,
-        since_reversal_mm,
         ..Record::default()
     };
+    (record.travelled_mm, record.since_reversal_mm) = ways(&record, lead_mm);
     Some(record.with_covariates(&samples.covariates))
 }
 
@@ -113,26 +112,112 @@ fn directions(position_mm: &[f64], pass: &[usize]) -> Vec<f64> {
 }
 
 /// Way since the start of the pass and since the last reversal in it, mm.
-fn ways(position_mm: &[f64], pass: &[usize]) -> (Vec<f64>, Vec<f64>) {
-    let mut travelled = Vec::with_capacity(position_mm.len());
-    let mut since_reversal = Vec::with_capacity(position_mm.len());
-    let (mut way_mm, mut since_mm, mut sign) = (0.0, f64::INFINITY, 0.0);
-    for row in 0..position_mm.len() {
-        if row == 0 || pass[row] != pass[row - 1] {
-            (way_mm, since_mm, sign) = (0.0, f64::INFINITY, 0.0);
-        } else {
-            let move_mm = position_mm[row] - position_mm[row - 1];
-            if move_mm * sign < 0.0 {
-                since_mm = 0.0;
+///
+/// A reversal is where the direction changes, so that what turns with the direction and what winds
+/// up anew turn together. The turning point lies between two samples, as far beyond them as the
+/// table had time for.
+fn ways(record: &Record, lead_mm: f64) -> (Vec<f64>, Vec<f64>) {
+    let mut travelled = Vec::with_capacity(record.len());
+    let mut since_reversal = Vec::with_capacity(record.len());
+    for rows in record.passes() {
+        let longest_mm = longest_mm(record, rows.clone());
+        let (mut way_mm, mut since_mm) = (0.0, f64::INFINITY);
+        for row in rows.clone() {
+            if rows.start < row {
+                let move_mm = record.position_mm[row] - record.position_mm[row - 1];
+                if turned(record, row) {
+                    let elapsed_s = record.time_s[row] - record.time_s[row - 1];
+                    let pace_mm_s = lead_mm * record.speed_rpm[row] / 60.0;
+                    // At rest in between it has gone less far than its speed says.
+                    let between_mm = (pace_mm_s * elapsed_s).min(longest_mm).max(move_mm.abs());
+                    way_mm += between_mm;
+                    since_mm = (between_mm + record.direction[row] * move_mm) / 2.0;
+                } else {
+                    way_mm += move_mm.abs();
+                    since_mm += move_mm.abs();
+                }
             }
-            if move_mm != 0.0 {
-                sign = move_mm.signum();
-            }
-            way_mm += move_mm.abs();
-            since_mm += move_mm.abs();
+            travelled.push(way_mm);
+            since_reversal.push(since_mm);
         }
-        travelled.push(way_mm);
-        since_reversal.push(since_mm);
     }
     (travelled, since_reversal)
+}
+
+/// True when the direction changes between a sample and the one before it.
+fn turned(record: &Record, row: usize) -> bool {
+    record.direction[row] * record.direction[row - 1] < 0.0
+}
+
+/// Longest way between neighbours of one direction, mm.
+fn longest_mm(record: &Record, rows: Range<usize>) -> f64 {
+    let moves = (rows.start + 1..rows.end).filter(|&row| !turned(record, row));
+    moves
+        .map(|row| (record.position_mm[row] - record.position_mm[row - 1]).abs())
+        .fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::Motion;
+    use crate::motion::{Leg, Pass};
+
+    /// 0.6 mm/s.
+    const MACHINE: &str = r#"
+workpiece = { lead = "6 mm", length = "100 mm" }
+spindle.speed = "6 rpm"
+grating.lines = 13906
+laser.wavelength = "0.63281983 um"
+dividers = { a = 110, b = 150 }
+drive = { step = "0.0125 um", frequency = "160 Hz" }
+"#;
+
+    fn leg(length_mm: f64, forward: bool) -> Leg {
+        Leg { length_mm, speed_rpm: 6.0, forward }
+    }
+
+    /// Each leg of a motion that turns within the pass, sampled every 1.3 s, and on its turns.
+    #[test]
+    fn ways_from_samples_are_those_of_the_motion() {
+        let machine = Machine::parse(MACHINE, Path::new("machine.toml")).unwrap();
+        let legs = vec![leg(30.0, true), leg(21.0, false), leg(17.3, true), leg(9.1, false)];
+        let motion = Motion::new(&machine, &Pass { number: 0, start_mm: 20.0, legs }).unwrap();
+        let mut time_s: Vec<f64> = (0..99).map(|row| 1.3 * f64::from(row)).collect();
+        time_s.push(50.0);
+        time_s.sort_by(f64::total_cmp);
+        let of = |value: fn(&crate::Instant<'_>) -> f64| {
+            time_s.iter().map(|time_s| value(&motion.at(*time_s))).collect::<Vec<f64>>()
+        };
+        let samples = Samples {
+            time_s: Some(time_s.clone()),
+            position_mm: Some(of(|now| now.position_mm)),
+            direction: Some(of(|now| now.direction)),
+            ..Samples::default()
+        };
+        let record = complete(&machine, &samples).unwrap();
+        for (row, now) in time_s.iter().map(|time_s| motion.at(*time_s)).enumerate() {
+            assert!((record.travelled_mm[row] - now.travelled_mm).abs() < 1e-9, "row {row}");
+            let (found_mm, due_mm) = (record.since_reversal_mm[row], now.since_reversal_mm);
+            let alike = (found_mm - due_mm).abs() < 1e-9 || found_mm.total_cmp(&due_mm).is_eq();
+            assert!(alike, "row {row}: {found_mm} mm since the reversal, not {due_mm} mm");
+        }
+    }
+
+    /// A rest at the turn is no way: nothing lies farther apart there than neighbours elsewhere.
+    #[test]
+    fn a_rest_at_the_turn_is_no_way() {
+        let machine = Machine::parse(MACHINE, Path::new("machine.toml")).unwrap();
+        let samples = Samples {
+            time_s: Some(vec![0.0, 1.0, 2.0, 62.0, 63.0, 64.0]),
+            position_mm: Some(vec![0.0, 0.6, 1.2, 1.2, 0.6, 0.0]),
+            direction: Some(vec![1.0, 1.0, 1.0, -1.0, -1.0, -1.0]),
+            ..Samples::default()
+        };
+        let record = complete(&machine, &samples).unwrap();
+        assert!((record.since_reversal_mm[3] - 0.3).abs() < 1e-12);
+        assert!((record.travelled_mm[5] - 3.0).abs() < 1e-12);
+    }
 }
