@@ -63,7 +63,8 @@ pub fn by_physics(problem: &Problem, state: &State, index: usize) -> Vec<String>
     alike
 }
 
-/// True when the fitted pattern is a straight line over the travel, so that it has no shape.
+/// True when the fitted pattern is a straight line over the spindle's turns, so that it has no
+/// shape.
 ///
 /// Known physics and whole numbers are exempt: their size is evidence of its own.
 fn is_slope(problem: &Problem, state: &State, index: usize) -> bool {
@@ -74,7 +75,7 @@ fn is_slope(problem: &Problem, state: &State, index: usize) -> bool {
     }
     let whitener = Whitener::new(&problem.layout, &state.fit.noises);
     let shape = pattern(problem, state, index, &whitener);
-    let line = problem.column(component.term.entry, &problem.record.position_mm);
+    let line = problem.column(component.term.entry, &problem.record.spindle_rad);
     let line = whitener.whiten(&line);
     let fit = least_squares::fit(&[&line], &shape);
     fit.residual_square < SHAPE * dot(&shape, &shape)
