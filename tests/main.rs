@@ -56,3 +56,4 @@ mod tables;
 mod verdict_properties;
 mod waveform_readers;
 mod what_is_left;
+mod what_is_named;

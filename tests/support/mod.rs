@@ -1,4 +1,5 @@
-//! Drives a block, runs the command, runs a tool.
+//! Drives a block, runs the command, runs a tool, makes measurements.
 
 pub(crate) mod bench;
 pub(crate) mod command;
+pub(crate) mod passes;

@@ -1,0 +1,94 @@
+//! Effects are named where the data hold them, whatever lies beside them, and not otherwise.
+
+use std::f64::consts::TAU;
+
+use helixlock_lab::diagnosis::{Diagnosis, Verdict, diagnose};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal, StudentT};
+
+use crate::support::passes::{Passes, noise};
+
+/// Half the wavelength of the machine's laser.
+const FRINGE_UM: f64 = 0.316_410_182_654_969;
+
+/// Effects of the final model.
+fn names(diagnosis: &Diagnosis) -> Vec<&str> {
+    let last = &diagnosis.rounds[diagnosis.rounds.len() - 1];
+    last.effects.iter().map(|effect| effect.name.as_str()).collect()
+}
+
+/// Slow noise of 0.1 µm with heavy tails (Student's law of three degrees of freedom).
+fn heavy_noise(seed: u64, kept: f64) -> impl FnMut() -> f64 {
+    let mut chance = ChaCha8Rng::seed_from_u64(seed);
+    let law = StudentT::new(3.0).expect("three degrees of freedom");
+    let mut slow = 0.0;
+    move || {
+        slow = kept * slow + (1.0 - kept * kept).sqrt() * law.sample(&mut chance) / f64::sqrt(3.0);
+        0.1 * slow
+    }
+}
+
+/// A heavy sample of slow noise looks like a slip for a while; in Gaussian noise, what these
+/// records hold would be beyond doubt.
+#[test]
+fn heavy_tails_of_slow_noise_are_no_slips() {
+    for seed in [4, 9, 25, 34, 37] {
+        let passes = Passes::new(&|_, _, _| 0.0, &mut heavy_noise(seed, 0.98));
+        let found = diagnose(&passes.problem());
+        assert!(names(&found).is_empty(), "seed {seed}: {:?}", names(&found));
+    }
+}
+
+/// One fringe lost between two samples, in noise that swings as far and forgets over 50 samples:
+/// a few samples beside its place, nothing of it is to be seen.
+#[test]
+fn a_slip_in_slow_noise_is_found_at_its_sample() {
+    for lost_at in [211.0, 301.0, 401.0, 650.0, 2601.0] {
+        let slipped = |t: f64, _: f64, _: f64| if t < lost_at { 0.0 } else { FRINGE_UM };
+        let mut chance = ChaCha8Rng::seed_from_u64(3);
+        let mut slow = 0.0;
+        let mut noise = || {
+            let fresh: f64 = StandardNormal.sample(&mut chance);
+            slow = 0.98 * slow + 0.04 * fresh;
+            slow
+        };
+        let diagnosis = diagnose(&Passes::new(&slipped, &mut noise).problem());
+        assert_eq!(names(&diagnosis), ["fringe-slip"], "at {lost_at} s");
+        let slip = &diagnosis.rounds[diagnosis.rounds.len() - 1].effects;
+        let value = |key: &str| slip[0].parameters.iter().find(|p| p.key == key).unwrap().value;
+        assert!((value("count").abs() - 1.0).abs() < 0.01);
+        assert!((value("time_s") - lost_at).abs() < 2.5, "{} for {lost_at} s", value("time_s"));
+    }
+}
+
+/// A step of no whole number of fringes or lines, once and for good: a slip and a hop of the
+/// laser make it together, but so would anything.
+#[test]
+fn a_step_of_any_size_is_no_slip() {
+    for (size_um, moment_s) in [(0.52, 700.0), (0.75, 2900.0), (1.15, 4400.0)] {
+        let step = |t: f64, _: f64, _: f64| if t < moment_s { 0.0 } else { size_um };
+        let diagnosis = diagnose(&Passes::new(&step, &mut noise(11, 1.0)).problem());
+        assert_eq!(diagnosis.verdict, Verdict::Unexplained, "{:?}", names(&diagnosis));
+    }
+}
+
+/// Slow and large by itself, the drift is no noise for the gear.
+#[test]
+fn a_gear_is_found_under_a_drift_ten_times_its_size() {
+    let error = |t: f64, x: f64, _: f64| {
+        0.4 * libm::sin(TAU * 2.3 * x / 6.0) + 6.0 * libm::pow(t / 5000.0, 1.5)
+    };
+    let diagnosis = diagnose(&Passes::new(&error, &mut noise(12, 1.0)).problem());
+    assert!(names(&diagnosis).contains(&"gear-error"), "{:?}", names(&diagnosis));
+}
+
+/// A slope speaks through all samples a little, through none of them alone.
+#[test]
+fn a_curve_in_slow_noise_is_found() {
+    let curve = |_: f64, x: f64, _: f64| 0.8 * (x / 450.0 - 1.0) * (x / 450.0 - 1.0);
+    for seed in 0..4 {
+        let diagnosis = diagnose(&Passes::new(&curve, &mut noise(seed, 4.0)).problem());
+        assert_eq!(names(&diagnosis), ["screw-progressive"], "seed {seed}");
+    }
+}
