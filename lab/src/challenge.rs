@@ -4,7 +4,9 @@ mod outside;
 mod recipe;
 mod scene;
 
-use helixlock_plant::{EffectError, Machine, MachineError, MachineFile, Record, Term};
+use helixlock_plant::{
+    EffectError, Machine, MachineError, MachineFile, Parameter, Record, Role, Term,
+};
 use helixlock_traces::{Column, Table};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -115,8 +117,24 @@ fn hidden_term(
     }
     let wanted = chance.random_range(3.0..15.0) * noise_um;
     let factor = wanted / rms_about_passes(record, &deltas).max(1e-12);
-    let scaled: Vec<f64> = term.coefficients().iter().map(|c| c * factor).collect();
-    Ok(term.with_coefficients(&scaled))
+    let scaled = |factor: f64| {
+        let coefficients: Vec<f64> = term.coefficients().iter().map(|c| c * factor).collect();
+        term.with_coefficients(&coefficients)
+    };
+    // No larger than the effect can be: a dead path of six metres is none.
+    let full = scaled(factor);
+    let share = full.parameters.iter().zip(&full.values).map(within).fold(1.0, f64::min);
+    Ok(scaled(factor * share))
+}
+
+/// Share of a value that lies within the plausible range of its parameter.
+fn within((what, &value): (&Parameter, &f64)) -> f64 {
+    let (low, high) = (*what.range.start(), *what.range.end());
+    let sized = matches!(what.role, Role::Linear | Role::Amplitude);
+    if !sized || high <= low || (low..=high).contains(&value) {
+        return 1.0;
+    }
+    (if value < low { low } else { high }) / value
 }
 
 /// Root mean square about the mean of each pass.
