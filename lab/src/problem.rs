@@ -263,10 +263,14 @@ fn hunting_um(problem: &Problem, residual: &[f64]) -> f64 {
     let slower = (machine.spindle.speed_rpm / speeds.fold(f64::INFINITY, f64::min)).max(1.0);
     let swing_um =
         slower * machine.drive.step_um * machine.drive.frequency_hz / machine.comparison_hz();
+    // Equal values of a counter say that no step was taken in between, and nothing of their size.
+    let moved =
+        |&row: &usize| problem.observed[row].to_bits() != problem.observed[row + 1].to_bits();
     let blocks = problem.layout.blocks.iter();
     let mut steps: Vec<f64> = blocks
-        .flat_map(|block| residual[block.rows.clone()].windows(2))
-        .map(|pair| (pair[1] - pair[0]).abs())
+        .flat_map(|block| block.rows.start..block.rows.end.saturating_sub(1))
+        .filter(moved)
+        .map(|row| (residual[row + 1] - residual[row]).abs())
         .collect();
     swing_um.min(SWINGS * noise_fit::median(&mut steps))
 }
@@ -319,3 +323,6 @@ fn record(machine: &Machine, measurement: &Measurement) -> Record {
     };
     Record::new(machine, &samples).unwrap_or_default()
 }
+
+#[cfg(test)]
+mod tests;

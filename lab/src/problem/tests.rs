@@ -1,0 +1,47 @@
+use std::path::Path;
+
+use helixlock_traces::{Column, Table};
+
+use super::*;
+use crate::measurement::Nominal;
+
+/// 12.64 comparisons a second, 13 steps of the motor in each: a swing of 0.158 µm.
+fn machine(more: &str) -> Machine {
+    let text = format!(
+        "workpiece.lead = '6 mm'\nspindle.speed = '6 rpm'\ngrating.lines = 13906\n\
+         laser.wavelength = '0.63281983 um'\ndividers = {{ a = 110, b = 150, {more} }}\n\
+         drive = {{ step = '0.0125 um', frequency = '160 Hz' }}\n"
+    );
+    Machine::parse(&text, Path::new("machine.toml")).expect("a machine")
+}
+
+fn problem(machine: &Machine, columns: &[(&str, Vec<f64>)]) -> Problem {
+    let column = |(name, values): &(&str, Vec<f64>)| Column {
+        name: (*name).to_owned(),
+        values: values.clone(),
+    };
+    let table = Table::new(columns.iter().map(column).collect());
+    let measurement = Measurement::from_table(&table, &Nominal::from(machine));
+    Problem::new(machine, &measurement.expect("a measurement")).expect("no columns missing")
+}
+
+/// The counter of a loop that follows 30 µm/m and swings by 13 steps from comparison to comparison,
+/// read at every second of them, stands still most of the time.
+#[test]
+fn a_counter_that_stands_still_between_readings_hunts_no_less() {
+    let mut machine = machine("");
+    machine.loop_closed = true;
+    let comparisons: Vec<f64> = (0..6000).map(|row| f64::from(row) / 12.64).collect();
+    let mut net = 0.0;
+    let all = comparisons.iter().map(|time_s| {
+        let due_um = 30e-3 * 0.6 * time_s;
+        net += if net * 0.0125 < due_um { 13.0 } else { -13.0 };
+        net
+    });
+    let steps: Vec<f64> = all.collect::<Vec<f64>>().into_iter().step_by(2).collect();
+    let still = steps.windows(2).filter(|pair| pair[0].to_bits() == pair[1].to_bits()).count();
+    assert!(steps.len() < 2 * still, "{still} of {}", steps.len());
+    let time_s = comparisons.iter().copied().step_by(2).collect();
+    let hunting_um = problem(&machine, &[("time_s", time_s), ("steps", steps)]).hunting_um;
+    assert!((hunting_um - 0.158).abs() < 0.001, "{hunting_um}");
+}
