@@ -103,6 +103,7 @@ impl Problem {
         problem.highest_hz = highest_frequency(&problem.record.time_s);
         problem.stack_rows();
         problem.predict()?;
+        problem.find_start()?;
         let residual = problem.residual();
         problem.mark_outliers(&residual);
         problem.hunting_um = hunting_um(&problem, &residual);
@@ -213,6 +214,28 @@ impl Problem {
         }
         self.layout.inflation = vec![1.0; self.rows.len()];
         self.predicted = vec![0.0; self.rows.len()];
+    }
+
+    /// Where the compensator began to count is not in the file: at the first sample of each pass,
+    /// or at travel zero before it, whichever leaves the smaller steps between neighbours.
+    fn find_start(&mut self) -> Result<(), EffectError> {
+        if self.machine.rotary || self.machine.dividers.compensation_cycle().is_none() {
+            return Ok(());
+        }
+        let mut other = Self { record: self.record.begun_at_zero(), ..self.clone() };
+        other.predict()?;
+        if other.roughness() < self.roughness() {
+            *self = other;
+        }
+        Ok(())
+    }
+
+    /// Sum of the squares of what is left from neighbour to neighbour, µm².
+    fn roughness(&self) -> f64 {
+        let left = self.residual();
+        let blocks = self.layout.blocks.iter();
+        let steps = blocks.flat_map(|block| left[block.rows.clone()].windows(2));
+        steps.map(|pair| (pair[1] - pair[0]) * (pair[1] - pair[0])).sum()
     }
 
     fn predict(&mut self) -> Result<(), EffectError> {

@@ -2,6 +2,7 @@
 
 mod actuator;
 pub mod air;
+mod compensation;
 mod custom;
 pub mod dividers;
 pub mod edges;

@@ -15,6 +15,7 @@
 //!
 //! Each pass has its own zero: everything is counted from its first sample.
 
+use crate::compensation::{compensation_um, dialled_um_per_m};
 use crate::{Effect, EffectError, Entry, LowPass, Machine, Record, record::Covariate, term::Sum};
 
 /// Something that records an error.
@@ -143,14 +144,15 @@ pub fn meter_um(machine: &Machine, record: &Record, effects: &[(Entry, Sum)]) ->
 }
 
 /// What the machine file itself implies, before zero and filter: the slope that the dividers leave
-/// against the laser's own number of fringes, the compensation that is set, steps made by hand.
+/// against the laser's own number of fringes, the stairs of the compensation that is set, steps
+/// made by hand.
 #[must_use]
 pub fn implied(machine: &Machine, record: &Record, sensor: Sensor) -> Vec<f64> {
     if machine.rotary {
         return vec![0.0; record.len()];
     }
-    let slope_um_per_mm = implied_um_per_m(machine) / 1000.0;
-    let slope = slope_um_per_mm * gain(machine, Entry::LengthReference, sensor);
+    let reference = gain(machine, Entry::LengthReference, sensor);
+    let slope = reference * rationalisation_um_per_m(machine) / 1000.0;
     let by_hand = if machine.loop_closed {
         0.0
     } else {
@@ -158,30 +160,32 @@ pub fn implied(machine: &Machine, record: &Record, sensor: Sensor) -> Vec<f64> {
     };
     record
         .instants()
-        .map(|now| {
+        .zip(compensation_um(machine, record))
+        .map(|(now, stairs_um)| {
             let steps = now.covariate(Covariate::Steps);
             let moved = if by_hand == 0.0 || steps.is_nan() { 0.0 } else { by_hand * steps };
-            slope * now.position_mm + moved
+            slope * now.position_mm + reference * stairs_um + moved
         })
         .collect()
 }
 
-/// Slope of the recorder, µm/m, from rationalisation and compensation.
+/// Mean slope of the recorder, µm/m, from rationalisation and compensation.
 ///
 /// `M·B·λ/(2·S·A) − 1` of the travel; −0.846 µm/m for A 110, B 150 and the wavelength as printed
 /// in document 1. A compensation blocks (+) or inserts (−) one pulse in each cycle.
 #[must_use]
 pub fn implied_um_per_m(machine: &Machine) -> f64 {
+    rationalisation_um_per_m(machine) + dialled_um_per_m(&machine.dividers)
+}
+
+/// What the dividers leave of the travel, µm/m.
+fn rationalisation_um_per_m(machine: &Machine) -> f64 {
     let dividers = &machine.dividers;
     let fringes_per_turn =
         f64::from(machine.grating.lines) * f64::from(dividers.b) / f64::from(dividers.a);
     let rational_mm = fringes_per_turn * machine.fringe_um() / 1000.0;
     let lead_mm = machine.workpiece.lead.mm();
-    let rationalisation = (rational_mm - lead_mm) / lead_mm * 1e6;
-    let compensation = dividers.compensation_cycle().map_or(0.0, |cycle| {
-        libm::copysign(1e6 / f64::from(cycle), dividers.compensation_um_per_m)
-    });
-    rationalisation + compensation
+    (rational_mm - lead_mm) / lead_mm * 1e6
 }
 
 /// Zero of each pass, and the recorder's filter.

@@ -161,7 +161,7 @@ pub struct Record {
     pub direction: Vec<f64>,
     /// Pass, from 0, in blocks: a number never comes back.
     pub pass: Vec<usize>,
-    /// Way since the start of the pass, mm.
+    /// Way since the start of the pass, mm; see [`Self::begun_at_zero`] for where that is.
     pub travelled_mm: Vec<f64>,
     /// Way since the last reversal inside the pass, mm; infinite before the first.
     pub since_reversal_mm: Vec<f64>,
@@ -281,6 +281,19 @@ impl Record {
             }
         }
         self
+    }
+
+    /// The same, if every forward pass began at travel zero, however far its first sample lies.
+    #[must_use]
+    pub fn begun_at_zero(&self) -> Self {
+        let mut begun = self.clone();
+        for rows in self.passes() {
+            let before_mm = self.position_mm[rows.start] - self.travelled_mm[rows.start];
+            if 0.0 < before_mm && 0.0 < self.direction[rows.start] {
+                begun.travelled_mm[rows].iter_mut().for_each(|way_mm| *way_mm += before_mm);
+            }
+        }
+        begun
     }
 
     /// Rows of each pass, in order.

@@ -31,7 +31,7 @@ pub(crate) fn complete(machine: &Machine, samples: &Samples) -> Option<Record> {
         pass,
         ..Record::default()
     };
-    (record.travelled_mm, record.since_reversal_mm) = ways(&record, lead_mm);
+    (record.travelled_mm, record.since_reversal_mm) = ways(&record, machine);
     Some(record.with_covariates(&samples.covariates))
 }
 
@@ -116,12 +116,14 @@ fn directions(position_mm: &[f64], pass: &[usize]) -> Vec<f64> {
 /// A reversal is where the direction changes, so that what turns with the direction and what winds
 /// up anew turn together. The turning point lies between two samples, as far beyond them as the
 /// table had time for.
-fn ways(record: &Record, lead_mm: f64) -> (Vec<f64>, Vec<f64>) {
+fn ways(record: &Record, machine: &Machine) -> (Vec<f64>, Vec<f64>) {
+    let lead_mm = machine.workpiece.lead.mm();
     let mut travelled = Vec::with_capacity(record.len());
     let mut since_reversal = Vec::with_capacity(record.len());
     for rows in record.passes() {
         let longest_mm = longest_mm(record, rows.clone());
-        let (mut way_mm, mut since_mm) = (0.0, f64::INFINITY);
+        let start_mm = way_before_mm(machine, record.position_mm[rows.start]);
+        let (mut way_mm, mut since_mm) = (start_mm, f64::INFINITY);
         for row in rows.clone() {
             if rows.start < row {
                 let move_mm = record.position_mm[row] - record.position_mm[row - 1];
@@ -142,6 +144,19 @@ fn ways(record: &Record, lead_mm: f64) -> (Vec<f64>, Vec<f64>) {
         }
     }
     (travelled, since_reversal)
+}
+
+/// Way of a pass before its first sample, mm.
+///
+/// A recorder does not say where its pass began. If the first sample lies no farther from travel
+/// zero than the device takes to its first comparison, the pass began at zero; any other is taken
+/// to begin with its first sample.
+fn way_before_mm(machine: &Machine, first_mm: f64) -> f64 {
+    let dividers = &machine.dividers;
+    let comparison = f64::from(dividers.range.factor()) * f64::from(dividers.b);
+    let pulses = f64::from(dividers.initial_phase) + 2.0 * comparison;
+    let longest_mm = pulses * machine.fringe_um() / 1000.0;
+    if first_mm.abs() <= longest_mm { first_mm.abs() } else { 0.0 }
 }
 
 /// True when the direction changes between a sample and the one before it.

@@ -45,3 +45,26 @@ fn a_counter_that_stands_still_between_readings_hunts_no_less() {
     let hunting_um = problem(&machine, &[("time_s", time_s), ("steps", steps)]).hunting_um;
     assert!((hunting_um - 0.158).abs() < 0.001, "{hunting_um}");
 }
+
+/// λ/2 of lag at every 100 000th fringe, 31.64 mm, from the pass's first sample or from travel
+/// zero 70 mm before it: both are found in the file.
+#[test]
+fn stairs_of_the_compensation_are_found_wherever_it_began_to_count() {
+    for (rate, sign) in [("10 um/m", 1.0), ("-10 um/m", -1.0)] {
+        let machine = machine(&format!("compensation = '{rate}'"));
+        let slope = -0.846e-3; // document 1
+        for start_mm in [70.0, 0.0] {
+            let position_mm: Vec<f64> = (0..900).map(|row| 70.0 + 0.5 * f64::from(row)).collect();
+            let lag_um = |place_mm: &f64| {
+                let stairs = ((place_mm - start_mm) / 31.640_991_5).floor();
+                sign * 0.316_409_915 * stairs + slope * place_mm
+            };
+            let error_um = position_mm.iter().map(lag_um).collect();
+            let columns = [("position_mm", position_mm), ("error_um", error_um)];
+            let left = problem(&machine, &columns).residual();
+            let low = left.iter().copied().fold(f64::INFINITY, f64::min);
+            let high = left.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            assert!(high - low < 1e-3, "{rate} from {start_mm} mm: {low} to {high} µm");
+        }
+    }
+}

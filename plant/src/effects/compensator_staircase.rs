@@ -9,6 +9,7 @@
 //! 10 µm/m is one pulse of 0.316 µm every 31.6 mm.
 
 use super::shape::rough;
+use crate::compensation::stairs_um;
 use crate::units::UM_PER_M;
 use crate::{Basis, Card, Entry, Parameter, Search};
 
@@ -34,11 +35,7 @@ pub(super) const CARD: Card = Card {
     candidate: true,
     basis: |context, nonlinear| {
         let (rate, fringe_um) = (nonlinear[0], context.machine.fringe_um());
-        let cycle_um = fringe_um * 1e6 / rate.abs();
-        let stairs = rough(move |now| {
-            let steps = (1000.0 * now.position_mm / cycle_um).floor();
-            if rate == 0.0 { 0.0 } else { libm::copysign(fringe_um, rate) * steps }
-        });
+        let stairs = rough(move |now| stairs_um(rate, fringe_um, now.position_mm));
         Ok(Basis::fixed(stairs))
     },
 };
