@@ -4,6 +4,8 @@
 //! The two share the formula of δ and nothing else: one goes through fringes, flip-flops and motor
 //! steps, the other through the sign table.
 
+use std::path::Path;
+
 use helixlock_plant::prediction::{Sensor, predict};
 use helixlock_plant::{CATALOGUE, Machine, Record, Samples};
 use helixlock_sim::{Options, Simulation, Trace, simulate};
@@ -196,6 +198,25 @@ fn closed_loop_grinds_and_counts_what_the_closed_form_says() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Eight stairs of λ/2, by divider F and its gates, and by the closed form.
+#[test]
+fn a_compensation_of_the_machine_file_is_stairs() {
+    for rate in ["90 um/m", "-90 um/m"] {
+        let text = MACHINE.replace("[[effect]]", "").replace(
+            "initial_phase = 150",
+            &format!("initial_phase = 150, compensation = \"{rate}\""),
+        );
+        let mut machine = Machine::parse(&text, Path::new("machine.toml")).expect("a machine");
+        let trace = run(&machine).open.trace;
+        let recorder = worst(&machine, &trace, Sensor::Recorder, &trace.error_um);
+        assert!(recorder < OPEN_TOLERANCE_UM, "{rate}: recorder off by {recorder} µm");
+        machine.loop_closed = true;
+        let trace = settled(&run(&machine).closed.trace);
+        let thread = worst(&machine, &trace, Sensor::Thread, &trace.lead_error_um);
+        assert!(thread < CLOSED_TOLERANCE_UM, "{rate}: thread off by {thread} µm");
+    }
 }
 
 /// The rows after the first pull to the middle of the meter, without those of the way after a jump.

@@ -1,13 +1,16 @@
-//! The samples behind a thinned measurement, for what a mean or a choice does not stand for.
+//! The samples behind those of a measurement, for what these do not stand for.
 
 use std::ops::Range;
 
-use helixlock_plant::Record;
 use helixlock_plant::prediction::Prediction;
+use helixlock_plant::{Machine, Record};
 
 use crate::measurement::means;
 
-/// A record and the groups of its samples that were averaged, or chosen as groups of one.
+/// A record, those of its samples that were measured, and the groups of these that were averaged,
+/// or chosen as groups of one.
+///
+/// Samples farther apart than comparisons have others in between: a lag works on every one.
 ///
 /// A formula of the mean is not the mean of a formula: a jump in the error, as the meter's dead
 /// zone makes it, is smeared in one and lost in the other. And the error counts from the first
@@ -16,15 +19,28 @@ use crate::measurement::means;
 pub struct Finer {
     /// All samples.
     pub record: Record,
-    /// Which of them make up each mean.
+    /// Which of them were measured, if others are in between.
+    pub measured: Option<Vec<usize>>,
+    /// Which measured ones make up each mean.
     pub groups: Vec<Range<usize>>,
 }
 
 impl Finer {
+    /// A record with samples in between at every comparison; `None` if it has them.
+    #[must_use]
+    pub fn between(machine: &Machine, record: &Record) -> Option<Self> {
+        let turns = machine.turns_a_comparison();
+        let (record, measured) = record.refined(turns).filter(|_| !machine.rotary)?;
+        let groups = (0..measured.len()).map(|row| row..row + 1).collect();
+        Some(Self { record, measured: Some(measured), groups })
+    }
+
     /// Means of values that belong to all samples.
     #[must_use]
     pub fn means(&self, values: &[f64]) -> Vec<f64> {
-        means(values, &self.groups)
+        let Some(measured) = &self.measured else { return means(values, &self.groups) };
+        let measured: Vec<f64> = measured.iter().map(|&sample| values[sample]).collect();
+        means(&measured, &self.groups)
     }
 
     /// Means of a prediction for all samples.

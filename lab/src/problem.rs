@@ -30,7 +30,7 @@ pub struct Problem {
     pub measurement: Measurement,
     /// The samples as the catalogue wants them.
     pub record: Record,
-    /// The samples that those of this problem are means or a choice of, if they are.
+    /// Samples behind those of this problem: between them, or that they are means or a choice of.
     pub finer: Option<Finer>,
     /// Sensors in the order of `Layout`'s numbers.
     pub sensors: Vec<Sensor>,
@@ -71,7 +71,12 @@ impl Problem {
     /// As [`Self::new`].
     pub fn averaged(&self, groups: Vec<Range<usize>>) -> Result<Self, EffectError> {
         let measurement = self.measurement.averaged(&groups);
-        let finer = Finer { record: self.record.clone(), groups };
+        let finer = match &self.finer {
+            Some(finer) if finer.measured.is_some() && finer.groups.len() == self.record.len() => {
+                Finer { groups, ..finer.clone() }
+            }
+            _ => Finer { record: self.record.clone(), measured: None, groups },
+        };
         Self::laid_out(&self.machine, &measurement, Some(finer))
     }
 
@@ -82,6 +87,9 @@ impl Problem {
     ) -> Result<Self, EffectError> {
         let record = record(machine, measurement);
         let sensors: Vec<Sensor> = measurement.observations.keys().copied().collect();
+        let recorded = sensors.contains(&Sensor::Recorder);
+        let between = || Finer::between(machine, &record).filter(|_| recorded);
+        let finer = finer.or_else(between);
         let mut problem = Self {
             machine: as_measured(machine, measurement),
             measurement: measurement.clone(),
@@ -137,11 +145,24 @@ impl Problem {
     /// Design column, row by row, of an effect whose δ at every sample is given.
     #[must_use]
     pub fn column(&self, entry: Entry, deltas: &[f64]) -> Vec<f64> {
-        let shown: Vec<Vec<f64>> = self
-            .sensors
-            .iter()
-            .map(|&sensor| observe(&self.machine, &self.record, entry, sensor, deltas))
-            .collect();
+        self.stacked(|sensor| observe(&self.machine, &self.record, entry, sensor, deltas))
+    }
+
+    /// Design column of an effect, through the recorder's filter at every comparison.
+    fn column_of(&self, entry: Entry, unit: &dyn Effect) -> Vec<f64> {
+        let between = self.finer.as_ref().filter(|finer| finer.measured.is_some());
+        let Some(finer) = between.filter(|_| self.machine.filter_cutoff_hz.is_some()) else {
+            return self.column(entry, &self.deltas_um(unit));
+        };
+        let deltas = unit.deltas_um(&finer.record);
+        self.stacked(|sensor| {
+            finer.means(&observe(&self.machine, &finer.record, entry, sensor, &deltas))
+        })
+    }
+
+    /// What each sensor shows of each sample, row by row in µm.
+    fn stacked(&self, shown: impl Fn(Sensor) -> Vec<f64>) -> Vec<f64> {
+        let shown: Vec<Vec<f64>> = self.sensors.iter().map(|&sensor| shown(sensor)).collect();
         let mut column = Vec::with_capacity(self.rows.len());
         for block in &self.layout.blocks {
             let shown = &shown[block.sensor];
@@ -167,7 +188,7 @@ impl Problem {
         let context =
             helixlock_plant::Context { machine: &self.machine, columns: &self.record.columns };
         let basis = term.basis(&context)?;
-        let column = |unit: &dyn Effect| self.column(term.entry, &self.deltas_um(unit));
+        let column = |unit: &dyn Effect| self.column_of(term.entry, unit);
         let columns = basis.columns.iter().map(|unit| column(unit.as_ref())).collect();
         Ok(Design { columns, fixed: basis.fixed.map(|unit| column(unit.as_ref())) })
     }
@@ -223,6 +244,9 @@ impl Problem {
             return Ok(());
         }
         let mut other = Self { record: self.record.begun_at_zero(), ..self.clone() };
+        if let Some(finer) = &mut other.finer {
+            finer.record = finer.record.begun_at_zero();
+        }
         other.predict()?;
         if other.roughness() < self.roughness() {
             *self = other;

@@ -31,7 +31,12 @@ pub(crate) fn compensation_um(machine: &Machine, record: &Record) -> Vec<f64> {
     if rate_um_per_m == 0.0 {
         return vec![0.0; record.len()];
     }
-    let of = |row: usize| stairs_um(rate_um_per_m, machine.fringe_um(), record.travelled_mm[row]);
+    let fringe_um = machine.fringe_um();
+    // The pulse behind the F-th is blocked, one is added to the F-th itself: between the two.
+    let late_mm = fringe_um / 2000.0;
+    let of = |row: usize| {
+        stairs_um(rate_um_per_m, fringe_um, (record.travelled_mm[row] - late_mm).max(0.0))
+    };
     let mut shown = Vec::with_capacity(record.len());
     for rows in record.passes() {
         let mut lag_um = 0.0;

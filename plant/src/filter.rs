@@ -2,6 +2,9 @@
 
 /// First-order lag between uneven samples, exact for an input that runs straight between them.
 ///
+/// A wave of rate ω comes out too large or too small by `(ωT)²/12` of samples T apart: see
+/// [`crate::Record::refined`] for samples that are farther apart than comparisons.
+///
 /// Document 1, figure 10 asks for a low-pass between the error band (three times the spindle) and
 /// the comparison frequency; its elements are not in our hands, so one pole is assumed.
 #[derive(Clone, Copy, Debug)]

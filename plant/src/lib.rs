@@ -17,6 +17,7 @@ pub mod motion;
 mod piece;
 pub mod prediction;
 mod record;
+mod refined;
 mod samples;
 mod smoothness;
 mod term;

@@ -251,6 +251,12 @@ impl Machine {
         lines_per_s / f64::from(self.dividers.a) / f64::from(self.dividers.range.factor())
     }
 
+    /// Turns of the spindle from one comparison to the next.
+    #[must_use]
+    pub fn turns_a_comparison(&self) -> f64 {
+        self.spindle.speed_rpm / 60.0 / self.comparison_hz()
+    }
+
     /// Nominal table speed, mm/s.
     #[must_use]
     pub fn travel_mm_per_s(&self) -> f64 {

@@ -1,5 +1,6 @@
 use std::path::Path;
 
+use helixlock_sim::{Options, simulate};
 use helixlock_traces::{Column, Table};
 
 use super::*;
@@ -7,10 +8,14 @@ use crate::measurement::Nominal;
 
 /// 12.64 comparisons a second, 13 steps of the motor in each: a swing of 0.158 µm.
 fn machine(more: &str) -> Machine {
+    machine_with(more, "")
+}
+
+fn machine_with(dividers: &str, rest: &str) -> Machine {
     let text = format!(
         "workpiece.lead = '6 mm'\nspindle.speed = '6 rpm'\ngrating.lines = 13906\n\
-         laser.wavelength = '0.63281983 um'\ndividers = {{ a = 110, b = 150, {more} }}\n\
-         drive = {{ step = '0.0125 um', frequency = '160 Hz' }}\n"
+         laser.wavelength = '0.63281983 um'\ndividers = {{ a = 110, b = 150, {dividers} }}\n\
+         drive = {{ step = '0.0125 um', frequency = '160 Hz' }}\n{rest}"
     );
     Machine::parse(&text, Path::new("machine.toml")).expect("a machine")
 }
@@ -66,5 +71,35 @@ fn stairs_of_the_compensation_are_found_wherever_it_began_to_count() {
             let high = left.iter().copied().fold(f64::NEG_INFINITY, f64::max);
             assert!(high - low < 1e-3, "{rate} from {start_mm} mm: {low} to {high} µm");
         }
+    }
+}
+
+/// A recorder of 0.2 Hz, clock by clock, and every ninth comparison of it: 0.7 s apart, a fourth of
+/// the gear's wave.
+#[test]
+fn a_wave_through_the_recorder_is_known_from_samples_far_apart() {
+    let gear = "workpiece.length = '90 mm'\nfilter.cutoff = '0.2 Hz'\n[[effect]]\n\
+                kind = 'gear-error'\namplitude = '2 um'\norder = 3.4\n";
+    let with_gear = machine_with("range = 1", gear);
+    let trace =
+        simulate(&with_gear, &Options::default(), &mut |_| {}).expect("a machine").open.trace;
+    let every = |values: &[f64]| values.iter().copied().step_by(9).collect::<Vec<f64>>();
+    let columns = [
+        ("time_s", every(&trace.time_s)),
+        ("position_mm", every(&trace.position_mm)),
+        ("error_um", every(&trace.filtered_error_um)),
+    ];
+    let known = problem(&with_gear, &columns);
+    let mut without = with_gear.clone();
+    without.effects.clear();
+    let left = problem(&without, &columns);
+    let design = left.design(&with_gear.effects[0]).expect("a wave");
+    let (known, left) = (known.residual(), left.residual());
+    let first = known[0];
+    for (row, now) in known.iter().enumerate() {
+        // The zero of the meter, and nothing else.
+        assert!((now - first).abs() < 0.01, "row {row}: {now} µm of the known gear, not {first}");
+        let fitted = left[row] - 2.0 * design.columns[0][row];
+        assert!((fitted - now).abs() < 1e-9, "row {row}: {fitted} µm of the column, not {now}");
     }
 }
