@@ -205,7 +205,8 @@ fn tap(machine: &Machine, grating_hz: f64) -> Tap {
 fn blocked(machine: &Machine, tap: Tap, passed: f64) -> f64 {
     let cycle = machine.dividers.compensation_cycle().filter(|_| !tap.divided);
     cycle.map_or(0.0, |cycle| {
-        let cycles = (passed / f64::from(cycle)).floor();
+        // Behind the F-th fringe, as in the model's stairs.
+        let cycles = ((passed - 0.5) / f64::from(cycle)).floor().max(0.0);
         libm::copysign(cycles, machine.dividers.compensation_um_per_m)
     })
 }
