@@ -133,7 +133,8 @@ fn ways(record: &Record, machine: &Machine) -> (Vec<f64>, Vec<f64>) {
                     // At rest in between it has gone less far than its speed says.
                     let between_mm = (pace_mm_s * elapsed_s).min(longest_mm).max(move_mm.abs());
                     way_mm += between_mm;
-                    since_mm = (between_mm + record.direction[row] * move_mm) / 2.0;
+                    // Out and back are the way between; what one is longer than the other, the move.
+                    since_mm = 0.5 * (between_mm + record.direction[row] * move_mm);
                 } else {
                     way_mm += move_mm.abs();
                     since_mm += move_mm.abs();
