@@ -73,6 +73,19 @@ fn parquet() {
     expect_file!["cases/bad-data/parquet.txt"].assert_eq(&table(&cases, refuse));
 }
 
+/// A column of words is left out and remembered, plain or in a dictionary, as in a text file.
+#[test]
+fn words_in_parquet_are_those_of_a_text_file() {
+    let text = read_csv(b"time_s,note\n1,a\n2,b\n", Path::new("data.csv")).expect("a table");
+    for file in ["text.parquet", "dictionary_text.parquet"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/parquet").join(file);
+        let table = read_table(&path).expect("a table");
+        assert_eq!(table.columns, text.columns, "{file}");
+        let [words, expected] = [&table, &text].map(|table| &table.text[0]);
+        assert_eq!((&words.name, &words.first), (&expected.name, &expected.first), "{file}");
+    }
+}
+
 #[test]
 fn files_of_other_kinds() {
     let kinds: [(&str, &[u8]); 13] = [

@@ -11,8 +11,6 @@ fn file(name: &str) -> Vec<u8> {
 
 /// Files whose columns are refused.
 const COLUMNS: &[(&str, &str)] = &[
-    ("text", "bad_text.parquet"),
-    ("text in a dictionary", "bad_dictionary_text.parquet"),
     ("time stamps", "bad_timestamp.parquet"),
     ("old time stamps", "bad_int96.parquet"),
     ("dates", "bad_date.parquet"),

@@ -1,7 +1,7 @@
 //! Parquet: the same columns as the text form, in binary.
 //!
-//! Null and NaN are missing values. Booleans count as 0 and 1. Text, times and nested columns
-//! are refused by name.
+//! Null and NaN are missing values. Booleans count as 0 and 1. A column of words is left out and
+//! remembered; times and nested columns are refused by name.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -17,13 +17,14 @@ use ::parquet::file::writer::SerializedFileWriter;
 use ::parquet::schema::types::{ColumnDescriptor, Type};
 use bytes::Bytes;
 
-use crate::error::TraceError;
-use crate::table::{Column, Table};
+use crate::error::{At, TraceError};
+use crate::table::{Column, Table, TextColumn, shortened};
 
 mod checks;
 
 use checks::{
     check_compression, check_dictionary, check_places, check_rows, check_type, declared_rows,
+    is_text,
 };
 
 /// Rows decoded at a time, and rows written to a group.
@@ -56,17 +57,26 @@ fn read_columns(bytes: Vec<u8>, path: &Path) -> Result<Table, TraceError> {
     let rows = declared_rows(&reader).map_err(broken)?;
     let schema = reader.metadata().file_metadata().schema_descr();
     let mut columns = Vec::with_capacity(schema.num_columns());
+    let mut text = Vec::new();
     for (index, descriptor) in schema.columns().iter().enumerate() {
         let name = descriptor.path().string();
         if name.starts_with("__index_level_") {
             continue;
         }
-        check_type(descriptor, &name, path)?;
         check_compression(&reader, index, &name, path)?;
+        if is_text(descriptor) {
+            let first = first_word(&reader, index).map_err(broken)?;
+            text.push(TextColumn { name, first, at: At::file(path), hint: "" });
+            continue;
+        }
+        check_type(descriptor, &name, path)?;
         let values = read_column(&reader, index, descriptor, rows).map_err(broken)?;
         columns.push(Column { name, values });
     }
-    let table = Table { path: path.to_owned(), columns, ..Table::default() };
+    if let (true, Some(first)) = (columns.is_empty(), text.first()) {
+        return Err(first.refused());
+    }
+    let table = Table { path: path.to_owned(), columns, text, ..Table::default() };
     check_rows(&table)?;
     Ok(table)
 }
@@ -116,6 +126,27 @@ fn write_group<W: Write + Send>(
     }
     group.close()?;
     Ok(())
+}
+
+/// First word of a column of them; empty when there is none.
+fn first_word(file: &SerializedFileReader<Bytes>, index: usize) -> Result<String, ParquetError> {
+    for group in 0..file.num_row_groups() {
+        check_dictionary(file, group, index)?;
+        let reader = file.get_row_group(group)?.get_column_reader(index)?;
+        let ColumnReader::ByteArrayColumnReader(mut column) = reader else { continue };
+        let (mut levels, mut words) = (Vec::new(), Vec::new());
+        while words.is_empty() {
+            levels.clear();
+            let (rows, ..) = column.read_records(1, Some(&mut levels), None, &mut words)?;
+            if rows == 0 {
+                break;
+            }
+        }
+        if let Some(word) = words.first() {
+            return Ok(shortened(&String::from_utf8_lossy(word.data())));
+        }
+    }
+    Ok(String::new())
 }
 
 fn read_column(

@@ -127,6 +127,15 @@ pub fn read_table(path: &Path) -> Result<Table, TraceError> {
     }
 }
 
+/// At most forty characters, so that a message stays a line.
+pub(crate) fn shortened(text: &str) -> String {
+    const LONGEST: usize = 40;
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
+    }
+}
+
 /// Kinds of file that people hand over by mistake.
 fn foreign_kind(bytes: &[u8]) -> Option<&'static str> {
     const KINDS: &[(&[u8], &str)] = &[

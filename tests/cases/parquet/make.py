@@ -22,8 +22,6 @@ pq.write_table(t, out + "pyarrow_v2_delta.parquet", use_dictionary=False, data_p
 df = t.to_pandas(); df.index = pd.Index(range(10, 17)); df.to_parquet(out + "pandas_index.parquet")
 pl.from_arrow(t).write_parquet(out + "polars.parquet")
 bad = {
- "text": pa.table({"time_s": [1.0, 2.0], "note": ["a", "b"]}),
- "dictionary_text": pa.table({"time_s": [1.0, 2.0], "note": pa.array(["a", "b"]).dictionary_encode()}),
  "timestamp": pa.table({"time_s": pa.array([datetime.datetime(2026, 1, 1)] * 2, pa.timestamp("us"))}),
  "date": pa.table({"day": pa.array([datetime.date(2026, 1, 1)] * 2)}),
  "time_of_day": pa.table({"clock": pa.array([datetime.time(1, 2)] * 2)}),
@@ -38,4 +36,6 @@ bad = {
 }
 for k, v in bad.items():
     pq.write_table(v, f"{out}bad_{k}.parquet")
+pq.write_table(pa.table({"time_s": [1.0, 2.0], "note": ["a", "b"]}), out + "text.parquet")
+pq.write_table(pa.table({"time_s": [1.0, 2.0], "note": pa.array(["a", "b"]).dictionary_encode()}), out + "dictionary_text.parquet")
 pq.write_table(pa.table({"t": pa.array([datetime.datetime(2026, 1, 1)] * 2, pa.timestamp("ns"))}), out + "bad_int96.parquet", use_deprecated_int96_timestamps=True)

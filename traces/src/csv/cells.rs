@@ -3,7 +3,7 @@
 use super::place::Line;
 use super::stamp;
 use crate::error::TraceError;
-use crate::table::{Column, TextColumn};
+use crate::table::{Column, TextColumn, shortened};
 
 pub(super) const CUT_OFF: &str = "\n\nhint: the file ends here, it may have been cut off";
 pub(super) const DECIMAL_COMMA: &str = "\n\nhint: write the decimal sign as a point";
@@ -125,15 +125,6 @@ fn number(cell: &[u8]) -> Option<f64> {
 /// Text that begins with a letter: what begins with a digit or a sign was meant to be a number.
 fn is_word(found: &str) -> bool {
     found.chars().next().is_some_and(char::is_alphabetic) && !found.contains(char::is_control)
-}
-
-/// At most forty characters, so that a message stays a line.
-fn shortened(text: &str) -> String {
-    const LONGEST: usize = 40;
-    match text.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{}…", &text[..end]),
-        None => text.to_owned(),
-    }
 }
 
 /// Numbers with blanks between them.

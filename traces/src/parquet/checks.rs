@@ -37,6 +37,12 @@ pub(super) fn check_type(
     Err(TraceError::ColumnType { path: path.to_owned(), name: name.to_owned(), found })
 }
 
+/// True for a column of words that is not part of another one.
+pub(super) fn is_text(column: &ColumnDescriptor) -> bool {
+    let words = column.converted_type() == ConvertedType::UTF8;
+    words && column.path().parts().len() == 1 && column.max_rep_level() == 0
+}
+
 /// Rows that the footer declares; a few bytes can stand for any number of equal ones.
 pub(super) fn declared_rows(file: &SerializedFileReader<Bytes>) -> Result<usize, ParquetError> {
     let groups = file.metadata().row_groups().iter().map(RowGroupMetaData::num_rows);
