@@ -40,9 +40,9 @@ pub enum LabError {
         hint: &'static str,
     },
     /// A cell holds a value its column cannot have.
-    #[error("{at}: found `{found}` in column `{column}`, expected {expected}")]
+    #[error("{at}: column `{column}`: found `{found}`, expected {expected}{hint}")]
     Cell {
-        /// File and line.
+        /// File and line, or row.
         at: String,
         /// Name of the column.
         column: String,
@@ -50,6 +50,8 @@ pub enum LabError {
         found: f64,
         /// What it should be.
         expected: &'static str,
+        /// What the likely reason is; empty, or a line of its own.
+        hint: &'static str,
     },
     /// Too few usable samples.
     #[error("{path}: found {found} usable samples, expected at least {expected}")]

@@ -3,6 +3,7 @@
 mod coordinates;
 mod headers;
 mod passes;
+mod plausible;
 mod quantised;
 mod thinning;
 
@@ -116,8 +117,8 @@ impl Measurement {
     ///
     /// # Errors
     ///
-    /// A missing observation or coordinate, an observation of the other kind of machine,
-    /// a direction that is no sign, or fewer than 16 usable samples.
+    /// A missing observation or coordinate, an observation of the other kind of machine, a reading
+    /// that its sensor cannot show, or fewer than 16 usable samples.
     pub fn from_table(table: &Table, nominal: &Nominal) -> Result<Self, LabError> {
         let mut notes = left_out(table)?;
         let mut measurement = match headers::understood(table) {
@@ -135,6 +136,7 @@ impl Measurement {
     fn from_named(table: &Table, nominal: &Nominal) -> Result<Self, LabError> {
         let path = table.path.display().to_string();
         check_kind(table, nominal, &path)?;
+        plausible::check(table)?;
         let observed = observed_columns(table, nominal);
         if observed.is_empty() {
             return Err(LabError::NoObservation {
@@ -258,7 +260,12 @@ fn steps_are_moves(table: &Table, nominal: &Nominal) -> bool {
 }
 
 fn names(table: &Table) -> String {
-    table.names().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+    let empty = |values: &[f64]| !values.iter().any(|value| value.is_finite());
+    let columns = table.columns.iter().map(|column| {
+        let note = if empty(&column.values) { " (empty)" } else { "" };
+        format!("`{}`{note}", column.name)
+    });
+    columns.collect::<Vec<_>>().join(", ")
 }
 
 fn assemble(

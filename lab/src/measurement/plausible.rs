@@ -1,0 +1,118 @@
+//! Readings that no sensor in its own unit can show.
+
+use std::ops::RangeInclusive;
+
+use helixlock_traces::Table;
+
+use crate::error::LabError;
+
+/// What a sensor can read at all, its unit taken at its word.
+struct Limits {
+    column: &'static str,
+    possible: RangeInclusive<f64>,
+    expected: &'static str,
+}
+
+const TEMPERATURE: (RangeInclusive<f64>, &str) =
+    (-273.15..=f64::MAX, "a temperature in °C, above −273.15");
+
+const fn limits(
+    column: &'static str,
+    (possible, expected): (RangeInclusive<f64>, &'static str),
+) -> Limits {
+    Limits { column, possible, expected }
+}
+
+/// A hygrometer's own error may take it a little past its ends.
+const LIMITS: &[Limits] = &[
+    limits("air_temperature_c", TEMPERATURE),
+    limits("workpiece_temperature_c", TEMPERATURE),
+    limits("bed_temperature_c", TEMPERATURE),
+    limits("air_pressure_hpa", (f64::MIN_POSITIVE..=f64::MAX, "a pressure in hPa, above 0")),
+    limits("humidity_pct", (-2.0..=102.0, "a relative humidity in %, 0 to 100")),
+];
+
+/// A shop in °C is never this hot throughout; one in kelvin always is.
+const KELVIN: RangeInclusive<f64> = 200.0..=400.0;
+
+const KELVIN_HINT: &str = "\n\nhint: if these are kelvin, name the column so, as in \
+                           `air temperature [K]`, or take 273.15 off";
+
+/// Refuses the first impossible reading, and temperatures that look like kelvin.
+pub(super) fn check(table: &Table) -> Result<(), LabError> {
+    for Limits { column, possible, expected } in LIMITS {
+        let Some(values) = table.column(column) else { continue };
+        let there = || values.iter().enumerate().filter(|(_, value)| value.is_finite());
+        let refused = |(row, value): (usize, &f64), hint| {
+            Err(LabError::Cell {
+                at: place(table, row),
+                column: (*column).to_owned(),
+                found: *value,
+                expected,
+                hint,
+            })
+        };
+        if let Some(cell) = there().find(|(_, value)| !possible.contains(*value)) {
+            return refused(cell, "");
+        }
+        let kelvin = column.ends_with("_c") && there().all(|(_, value)| KELVIN.contains(value));
+        if let Some(cell) = there().next().filter(|_| kelvin) {
+            return refused(cell, KELVIN_HINT);
+        }
+    }
+    Ok(())
+}
+
+/// File and line; the row, from 1, of a file without lines.
+fn place(table: &Table, row: usize) -> String {
+    let at = table.at(row);
+    if at.line.is_some() { at.to_string() } else { format!("{at}: row {}", row + 1) }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use helixlock_traces::csv::read_csv;
+
+    use super::*;
+
+    fn message(column: &str, values: &[f64]) -> Option<String> {
+        let rows: Vec<String> = values.iter().map(|value| format!("0,{value}\n")).collect();
+        let text = format!("# a log\ntime_s,{column}\n{}", rows.concat());
+        let table = read_csv(text.as_bytes(), Path::new("data.csv")).expect("a table");
+        check(&table).err().map(|error| error.to_string())
+    }
+
+    #[test]
+    fn what_no_sensor_can_show_is_refused_with_its_place() {
+        let cold = "data.csv:4: column `air_temperature_c`: found `-300`, expected a temperature \
+                    in °C, above −273.15";
+        assert_eq!(message("air_temperature_c", &[20.0, -300.0]).as_deref(), Some(cold));
+        let vacuum =
+            "data.csv:3: column `air_pressure_hpa`: found `0`, expected a pressure in hPa, above 0";
+        assert_eq!(message("air_pressure_hpa", &[0.0, 1013.0]).as_deref(), Some(vacuum));
+        let wet = "data.csv:4: column `humidity_pct`: found `120`, expected a relative humidity \
+                   in %, 0 to 100";
+        assert_eq!(message("humidity_pct", &[50.0, 120.0]).as_deref(), Some(wet));
+    }
+
+    #[test]
+    fn kelvin_is_guessed_only_where_nothing_else_is_left() {
+        let refused = message("workpiece_temperature_c", &[293.1, 294.0]).expect("kelvin");
+        assert!(refused.contains("found `293.1`") && refused.contains("hint: if"), "{refused}");
+        assert_eq!(message("workpiece_temperature_c", &[20.0, 294.0]), None);
+        assert_eq!(message("humidity_pct", &[100.4, -0.3]), None);
+        assert_eq!(message("air_temperature_c", &[-273.15, 20.0]), None);
+    }
+
+    #[test]
+    fn a_file_without_lines_has_rows() {
+        let values = vec![20.0, -400.0];
+        let column = helixlock_traces::Column { name: "bed_temperature_c".to_owned(), values };
+        let mut table = Table::new(vec![column]);
+        table.path = "data.parquet".into();
+        let message = check(&table).expect_err("too cold").to_string();
+        assert!(message.starts_with("data.parquet: row 2: column `bed_temp"), "{message}");
+    }
+}
