@@ -35,6 +35,12 @@ impl Finer {
         Some(Self { record, measured: Some(measured), groups })
     }
 
+    /// True when the groups are the measured samples themselves, with others in between.
+    #[must_use]
+    pub fn is_between(&self) -> bool {
+        self.measured.as_ref().is_some_and(|measured| measured.len() == self.groups.len())
+    }
+
     /// Means of values that belong to all samples.
     #[must_use]
     pub fn means(&self, values: &[f64]) -> Vec<f64> {

@@ -72,7 +72,7 @@ impl Problem {
     pub fn averaged(&self, groups: Vec<Range<usize>>) -> Result<Self, EffectError> {
         let measurement = self.measurement.averaged(&groups);
         let finer = match &self.finer {
-            Some(finer) if finer.measured.is_some() && finer.groups.len() == self.record.len() => {
+            Some(finer) if finer.is_between() && finer.record.len() <= MOST_BETWEEN => {
                 Finer { groups, ..finer.clone() }
             }
             _ => Finer { record: self.record.clone(), measured: None, groups },
@@ -294,6 +294,9 @@ fn as_measured(machine: &Machine, measurement: &Measurement) -> Machine {
     let known = measurement.covariates.contains_key("steps");
     Machine { loop_closed: machine.loop_closed && !known, ..machine.clone() }
 }
+
+/// Most samples, with those in between, that a search on means works out its columns for.
+const MOST_BETWEEN: usize = 1 << 16;
 
 /// Largest swing that neighbouring samples may hide: a filter at a third of the comparisons leaves
 /// a third of it, and half of all samples differ by less than half of that.
