@@ -43,7 +43,7 @@ pub(super) fn check(table: &Table) -> Result<(), LabError> {
     for Limits { column, possible, expected } in LIMITS {
         let Some(values) = table.column(column) else { continue };
         let there = || values.iter().enumerate().filter(|(_, value)| value.is_finite());
-        let refused = |(row, value): (usize, &f64), hint| {
+        let refused = |(row, value): (usize, &f64), expected, hint| {
             Err(LabError::Cell {
                 at: place(table, row),
                 column: (*column).to_owned(),
@@ -53,11 +53,11 @@ pub(super) fn check(table: &Table) -> Result<(), LabError> {
             })
         };
         if let Some(cell) = there().find(|(_, value)| !possible.contains(*value)) {
-            return refused(cell, "");
+            return refused(cell, expected, "");
         }
         let kelvin = column.ends_with("_c") && there().all(|(_, value)| KELVIN.contains(value));
         if let Some(cell) = there().next().filter(|_| kelvin) {
-            return refused(cell, KELVIN_HINT);
+            return refused(cell, "a temperature in °C", KELVIN_HINT);
         }
     }
     Ok(())
@@ -100,7 +100,9 @@ mod tests {
     #[test]
     fn kelvin_is_guessed_only_where_nothing_else_is_left() {
         let refused = message("workpiece_temperature_c", &[293.1, 294.0]).expect("kelvin");
-        assert!(refused.contains("found `293.1`") && refused.contains("hint: if"), "{refused}");
+        let start = "data.csv:3: column `workpiece_temperature_c`: found `293.1`, expected a \
+                     temperature in °C\n\nhint: if these are kelvin";
+        assert!(refused.starts_with(start), "{refused}");
         assert_eq!(message("workpiece_temperature_c", &[20.0, 294.0]), None);
         assert_eq!(message("humidity_pct", &[100.4, -0.3]), None);
         assert_eq!(message("air_temperature_c", &[-273.15, 20.0]), None);
