@@ -89,6 +89,7 @@ impl Problem {
         let sensors: Vec<Sensor> = measurement.observations.keys().copied().collect();
         let recorded = sensors.contains(&Sensor::Recorder);
         let between = || Finer::between(machine, &record).filter(|_| recorded);
+        let whole = finer.is_none();
         let finer = finer.or_else(between);
         let mut problem = Self {
             machine: as_measured(machine, measurement),
@@ -111,7 +112,9 @@ impl Problem {
         problem.highest_hz = highest_frequency(&problem.record.time_s);
         problem.stack_rows();
         problem.predict()?;
-        problem.find_start()?;
+        if whole {
+            problem.find_start()?;
+        }
         let residual = problem.residual();
         problem.mark_outliers(&residual);
         problem.hunting_um = hunting_um(&problem, &residual);

@@ -66,7 +66,11 @@ fn stairs_of_the_compensation_are_found_wherever_it_began_to_count() {
             };
             let error_um = position_mm.iter().map(lag_um).collect();
             let columns = [("position_mm", position_mm), ("error_um", error_um)];
-            let left = problem(&machine, &columns).residual();
+            let whole = problem(&machine, &columns);
+            let groups = whole.measurement.groups(4);
+            let thinned = whole.averaged(groups.clone()).expect("no columns missing");
+            assert_eq!(thinned.predicted, crate::measurement::means(&whole.predicted, &groups));
+            let left = whole.residual();
             let low = left.iter().copied().fold(f64::INFINITY, f64::min);
             let high = left.iter().copied().fold(f64::NEG_INFINITY, f64::max);
             assert!(high - low < 1e-3, "{rate} from {start_mm} mm: {low} to {high} µm");
