@@ -89,9 +89,8 @@ fn a_gear_is_found_under_a_slow_error_ten_times_its_size() {
 fn a_slope_in_slow_noise_is_found() {
     let over_travel = |_: f64, x: f64, _: f64| 0.8 * x / 900.0;
     let over_time = |t: f64, _: f64, _: f64| 1.6 * t / 5000.0;
-    let slopes: [(&str, &dyn Fn(f64, f64, f64) -> f64); 2] =
-        [("cosine", &over_travel), ("phase-drift", &over_time)];
-    for (name, slope) in slopes {
+    let slopes: [&dyn Fn(f64, f64, f64) -> f64; 2] = [&over_travel, &over_time];
+    for (name, slope) in ["cosine", "phase-drift"].into_iter().zip(slopes) {
         let diagnosis = diagnose(&Passes::new(slope, &mut noise(1, 4.0)).problem());
         assert_eq!(names(&diagnosis), [name]);
     }
