@@ -6,8 +6,8 @@ use crate::analysis::{Judged, State};
 use crate::candidates::{is_frequency, turn_scan};
 use crate::component::Component;
 use crate::count;
-use crate::fit::{covariance_rows, swift_rms};
-use crate::holdout::holdout_rms;
+use crate::fit::{Columns, covariance_rows, swift_rms};
+use crate::holdout::helps_unseen;
 use crate::likeness;
 use crate::probes::{SIGNIFICANCE, above_hunting, chi_squared_tail, matters};
 use crate::problem::Problem;
@@ -22,10 +22,9 @@ pub fn acceptable(problem: &Problem, now: &State, judged: &Judged) -> bool {
     let from = judged.fit.linear.coefficients.len() - component.width();
     let used = &judged.fit.linear.coefficients[from..];
     let size = component.size_um(problem, used);
-    let unseen = holdout_rms(problem, &now.columns, &now.fit.noises);
     matters(size, swift_rms(&problem.layout, &judged.fit.left), judged.p_value)
         && above_hunting(problem, size)
-        && judged.holdout_rms_um < unseen
+        && better_unseen(problem, now, judged)
         && plausible(problem, judged)
         && likeness::turns_enough(problem, component, used)
         && likeness::lets_motion_through(problem, component)
@@ -33,6 +32,15 @@ pub fn acceptable(problem: &Problem, now: &State, judged: &Judged) -> bool {
         && repeats(judged, now)
         && locked_to_time(problem, now, judged)
         && !rests_on_one_sample(problem, now, judged)
+}
+
+/// True when the model with an effect does better on unseen data than without it.
+fn better_unseen(problem: &Problem, now: &State, judged: &Judged) -> bool {
+    let Ok(more) = Columns::of(problem, std::slice::from_ref(&judged.component)) else {
+        return false;
+    };
+    let columns = now.columns.and(&more);
+    helps_unseen(problem, (&columns, &judged.fit.noises), (&now.columns, &now.fit.noises))
 }
 
 /// True unless a frequency in time was found that an order of the spindle explains as well.

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::fit::Columns;
+use crate::fit::{Columns, rms, swift_rms};
 use crate::layout::Layout;
 use crate::least_squares;
 use crate::noise::{Noise, Whitener};
@@ -18,10 +18,42 @@ const PARTS: usize = 5;
 /// side of it. A held-out part may have its own zero, as a pass has.
 #[must_use]
 pub fn holdout_rms(problem: &Problem, columns: &Columns, noises: &[Noise]) -> f64 {
+    held_out_rms(problem, columns, noises, rms)
+}
+
+/// A model as it is held out: its columns and its noise.
+pub type Unseen<'a> = (&'a Columns, &'a [Noise]);
+
+/// True when one model does better on unseen data than another: in all, or in what is swift.
+///
+/// Slow effects that both lack may lie in the way of a swift one, and weigh more than it does.
+#[must_use]
+pub fn helps_unseen(problem: &Problem, model: Unseen<'_>, without: Unseen<'_>) -> bool {
+    let better = |size: fn(&Layout, &[f64]) -> f64| {
+        let of = |(columns, noises)| held_out_rms(problem, columns, noises, size);
+        of(model) < of(without)
+    };
+    better(rms) || better(swift_rms)
+}
+
+/// Size of what a model leaves of the data held out.
+fn held_out_rms(
+    problem: &Problem,
+    columns: &Columns,
+    noises: &[Noise],
+    size: fn(&Layout, &[f64]) -> f64,
+) -> f64 {
     let folds = folds(problem, columns);
-    let parts: Vec<_> =
-        folds.par_iter().map(|fold| held_out_square(problem, columns, noises, fold)).collect();
-    let square: f64 = parts.iter().map(|(square, _)| square).sum();
+    let parts: Vec<(f64, usize)> = folds
+        .par_iter()
+        .map(|held| {
+            let left = left_unseen(problem, columns, noises, held);
+            let (layout, rows) = problem.layout.of_rows(held);
+            let part: Vec<f64> = rows.iter().map(|&row| left[row]).collect();
+            (size(&layout, &part), rows.len())
+        })
+        .collect();
+    let square: f64 = parts.iter().map(|(rms, rows)| rms * rms * crate::count(*rows)).sum();
     let rows: usize = parts.iter().map(|(_, rows)| rows).sum();
     (square / crate::count(rows.max(1))).sqrt()
 }
@@ -74,12 +106,8 @@ fn tells(layout: &Layout, column: &[f64], held: &[bool]) -> bool {
     0.1 * all <= kept
 }
 
-fn held_out_square(
-    problem: &Problem,
-    columns: &Columns,
-    noises: &[Noise],
-    held: &[bool],
-) -> (f64, usize) {
+/// What a model that was fitted to the other rows leaves.
+fn left_unseen(problem: &Problem, columns: &Columns, noises: &[Noise], held: &[bool]) -> Vec<f64> {
     let residual = problem.residual();
     // A held-out row gets so much noise that the fit does not see it.
     let mut layout = problem.layout.clone();
@@ -88,14 +116,5 @@ fn held_out_square(
     let white = columns.whitened(&whitener);
     let views: Vec<&[f64]> = white.iter().map(Vec::as_slice).collect();
     let fit = least_squares::fit(&views, &columns.target(&whitener, &residual));
-    let left = columns.left(&residual, &fit.coefficients);
-    let (mut square, mut count) = (0.0, 0);
-    for block in &problem.layout.blocks {
-        let part: Vec<f64> =
-            block.rows.clone().filter(|&row| held[row]).map(|row| left[row]).collect();
-        let mean = part.iter().sum::<f64>() / crate::count(part.len().max(1));
-        square += part.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>();
-        count += part.len();
-    }
-    (square, count)
+    columns.left(&residual, &fit.coefficients)
 }

@@ -49,6 +49,23 @@ impl Layout {
         self.begun(usize::MAX, keep)
     }
 
+    /// The layout of some rows, each block's together, and where they are here.
+    #[must_use]
+    pub fn of_rows(&self, keep: &[bool]) -> (Self, Vec<usize>) {
+        let mut part = Self::default();
+        let mut rows = Vec::new();
+        for block in &self.blocks {
+            let start = rows.len();
+            rows.extend(block.rows.clone().filter(|&row| keep[row]));
+            if start < rows.len() {
+                part.blocks.push(Block { rows: start..rows.len(), ..block.clone() });
+            }
+        }
+        part.clock = rows.iter().map(|&row| self.clock[row]).collect();
+        part.inflation = rows.iter().map(|&row| self.inflation[row]).collect();
+        (part, rows)
+    }
+
     /// The layout of the first rows of some blocks, and the rows they had here.
     #[must_use]
     pub fn begun(&self, most: usize, keep: impl Fn(&Block) -> bool) -> (Self, Vec<usize>) {

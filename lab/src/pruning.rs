@@ -6,7 +6,7 @@ use crate::analysis::State;
 use crate::component::Component;
 use crate::count;
 use crate::fit::{covariance_rows, swift_rms};
-use crate::holdout::holdout_rms;
+use crate::holdout::helps_unseen;
 use crate::probes::{above_hunting, chi_squared_tail, matters};
 use crate::problem::Problem;
 use crate::uncertainty::{JointCovariance, joint_covariance};
@@ -37,14 +37,13 @@ pub fn pruned(problem: &Problem, state: State) -> (State, Vec<Dropped>) {
 
 /// The model without its weakest effect, if that one is superfluous.
 fn weakest(problem: &Problem, state: &State) -> Option<(State, Dropped)> {
-    let unseen_um = unseen_um(problem, state);
     let covariance = joint_covariance(problem, state);
     let found: Vec<(State, Dropped)> = (0..state.components.len())
         .into_par_iter()
         .filter_map(|index| {
             let smaller = without(problem, state, index)?;
             let reason = superfluous(problem, state, &smaller, index)
-                .or_else(|| no_better(problem, &smaller, unseen_um))
+                .or_else(|| no_better(problem, state, &smaller))
                 .or_else(|| useless(state, &covariance, index))?;
             let name = state.components[index].term.name.clone();
             Some((smaller, Dropped { name, reason }))
@@ -78,13 +77,11 @@ fn superfluous(problem: &Problem, state: &State, fewer: &State, index: usize) ->
     None
 }
 
-fn unseen_um(problem: &Problem, state: &State) -> f64 {
-    holdout_rms(problem, &state.columns, &state.fit.noises)
-}
-
 /// Why an effect is not needed when the model without it is as good on unseen data.
-fn no_better(problem: &Problem, fewer: &State, with_it_um: f64) -> Option<String> {
-    (unseen_um(problem, fewer) <= with_it_um)
+fn no_better(problem: &Problem, state: &State, fewer: &State) -> Option<String> {
+    let with_it = (&state.columns, state.fit.noises.as_slice());
+    let without = (&fewer.columns, fewer.fit.noises.as_slice());
+    (!helps_unseen(problem, with_it, without))
         .then(|| "superfluous: no better on held-out data without the noise".to_owned())
 }
 
