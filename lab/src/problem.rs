@@ -1,6 +1,7 @@
 //! A measurement against a machine, as the rows of one least-squares problem.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use helixlock_plant::prediction::{Sensor, gain, meter_um, observe, predict};
 use helixlock_plant::{Effect, EffectError, Entry, Machine, Record, Samples, Term};
@@ -31,7 +32,8 @@ pub struct Problem {
     /// The samples as the catalogue wants them.
     pub record: Record,
     /// Samples behind those of this problem: between them, or that they are means or a choice of.
-    pub finer: Option<Finer>,
+    /// There may be millions; clones of a problem share them.
+    pub finer: Option<Arc<Finer>>,
     /// Sensors in the order of `Layout`'s numbers.
     pub sensors: Vec<Sensor>,
     /// What each row is.
@@ -73,7 +75,7 @@ impl Problem {
         let measurement = self.measurement.averaged(&groups);
         let finer = match &self.finer {
             Some(finer) if finer.is_between() && finer.record.len() <= MOST_BETWEEN => {
-                Finer { groups, ..finer.clone() }
+                Finer { groups, ..Finer::clone(finer) }
             }
             _ => Finer { record: self.record.clone(), measured: None, groups },
         };
@@ -95,7 +97,7 @@ impl Problem {
             machine: as_measured(machine, measurement),
             measurement: measurement.clone(),
             record,
-            finer,
+            finer: finer.map(Arc::new),
             sensors,
             rows: Vec::new(),
             layout: Layout::default(),
@@ -247,7 +249,7 @@ impl Problem {
             return Ok(());
         }
         let mut other = Self { record: self.record.begun_at_zero(), ..self.clone() };
-        if let Some(finer) = &mut other.finer {
+        if let Some(finer) = other.finer.as_mut().map(Arc::make_mut) {
             finer.record = finer.record.begun_at_zero();
         }
         other.predict()?;
@@ -275,7 +277,7 @@ impl Problem {
             .map(|term| Ok((term.entry, term.effect(&self.machine, &self.record.columns)?)))
             .collect::<Result<Vec<_>, EffectError>>()?;
         self.record.error_um = meter_um(&self.machine, &self.record, &effects);
-        if let Some(finer) = &mut self.finer {
+        if let Some(finer) = self.finer.as_mut().map(Arc::make_mut) {
             finer.record.error_um = meter_um(&self.machine, &finer.record, &effects);
         }
         let shown = match &self.finer {
