@@ -19,8 +19,7 @@ use crate::trial::gain_at;
 #[must_use]
 pub fn acceptable(problem: &Problem, now: &State, judged: &Judged) -> bool {
     let component = &judged.component;
-    let from = judged.fit.linear.coefficients.len() - component.width();
-    let used = &judged.fit.linear.coefficients[from..];
+    let (used, _) = judged.coefficients();
     let size = component.size_um(problem, used);
     matters(size, swift_rms(&problem.layout, &judged.fit.left), judged.p_value)
         && above_hunting(problem, size)
@@ -88,8 +87,7 @@ pub fn plausible(problem: &Problem, judged: &Judged) -> bool {
     if !likeness::shows_both_flanks(problem, component) {
         return false;
     }
-    let from = judged.fit.linear.coefficients.len() - component.width();
-    let used = &judged.fit.linear.coefficients[from..];
+    let (used, from) = judged.coefficients();
     let covariance = covariance_rows(&judged.fit.linear.covariance, from, component.width());
     component.estimates(used, &covariance).iter().all(|estimate| {
         // A square that would have to be negative is fitted as 0.

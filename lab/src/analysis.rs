@@ -48,6 +48,17 @@ pub struct Judged {
     pub holdout_rms_um: f64,
 }
 
+impl Judged {
+    /// Coefficients of the effect's columns in use, the last ones of the joint fit, and where they
+    /// begin.
+    #[must_use]
+    pub fn coefficients(&self) -> (&[f64], usize) {
+        let all = &self.fit.linear.coefficients;
+        let from = all.len() - self.component.width();
+        (&all[from..], from)
+    }
+}
+
 /// A model found so far, with its fit.
 #[derive(Debug, Clone)]
 pub struct State {
@@ -160,10 +171,10 @@ pub fn search(problem: &mut Problem) -> Vec<Step> {
 
 /// Adds the members of a set one a step.
 fn add_together(problem: &mut Problem, steps: &mut Vec<Step>, members: Vec<Component>) {
+    let bare = State::bare(problem).fit.noises;
     for member in members {
         let before = &steps[steps.len() - 1].state;
         let components = [before.components.clone(), vec![member.clone()]].concat();
-        let bare = State::bare(problem).fit.noises;
         let Some(state) = State::settled(problem, components, &bare) else { return };
         let added = Some(member.term.name);
         steps.push(Step { state, tried: Vec::new(), added, dropped: Vec::new() });
@@ -186,7 +197,7 @@ fn known_together(problem: &Problem, now: &State, tried: &[Judged]) -> Option<Ve
                 && now.components.iter().all(|other| other.term.name != component.term.name)
         })
         .collect();
-    let price = libm::log(count(problem.rows.len()).max(3.0));
+    let price = problem.price_of_a_number();
     let single = tried.first().map_or(0.0, |best| best.evidence);
     let sets = (1_usize..1 << known.len().min(5)).filter(|set| 1 < set.count_ones());
     let best = sets
@@ -292,7 +303,7 @@ fn judge(problem: &Problem, now: &State, trial: &Trial, tried: f64) -> Option<Ju
     let fit = settle(problem, &columns, &noises_of(problem, &left));
     let gain = 2.0 * (fit.log_likelihood - now.fit.log_likelihood);
     let freedom = trial.freedom();
-    let price = libm::log(count(problem.rows.len()).max(3.0));
+    let price = problem.price_of_a_number();
     Some(Judged {
         component: trial.component.clone(),
         gain,

@@ -157,7 +157,7 @@ fn axis(stage: &Stage<'_>, parameter: &Parameter) -> Vec<f64> {
         Search::Logarithmic => logarithmic(stage.problem, parameter),
         Search::Whole => whole(low, high),
         Search::Position => inside(&record.position_mm, PLACES),
-        Search::Time => instants(&record.time_s),
+        Search::Time => evenly_among(&between_samples(&record.time_s), INSTANTS),
         Search::GearOrder => gear_orders(&stage.problem.machine),
         Search::Fixed => vec![parameter.default.unwrap_or(low)],
     }
@@ -218,11 +218,18 @@ fn inside(values: &[f64], points: usize) -> Vec<f64> {
     if spread(values) <= 0.0 { Vec::new() } else { evenly(low, low + spread(values), points) }
 }
 
-/// Instants between samples, evenly over the samples, so that pauses cost nothing.
-fn instants(time_s: &[f64]) -> Vec<f64> {
-    let between = between_samples(time_s);
-    let points = INSTANTS.min(between.len());
-    (0..points).map(|i| between[(2 * i + 1) * between.len() / (2 * points)]).collect()
+/// Some of the gaps between samples, evenly over the samples, so that pauses cost nothing.
+#[must_use]
+pub fn evenly_among(gaps: &[f64], most: usize) -> Vec<f64> {
+    let points = most.min(gaps.len());
+    (0..points).map(|i| gaps[(2 * i + 1) * gaps.len() / (2 * points)]).collect()
+}
+
+/// The gaps between samples on either side of a place, so many each.
+#[must_use]
+pub fn around(gaps: &[f64], place: f64, reach: usize) -> &[f64] {
+    let near = gaps.partition_point(|gap| *gap < place);
+    &gaps[near.saturating_sub(reach)..(near + reach).min(gaps.len())]
 }
 
 /// Every instant halfway between two samples, in order.

@@ -12,6 +12,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::diagnosis::Verdict;
+use crate::fit::rms_about_means;
 use recipe::{RECIPES, Recipe};
 
 /// What is hidden in a challenge.
@@ -73,8 +74,8 @@ pub fn challenge(seed: u64) -> Result<Challenge, ChallengeError> {
         0 | 1 => {}
         2 | 3 => {
             let (name, deltas) = outside::shape(&record, &mut chance);
-            let size =
-                chance.random_range(4.0..12.0) * noise_um / rms_about_passes(&record, &deltas);
+            let size = chance.random_range(4.0..12.0) * noise_um
+                / rms_about_means(record.passes(), &deltas);
             extra = deltas.iter().map(|delta| delta * size).collect();
             hidden = Hidden::Outside(name);
         }
@@ -116,7 +117,7 @@ fn hidden_term(
         return Ok(term);
     }
     let wanted = chance.random_range(3.0..15.0) * noise_um;
-    let factor = wanted / rms_about_passes(record, &deltas).max(1e-12);
+    let factor = wanted / rms_about_means(record.passes(), &deltas).max(1e-12);
     let scaled = |factor: f64| {
         let coefficients: Vec<f64> = term.coefficients().iter().map(|c| c * factor).collect();
         term.with_coefficients(&coefficients)
@@ -135,17 +136,6 @@ fn within((what, &value): (&Parameter, &f64)) -> f64 {
         return 1.0;
     }
     (if value < low { low } else { high }) / value
-}
-
-/// Root mean square about the mean of each pass.
-fn rms_about_passes(record: &Record, values: &[f64]) -> f64 {
-    let mut square = 0.0;
-    for rows in record.passes() {
-        let part = &values[rows];
-        let mean = part.iter().sum::<f64>() / crate::count(part.len().max(1));
-        square += part.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>();
-    }
-    (square / crate::count(record.len().max(1))).sqrt()
 }
 
 /// How a diagnosis did on a challenge.

@@ -89,13 +89,28 @@ impl Component {
         self.kept.iter().map(value).collect()
     }
 
-    /// Root mean square of the effect at some coefficients of the columns in use, about the zero
-    /// of each pass, µm (arcsec); 0 when it cannot be worked out.
+    /// The effect at some coefficients of the columns in use, row by row in µm (arcsec); `None`
+    /// when it cannot be worked out.
+    #[must_use]
+    pub fn shown_um(&self, problem: &Problem, used: &[f64]) -> Option<Vec<f64>> {
+        let columns = Columns::of(problem, std::slice::from_ref(self)).ok()?;
+        let missing = columns.left(&vec![0.0; problem.rows.len()], used);
+        Some(missing.into_iter().map(|value| -value).collect())
+    }
+
+    /// Root mean square of that about the zero of each pass, µm (arcsec); 0 when it cannot be
+    /// worked out.
     #[must_use]
     pub fn size_um(&self, problem: &Problem, used: &[f64]) -> f64 {
-        let nothing = vec![0.0; problem.rows.len()];
-        Columns::of(problem, std::slice::from_ref(self))
-            .map_or(0.0, |columns| rms(&problem.layout, &columns.left(&nothing, used)))
+        self.shown_um(problem, used).map_or(0.0, |shown| rms(&problem.layout, &shown))
+    }
+
+    /// The same with another value of one nonlinear parameter.
+    #[must_use]
+    pub fn with_value(&self, place: usize, value: f64) -> Self {
+        let mut values = self.term.nonlinear();
+        values[place] = value;
+        Self { term: self.term.with_nonlinear(&values), ..self.clone() }
     }
 
     /// The term with the values that belong to these coefficients of the columns in use.

@@ -26,11 +26,14 @@ pub struct Finer {
 }
 
 impl Finer {
-    /// A record with samples in between at every comparison; `None` if it has them.
+    /// A record with samples in between at every comparison; `None` if it has them, or none are
+    /// to be had.
     #[must_use]
     pub fn between(machine: &Machine, record: &Record) -> Option<Self> {
-        let turns = machine.turns_a_comparison();
-        let (record, measured) = record.refined(turns).filter(|_| !machine.rotary)?;
+        if machine.rotary {
+            return None;
+        }
+        let (record, measured) = record.refined(machine.turns_a_comparison())?;
         let groups = (0..measured.len()).map(|row| row..row + 1).collect();
         Some(Self { record, measured: Some(measured), groups })
     }

@@ -5,12 +5,14 @@
 //! That is the maximum of the joint likelihood (profiled over the coefficients, as in variable
 //! projection: Golub and Pereyra 1973).
 
+use std::ops::Range;
+
 use helixlock_plant::EffectError;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use crate::component::Component;
-use crate::layout::{Block, Layout};
+use crate::layout::Layout;
 use crate::least_squares::{self, LinearFit};
 use crate::noise::{Noise, Whitener};
 use crate::noise_fit::fit_noise;
@@ -198,13 +200,18 @@ fn noise_of(problem: &Problem, left: &[f64], sensor: usize, near: Option<&Noise>
 /// Root mean square about the offset of each pass, all sensors together, µm.
 #[must_use]
 pub fn rms(layout: &Layout, left: &[f64]) -> f64 {
+    rms_about_means(layout.blocks.iter().map(|block| block.rows.clone()), left)
+}
+
+/// Root mean square of values about the mean of each of their parts.
+pub fn rms_about_means(parts: impl IntoIterator<Item = Range<usize>>, values: &[f64]) -> f64 {
     let mut square = 0.0;
-    for block in &layout.blocks {
-        let part = &left[block.rows.clone()];
+    for rows in parts {
+        let part = &values[rows];
         let mean = part.iter().sum::<f64>() / crate::count(part.len().max(1));
         square += part.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>();
     }
-    (square / crate::count(layout.len().max(1))).sqrt()
+    (square / crate::count(values.len().max(1))).sqrt()
 }
 
 /// Stretches a pass is cut into to tell what is swift from what is slow.
@@ -214,20 +221,12 @@ const STRETCHES: usize = 10;
 /// found are no noise for a swift one.
 #[must_use]
 pub fn swift_rms(layout: &Layout, left: &[f64]) -> f64 {
-    let mut stretches = layout.clone();
-    stretches.blocks = layout
-        .blocks
-        .iter()
-        .flat_map(|block| {
-            let length = block.rows.len().div_ceil(STRETCHES).max(1);
-            let starts = block.rows.clone().step_by(length);
-            starts.map(move |start| Block {
-                rows: start..(start + length).min(block.rows.end),
-                ..block.clone()
-            })
-        })
-        .collect();
-    rms(&stretches, left)
+    let stretches = layout.blocks.iter().flat_map(|block| {
+        let Range { start, end } = block.rows;
+        let length = (end - start).div_ceil(STRETCHES).max(1);
+        (start..end).step_by(length).map(move |from| from..(from + length).min(end))
+    });
+    rms_about_means(stretches, left)
 }
 
 /// A part of a covariance as plain rows.

@@ -18,7 +18,7 @@ const PARTS: usize = 5;
 /// side of it. A held-out part may have its own zero, as a pass has.
 #[must_use]
 pub fn holdout_rms(problem: &Problem, columns: &Columns, noises: &[Noise]) -> f64 {
-    held_out_rms(problem, columns, noises, rms)
+    size(&unseen(problem, (columns, noises)), rms)
 }
 
 /// A model as it is held out: its columns and its noise.
@@ -29,32 +29,26 @@ pub type Unseen<'a> = (&'a Columns, &'a [Noise]);
 /// Slow effects that both lack may lie in the way of a swift one, and weigh more than it does.
 #[must_use]
 pub fn helps_unseen(problem: &Problem, model: Unseen<'_>, without: Unseen<'_>) -> bool {
-    let better = |size: fn(&Layout, &[f64]) -> f64| {
-        let of = |(columns, noises)| held_out_rms(problem, columns, noises, size);
-        of(model) < of(without)
-    };
+    let (model, without) = (unseen(problem, model), unseen(problem, without));
+    let better = |of: fn(&Layout, &[f64]) -> f64| size(&model, of) < size(&without, of);
     better(rms) || better(swift_rms)
 }
 
-/// Size of what a model leaves of the data held out.
-fn held_out_rms(
-    problem: &Problem,
-    columns: &Columns,
-    noises: &[Noise],
-    size: fn(&Layout, &[f64]) -> f64,
-) -> f64 {
-    let folds = folds(problem, columns);
-    let parts: Vec<(f64, usize)> = folds
-        .par_iter()
-        .map(|held| {
-            let left = left_unseen(problem, columns, noises, held);
-            let (layout, rows) = problem.layout.of_rows(held);
-            let part: Vec<f64> = rows.iter().map(|&row| left[row]).collect();
-            (size(&layout, &part), rows.len())
-        })
-        .collect();
-    let square: f64 = parts.iter().map(|(rms, rows)| rms * rms * crate::count(*rows)).sum();
-    let rows: usize = parts.iter().map(|(_, rows)| rows).sum();
+/// What a model leaves of each part that is held out.
+fn unseen(problem: &Problem, (columns, noises): Unseen<'_>) -> Vec<(Layout, Vec<f64>)> {
+    let of_fold = |held: &Vec<bool>| {
+        let left = left_unseen(problem, columns, noises, held);
+        let (layout, rows) = problem.layout.of_rows(held);
+        (layout, rows.iter().map(|&row| left[row]).collect())
+    };
+    folds(problem, columns).par_iter().map(of_fold).collect()
+}
+
+/// Size of all parts together, `of` being that of one.
+fn size(parts: &[(Layout, Vec<f64>)], of: fn(&Layout, &[f64]) -> f64) -> f64 {
+    let weighed = parts.iter().map(|(layout, left)| (of(layout, left), left.len()));
+    let square: f64 = weighed.map(|(rms, rows)| rms * rms * crate::count(rows)).sum();
+    let rows: usize = parts.iter().map(|(_, left)| left.len()).sum();
     (square / crate::count(rows.max(1))).sqrt()
 }
 

@@ -52,28 +52,26 @@ impl Layout {
     /// The layout of some rows, each block's together, and where they are here.
     #[must_use]
     pub fn of_rows(&self, keep: &[bool]) -> (Self, Vec<usize>) {
-        let mut part = Self::default();
-        let mut rows = Vec::new();
-        for block in &self.blocks {
-            let start = rows.len();
-            rows.extend(block.rows.clone().filter(|&row| keep[row]));
-            if start < rows.len() {
-                part.blocks.push(Block { rows: start..rows.len(), ..block.clone() });
-            }
-        }
-        part.clock = rows.iter().map(|&row| self.clock[row]).collect();
-        part.inflation = rows.iter().map(|&row| self.inflation[row]).collect();
-        (part, rows)
+        let kept = |block: &Block| block.rows.clone().filter(|&row| keep[row]).collect();
+        self.picked(self.blocks.iter().map(|block| (block, kept(block))))
     }
 
     /// The layout of the first rows of some blocks, and the rows they had here.
     #[must_use]
     pub fn begun(&self, most: usize, keep: impl Fn(&Block) -> bool) -> (Self, Vec<usize>) {
+        let blocks = self.blocks.iter().filter(|block| keep(block));
+        self.picked(blocks.map(|block| (block, block.rows.clone().take(most).collect())))
+    }
+
+    fn picked<'a>(
+        &self,
+        parts: impl Iterator<Item = (&'a Block, Vec<usize>)>,
+    ) -> (Self, Vec<usize>) {
         let mut part = Self::default();
         let mut rows = Vec::new();
-        for block in self.blocks.iter().filter(|block| keep(block)) {
+        for (block, own) in parts {
             let start = rows.len();
-            rows.extend(block.rows.clone().take(most));
+            rows.extend(own);
             part.blocks.push(Block { rows: start..rows.len(), ..block.clone() });
         }
         part.clock = rows.iter().map(|&row| self.clock[row]).collect();

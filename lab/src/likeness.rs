@@ -6,7 +6,6 @@ use helixlock_plant::{Entry, Role, Search, Term};
 use crate::analysis::{State, pattern};
 use crate::component::Component;
 use crate::count;
-use crate::fit::Columns;
 use crate::least_squares::{self, dot};
 use crate::measurement::spread;
 use crate::noise::Whitener;
@@ -137,8 +136,8 @@ pub fn turns_enough(problem: &Problem, component: &Component, used: &[f64]) -> b
     if component.term.parameters.iter().all(|what| what.role != Role::Amplitude) {
         return true;
     }
-    let Ok(columns) = Columns::of(problem, std::slice::from_ref(component)) else { return false };
-    let shape = about_passes(problem, columns.left(&vec![0.0; problem.rows.len()], used));
+    let Some(shown) = component.shown_um(problem, used) else { return false };
+    let shape = about_passes(problem, shown);
     let curve = |of: &dyn Fn(usize) -> f64| {
         let values = problem.rows.iter().map(|row| of(row.sample)).collect();
         about_passes(problem, values)

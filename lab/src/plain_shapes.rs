@@ -8,7 +8,7 @@
 use helixlock_plant::{Entry, Parameter, Search};
 
 use crate::analysis::State;
-use crate::candidates::between_samples;
+use crate::candidates::{around, between_samples, evenly_among};
 use crate::component::Component;
 use crate::count;
 use crate::fit::{Columns, rms, settle};
@@ -63,7 +63,7 @@ fn better_than(problem: &Problem, state: &State, group: &[usize]) -> Option<Stru
     let trial = Stage::new(problem, &base, &state.fit.noises);
     let (axis, best) = strongest(&trial, &imitators)?;
     let fit = settle(problem, &base.and(&best.columns), &state.fit.noises);
-    let price = libm::log(count(problem.rows.len()).max(3.0));
+    let price = problem.price_of_a_number();
     // A size a column, and the place.
     let freedom = count(best.columns.raw.len() + 1);
     let saved = imitators.iter().map(|one| numbers(one)).sum::<f64>() - freedom;
@@ -142,16 +142,14 @@ fn strongest_along(
         Axis::Time => (&record.time_s, Search::Time),
     };
     let gaps = between_samples(values);
-    let evenly = (0..PLACES).map(|i| gaps.get((2 * i + 1) * gaps.len() / (2 * PLACES)).copied());
     let of = |one: &&Component| {
         let with_values = one.term.parameters.iter().zip(&one.term.values);
         with_values.filter(|(what, _)| what.search == search).map(|(_, at)| *at).collect::<Vec<_>>()
     };
-    let coarse: Vec<f64> = evenly.flatten().chain(imitators.iter().flat_map(of)).collect();
+    let mut coarse = evenly_among(&gaps, PLACES);
+    coarse.extend(imitators.iter().flat_map(of));
     let near = best_of(trial, axis, &coarse)?.1.at;
-    let place = gaps.partition_point(|gap| *gap < near);
-    let reach = gaps.len() / PLACES + 1;
-    let nearby = &gaps[place.saturating_sub(reach)..(place + reach).min(gaps.len())];
+    let nearby = around(&gaps, near, gaps.len() / PLACES + 1);
     best_of(trial, axis, &[nearby, &[near]].concat())
 }
 

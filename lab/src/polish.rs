@@ -2,7 +2,7 @@
 
 use crate::analysis::State;
 use crate::component::Component;
-use crate::fit::{Columns, settle};
+use crate::fit::Columns;
 use crate::least_squares;
 use crate::noise::Whitener;
 use crate::problem::Problem;
@@ -48,20 +48,14 @@ fn stepped(problem: &Problem, state: &State) -> Option<State> {
     let width = state.columns.raw.len();
     for (slope, by) in slopes.iter().zip(&moves.coefficients[width..]) {
         let component = &mut components[slope.component];
-        *component = moved(component, slope.place, *by);
+        *component = component.with_value(slope.place, moved(component, slope.place, *by));
     }
-    let columns = Columns::of(problem, &components).ok()?;
-    let fit = settle(problem, &columns, &state.fit.noises);
-    Some(State { components, columns, fit })
+    State::of(problem, components, &state.fit.noises)
 }
 
-/// A component with one nonlinear value moved, within its range.
-fn moved(component: &Component, place: usize, by: f64) -> Component {
-    let mut values = component.term.nonlinear();
+/// A nonlinear value moved, within its range.
+fn moved(component: &Component, place: usize, by: f64) -> f64 {
+    let value = component.term.nonlinear()[place] + by;
     let range = &component.term.parameters[component.term.nonlinear_indices()[place]].range;
-    values[place] += by;
-    if range.start() < range.end() {
-        values[place] = values[place].clamp(*range.start(), *range.end());
-    }
-    Component { term: component.term.with_nonlinear(&values), ..component.clone() }
+    if range.start() < range.end() { value.clamp(*range.start(), *range.end()) } else { value }
 }

@@ -89,10 +89,9 @@ impl Problem {
     ) -> Result<Self, EffectError> {
         let record = record(machine, measurement);
         let sensors: Vec<Sensor> = measurement.observations.keys().copied().collect();
-        let recorded = sensors.contains(&Sensor::Recorder);
-        let between = || Finer::between(machine, &record).filter(|_| recorded);
         let whole = finer.is_none();
-        let finer = finer.or_else(between);
+        let lags = whole && sensors.contains(&Sensor::Recorder);
+        let finer = if lags { Finer::between(machine, &record) } else { finer };
         let mut problem = Self {
             machine: as_measured(machine, measurement),
             measurement: measurement.clone(),
@@ -145,6 +144,12 @@ impl Problem {
     #[must_use]
     pub fn residual(&self) -> Vec<f64> {
         self.observed.iter().zip(&self.predicted).map(|(seen, said)| seen - said).collect()
+    }
+
+    /// What a free number costs as evidence (Bayesian information criterion).
+    #[must_use]
+    pub fn price_of_a_number(&self) -> f64 {
+        libm::log(count(self.rows.len()).max(3.0))
     }
 
     /// Design column, row by row, of an effect whose δ at every sample is given.

@@ -66,7 +66,7 @@ fn superfluous(problem: &Problem, state: &State, fewer: &State, index: usize) ->
     let after = swift_rms(&problem.layout, &state.fit.left);
     let unit = problem.measurement.unit();
     let chance = chi_squared_tail(gain, width);
-    if gain < width * libm::log(count(problem.rows.len()).max(3.0)) {
+    if gain < width * problem.price_of_a_number() {
         return Some(format!("superfluous beside the others: evidence {gain:.1} only"));
     }
     if !matters(size, after, chance) || !above_hunting(problem, size) {

@@ -3,7 +3,7 @@
 use helixlock_plant::Search;
 use rayon::prelude::*;
 
-use crate::candidates::{Candidate, between_samples};
+use crate::candidates::{Candidate, around, between_samples};
 use crate::component::Component;
 use crate::count;
 use crate::designs::usable;
@@ -53,13 +53,12 @@ impl Trial {
 /// The best of one candidate; `None` when it explains nothing.
 #[must_use]
 pub fn try_candidate(stage: &Stage<'_>, candidate: &Candidate) -> Option<Trial> {
-    let mut grid = candidate.grid.clone();
     let mut gains = gains_of(stage, &stage.problem.designs.of(stage.problem, candidate));
     let sudden = sudden_places(stage, candidate);
     let columns: Vec<Option<Columns>> =
         sudden.par_iter().map(|place| columns_at(stage, candidate, place)).collect();
     gains.extend(gains_of(stage, &columns));
-    grid.extend(sudden);
+    let grid = [candidate.grid.as_slice(), &sudden].concat();
     let starts = starts(&grid, &gains);
     let refined = starts.into_iter().map(|point| refined(stage, candidate, &grid[point]));
     let term = refined.max_by(|a, b| a.1.total_cmp(&b.1))?.0;
@@ -230,8 +229,7 @@ fn sharpened(stage: &Stage<'_>, candidate: &Candidate, start: &[f64]) -> Vec<f64
         }
         let gaps = between_samples(&stage.problem.record.time_s);
         let reach = gaps.len() / 96 + 2;
-        let near = gaps.partition_point(|gap| *gap < best[place]);
-        let nearby = &gaps[near.saturating_sub(reach)..(near + reach).min(gaps.len())];
+        let nearby = around(&gaps, best[place], reach);
         let columns = |gap: &f64| {
             let mut values = best.clone();
             values[place] = *gap;
@@ -259,7 +257,7 @@ pub fn reduced(stage: &Stage<'_>, component: Component) -> Component {
     if atoms.len() < 2 {
         return best;
     }
-    let price = libm::log(count(stage.problem.rows.len()).max(3.0));
+    let price = stage.problem.price_of_a_number();
     let score = |component: &Component| {
         gain_at(stage, component)
             .map_or(f64::NEG_INFINITY, |gain| gain.gain - price * count(component.width()))

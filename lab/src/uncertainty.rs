@@ -89,16 +89,8 @@ fn slope(
     let range = parameter.range.end() - parameter.range.start();
     let step = 1e-4 * if value == 0.0 { range.abs() } else { value.abs() };
     let (coefficients, _) = state.coefficients(index);
-    let moved = |by: f64| {
-        let mut nonlinear = component.term.nonlinear();
-        nonlinear[place] += by;
-        let other =
-            Component { term: component.term.with_nonlinear(&nonlinear), ..component.clone() };
-        let columns = Columns::of(problem, &[other]).ok()?;
-        let nothing = vec![0.0; problem.rows.len()];
-        Some(columns.left(&nothing, coefficients))
-    };
-    let (up, down) = (moved(step)?, moved(-step)?);
-    let slope: Vec<f64> = up.iter().zip(&down).map(|(a, b)| (b - a) / (2.0 * step)).collect();
+    let at = |value| component.with_value(place, value).shown_um(problem, coefficients);
+    let (up, down) = (at(value + step)?, at(value - step)?);
+    let slope: Vec<f64> = up.iter().zip(&down).map(|(a, b)| (a - b) / (2.0 * step)).collect();
     slope.iter().any(|value| *value != 0.0).then_some(slope)
 }

@@ -283,6 +283,11 @@ impl Record {
         self
     }
 
+    /// True when the direction changes between a sample and the one before it.
+    pub(crate) fn turned(&self, row: usize) -> bool {
+        self.direction[row] * self.direction[row - 1] < 0.0
+    }
+
     /// The same, if every forward pass began at travel zero, however far its first sample lies.
     #[must_use]
     pub fn begun_at_zero(&self) -> Self {

@@ -39,10 +39,9 @@ impl Record {
         if row == 0 || self.pass[row] != self.pass[row - 1] {
             return 1;
         }
-        let turned = self.direction[row] * self.direction[row - 1] < 0.0;
         let elapsed_s = self.time_s[row] - self.time_s[row - 1];
         let parts = (elapsed_s * self.speed_rpm[row] / 60.0 / turns).round();
-        if turned || !parts.is_finite() {
+        if self.turned(row) || !parts.is_finite() {
             return 1;
         }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to 16")]

@@ -127,7 +127,7 @@ fn ways(record: &Record, machine: &Machine) -> (Vec<f64>, Vec<f64>) {
         for row in rows.clone() {
             if rows.start < row {
                 let move_mm = record.position_mm[row] - record.position_mm[row - 1];
-                if turned(record, row) {
+                if record.turned(row) {
                     let elapsed_s = record.time_s[row] - record.time_s[row - 1];
                     let pace_mm_s = lead_mm * record.speed_rpm[row] / 60.0;
                     // At rest in between it has gone less far than its speed says.
@@ -160,14 +160,9 @@ fn way_before_mm(machine: &Machine, first_mm: f64) -> f64 {
     if first_mm.abs() <= longest_mm { first_mm.abs() } else { 0.0 }
 }
 
-/// True when the direction changes between a sample and the one before it.
-fn turned(record: &Record, row: usize) -> bool {
-    record.direction[row] * record.direction[row - 1] < 0.0
-}
-
 /// Longest way between neighbours of one direction, mm.
 fn longest_mm(record: &Record, rows: Range<usize>) -> f64 {
-    let moves = (rows.start + 1..rows.end).filter(|&row| !turned(record, row));
+    let moves = (rows.start + 1..rows.end).filter(|&row| !record.turned(row));
     moves
         .map(|row| (record.position_mm[row] - record.position_mm[row - 1]).abs())
         .fold(0.0, f64::max)

@@ -13,8 +13,7 @@ use rand_distr::{Distribution, StandardNormal};
 use super::recipe::Recipe;
 use super::{ChallengeError, column};
 use crate::count;
-use crate::fit::rms;
-use crate::layout::{Block, Layout};
+use crate::fit::rms_about_means;
 
 /// Leads with dividers that hold them (document 1: B/A = S·5/22).
 const LEADS: [(&str, u32, u32); 3] = [("6 mm", 110, 150), ("5 mm", 110, 125), ("10 mm", 66, 150)];
@@ -178,22 +177,12 @@ pub(super) fn measured(
             let clean: Vec<f64> = shown.of(sensor).iter().zip(&more).map(|(a, b)| a + b).collect();
             let hidden: Vec<f64> =
                 clean.iter().zip(expected.of(sensor)).map(|(a, b)| a - b).collect();
-            hidden_um = hidden_um.max(size(record, &hidden));
+            hidden_um = hidden_um.max(rms_about_means(record.passes(), &hidden));
             columns.push(column(name, noisy(record, &clean, noise_um, chance)));
         }
     }
     shuffle(&mut columns, chance);
     Ok((Table::new(columns), hidden_um))
-}
-
-fn size(record: &Record, values: &[f64]) -> f64 {
-    let blocks = record.passes().into_iter().map(|rows| Block { sensor: 0, pass: 0, rows });
-    let layout = Layout {
-        blocks: blocks.collect(),
-        clock: vec![0.0; values.len()],
-        inflation: vec![1.0; values.len()],
-    };
-    rms(&layout, values)
 }
 
 /// Values with noise of one colour, each pass from its own zero.
