@@ -108,7 +108,8 @@ impl System<'_> {
         let variance_um2 = self.penalised_squares(&places_um, smoothness) / number(samples);
         let misfit = number(samples) * libm::log(variance_um2) + factor.log_determinant()
             - number(places - 2) * libm::log(smoothness);
-        misfit.is_finite().then_some(Fit { places_um, misfit, variance_um2, factor })
+        // Readings without any form or noise fit exactly, with a likelihood beyond all bounds.
+        (!misfit.is_nan()).then_some(Fit { places_um, misfit, variance_um2, factor })
     }
 
     fn penalised_squares(&self, places_um: &[f64], smoothness: f64) -> f64 {
@@ -186,6 +187,19 @@ mod tests {
     fn neighbouring_probes_give_the_bar_exactly() {
         let found = separate_by_least_squares(&combined(Spacing { first: 1, second: 1 }), true);
         assert!(rms_error(&found.unwrap().workpiece_um) < 1e-4);
+    }
+
+    /// At 0 the readings fit exactly, at 0.1 to rounding.
+    #[test]
+    fn a_flat_bar_is_flat() {
+        for height_um in [0.0, 0.1] {
+            let probes_um = [0, 1, 2].map(|_| vec![height_um; 33]);
+            let repeats = vec![Repeat { probes_um }; 2];
+            let readings = Readings { start_mm: 0.0, step_mm: 5.0, repeats };
+            let combined = readings.combine(Spacing { first: 9, second: 8 }).unwrap();
+            let found = separate_by_least_squares(&combined, false).unwrap();
+            assert!(found.workpiece_um.iter().all(|h| h.abs() < 1e-12), "{found:?}");
+        }
     }
 
     #[test]
