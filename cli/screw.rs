@@ -313,7 +313,7 @@ fn characteristic_json(one: &Characteristic) -> Value {
             "lowest_at_mm": reached.lowest_mm,
         }),
         Err(why) => json!({
-            "symbol": one.symbol, "meaning": one.meaning, "value_um": null, "missing": why,
+            "symbol": one.symbol, "meaning": one.meaning, "value_um": null, "missing": why.to_string(),
         }),
     }
 }
@@ -337,6 +337,7 @@ fn verdicts_json(grading: &Grading) -> Value {
             "probability": verdict.probability,
             "status": verdict.status.name(),
             "without_limit": verdict.without_limit,
+            "unmeasured": verdict.unmeasured,
             "limits": limits.collect::<Vec<_>>(),
         })
     };

@@ -114,7 +114,7 @@ fn characteristics(evaluation: &Evaluation) -> Table {
                     one.meaning.into(),
                 ])
             }
-            Err(why) => table.row([one.symbol, "", "", "", why]),
+            Err(why) => table.row([one.symbol, "", "", "", &why.to_string()]),
         };
     }
     table

@@ -138,6 +138,28 @@ pub enum Error {
         /// Bytes there are.
         available: usize,
     },
+    /// Two directions measured over different stretches.
+    #[error(
+        "one direction begins at {begins_mm} mm and another ends at {ends_mm} mm, expected a stretch that both cover"
+    )]
+    DirectionsApart {
+        /// Where the later one begins, mm.
+        begins_mm: f64,
+        /// Where the earlier one ends, mm.
+        ends_mm: f64,
+    },
+    /// A stretch between two places of a table.
+    #[error(
+        "no multiple of the table step {step_mm} mm lies from {from_mm} mm to {to_mm} mm, expected one or more\nhint: choose a shorter `--step`"
+    )]
+    NoPlace {
+        /// The step, mm.
+        step_mm: f64,
+        /// Where the samples begin, mm.
+        from_mm: f64,
+        /// Where they end, mm.
+        to_mm: f64,
+    },
     /// An error the table's byte cannot hold.
     #[error(
         "the correction at {at_mm} mm is {found_um:.3} µm, expected at most ±{limit_um:.3} µm for 8 bits at this LSB\nhint: choose a bigger `--lsb`"

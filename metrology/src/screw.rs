@@ -14,7 +14,7 @@ mod tolerance;
 mod travel_variation;
 mod windows;
 
-pub use characteristic::{Characteristic, Reached};
+pub use characteristic::{Characteristic, Missing, Reached};
 pub use curve::{Curve, Gap};
 pub use grade::{GradeVerdict, Grading, Judgement, grade};
 pub use helical::helical_characteristics;

@@ -30,10 +30,17 @@ const HEX_RECORD_BYTES: usize = 16;
 ///
 /// # Errors
 ///
-/// When the table does not fit, or a length is no whole number of the units above within range.
+/// When the table is empty or does not fit, its directions differ in length, or a length is no whole number of the units above within range.
 #[expect(clippy::cast_sign_loss, reason = "signed bytes are stored as they are")]
 pub fn to_image(table: &CorrectionTable) -> Result<[u8; IMAGE_BYTES], Error> {
-    let codes = table.forward.len() + table.backward.len();
+    let (forward, backward) = (table.forward.len(), table.backward.len());
+    if forward == 0 || (backward != 0 && backward != forward) {
+        let reason = format!(
+            "{forward} places forward and {backward} backward, expected one or more, as many both ways or none backward"
+        );
+        return Err(damaged(reason));
+    }
+    let codes = forward + backward;
     let needed = HEADER_BYTES + codes + 2;
     if IMAGE_BYTES < needed {
         return Err(Error::ImageTooBig { needed, available: IMAGE_BYTES });
@@ -67,7 +74,8 @@ pub fn to_image(table: &CorrectionTable) -> Result<[u8; IMAGE_BYTES], Error> {
 ///
 /// # Errors
 ///
-/// When the size, the first bytes, the checksum or the counts are wrong.
+/// When the size, the first bytes, the checksum or the counts are wrong, or the distance of places
+/// or the weight of a bit is zero.
 #[expect(clippy::cast_possible_wrap, reason = "signed bytes are stored as they are")]
 pub fn from_image(image: &[u8]) -> Result<CorrectionTable, Error> {
     if image.len() != IMAGE_BYTES {
@@ -88,6 +96,11 @@ pub fn from_image(image: &[u8]) -> Result<CorrectionTable, Error> {
         return Err(damaged(format!(
             "{places} places in {directions} directions, expected 1 to {room} bytes"
         )));
+    }
+    for (name, at) in [("distance of places", 8), ("weight of the least bit", 10)] {
+        if word(image, at) == 0 {
+            return Err(damaged(format!("the {name} is 0, expected more")));
+        }
     }
     let codes = |from: usize| image[from..from + places].iter().map(|byte| *byte as i8).collect();
     Ok(CorrectionTable {
@@ -232,6 +245,28 @@ mod tests {
             to_image(&table(1016)),
             Err(Error::ImageTooBig { needed: 2050, available: 2048 })
         );
+    }
+
+    /// The checksum is right, the content is not.
+    #[test]
+    fn a_step_or_a_bit_of_nothing_is_refused() {
+        let table = CorrectionTable {
+            start_mm: 0.0,
+            step_mm: 1.0,
+            lsb_um: 0.1,
+            forward: vec![5; 3],
+            backward: vec![],
+        };
+        for at in [8, 10] {
+            let mut image = to_image(&table).unwrap();
+            image[at..at + 2].copy_from_slice(&[0, 0]);
+            let checksum = crc16(&image[..CHECKED_BYTES]);
+            image[CHECKED_BYTES..].copy_from_slice(&checksum.to_be_bytes());
+            let error = from_image(&image).unwrap_err().to_string();
+            assert!(error.contains("is 0, expected more"), "{error}");
+        }
+        let uneven = CorrectionTable { backward: vec![5; 2], ..table };
+        assert!(to_image(&uneven).is_err());
     }
 
     #[test]

@@ -66,8 +66,8 @@ pub enum LookUp {
 ///
 /// # Errors
 ///
-/// When a sample is not finite, a direction has fewer than two places, the step or the LSB is not
-/// positive, or a correction does not fit a byte.
+/// When a sample is not finite, a direction has fewer than two places, no place lies in what every
+/// direction covers, the step or the LSB is not positive, or a correction does not fit a byte.
 pub fn build_table(samples: &[ErrorSample], rule: &TableRule) -> Result<CorrectionTable, Error> {
     for (name, value) in [("table step", rule.step_mm), ("LSB", rule.lsb_um)] {
         if value.is_nan() || value <= 0.0 {
@@ -165,9 +165,17 @@ fn places(curves: &[Vec<(f64, f64)>], step_mm: f64) -> Result<Vec<f64>, Error> {
         let (found, expected) = ((last - first) / step_mm, "a few thousand for 2 KiB");
         return Err(Error::OutOfRange { name: "number of places", found, expected });
     }
+    if last < first {
+        return Err(Error::DirectionsApart { begins_mm: first, ends_mm: last });
+    }
     let start = (first / step_mm - 1e-6).ceil();
     let place = |index: usize| (start + number(index)) * step_mm;
-    Ok((0..usize::MAX).map(place).take_while(|place| *place <= last + 1e-6).collect())
+    let places: Vec<f64> =
+        (0..usize::MAX).map(place).take_while(|place| *place <= last + 1e-6).collect();
+    if places.is_empty() {
+        return Err(Error::NoPlace { step_mm, from_mm: first, to_mm: last });
+    }
+    Ok(places)
 }
 
 fn corrections(curve: &[(f64, f64)], places: &[f64], rule: &TableRule) -> Result<Vec<i8>, Error> {
@@ -228,6 +236,16 @@ mod tests {
         assert_eq!(look(2.6, Direction::Forward, LookUp::Nearest), None);
         assert_eq!(look(2.2, Direction::Forward, LookUp::Linear), None);
         assert_eq!(look(-0.6, Direction::Forward, LookUp::Nearest), None);
+    }
+
+    #[test]
+    fn directions_apart_and_stretches_between_places_are_refused() {
+        let there = |x: f64| sample(x, 0.0, Direction::Forward);
+        let back = |x: f64| sample(x, 0.0, Direction::Backward);
+        let apart = build_table(&[there(0.0), there(9.0), back(20.0), back(30.0)], &rule());
+        assert_eq!(apart, Err(Error::DirectionsApart { begins_mm: 20.0, ends_mm: 9.0 }));
+        let between = build_table(&[there(0.2), there(0.9)], &rule());
+        assert_eq!(between, Err(Error::NoPlace { step_mm: 1.0, from_mm: 0.2, to_mm: 0.9 }));
     }
 
     #[test]

@@ -10,7 +10,50 @@ pub struct Characteristic {
     /// What it is, in words.
     pub meaning: &'static str,
     /// The value, or why there is none.
-    pub reached: Result<Reached, String>,
+    pub reached: Result<Reached, Missing>,
+}
+
+/// Why a characteristic has no value.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum Missing {
+    /// The screw has no such figure: a window is longer than its useful travel.
+    #[error("the travel evaluated, {travel_mm:.3} mm, is shorter than {window_mm} mm")]
+    ShortTravel {
+        /// Travel evaluated, mm.
+        travel_mm: f64,
+        /// The window, mm.
+        window_mm: f64,
+    },
+    /// It has one, but samples are too far apart to show it.
+    #[error("{found:.2} samples a turn are too few, expected {expected} or more")]
+    TooFewPerTurn {
+        /// Samples a turn.
+        found: f64,
+        /// What it takes.
+        expected: f64,
+    },
+    /// It has one, but a line through so few samples leaves nothing.
+    #[error("{found} samples are too few, expected {expected} or more")]
+    TooFewSamples {
+        /// Samples there are.
+        found: usize,
+        /// What it takes.
+        expected: usize,
+    },
+    /// It has one, but no two samples lie within the window.
+    #[error("no two samples lie within {window_mm} mm of each other")]
+    NoPair {
+        /// The window, mm.
+        window_mm: f64,
+    },
+}
+
+impl Missing {
+    /// True when the screw has the figure and only the samples do not show it.
+    #[must_use]
+    pub fn is_unmeasured(self) -> bool {
+        !matches!(self, Self::ShortTravel { .. })
+    }
 }
 
 /// A value and its place.

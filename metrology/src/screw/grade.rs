@@ -32,6 +32,8 @@ pub struct GradeVerdict {
     pub judgements: Vec<Judgement>,
     /// Symbols whose limit ends before this useful travel: the grade cannot be given.
     pub without_limit: Vec<&'static str>,
+    /// Symbols this grade limits and the samples do not show: the grade cannot be given.
+    pub unmeasured: Vec<&'static str>,
     /// True when every limit is known and holds.
     pub holds: bool,
     /// Probability of this grade or a better one; absent without an uncertainty.
@@ -125,7 +127,13 @@ fn judge(
             source: limit.source.clone(),
         });
     }
-    let known = without_limit.is_empty() && !judgements.is_empty();
+    let unmeasured: Vec<_> = characteristics
+        .iter()
+        .filter(|one| table.limit(grade, one.limit).is_some())
+        .filter(|one| one.reached.as_ref().is_err_and(|why| why.is_unmeasured()))
+        .map(|one| one.symbol)
+        .collect();
+    let known = without_limit.is_empty() && unmeasured.is_empty() && !judgements.is_empty();
     let probabilities: Option<Vec<f64>> = judgements.iter().map(|j| j.probability).collect();
     GradeVerdict {
         grade: grade.into(),
@@ -134,6 +142,7 @@ fn judge(
         status: judgements.iter().map(|j| j.status).max().unwrap_or(Status::Unverified),
         judgements,
         without_limit,
+        unmeasured,
     }
 }
 
@@ -200,6 +209,22 @@ mod tests {
         assert!((half - 0.5).abs() < 1e-12);
         // Φ(1.96) = 0.975
         assert!((within(10.0, 11.96, 1.0).unwrap() - 0.975).abs() < 1e-4);
+    }
+
+    /// What a short screw does not have is not asked of it; what was not measured is.
+    #[test]
+    fn samples_that_show_nothing_earn_no_grade() {
+        let table = built_in_table("iso3408-3").unwrap();
+        let given = |travel_mm: &[f64]| {
+            let curve = Curve::new(travel_mm, &vec![0.0; travel_mm.len()]).unwrap();
+            let found = evaluate_travel(&curve, 5.0, 0.0, Weighting::Samples).unwrap();
+            grade(&table, &found.characteristics, curve.length_mm(), None)
+        };
+        assert_eq!(given(&[0.0, 2.5, 5.0]).grade, None);
+        let once_a_turn: Vec<f64> = (0..40).map(|k| f64::from(k) * 5.0).collect();
+        assert_eq!(given(&once_a_turn).verdicts[0].unmeasured, ["V2π"]);
+        let short: Vec<f64> = (0..100).map(|k| f64::from(k) * 0.5).collect();
+        assert_eq!(given(&short).grade.as_deref(), Some("0"), "50 mm have no V300");
     }
 
     #[test]

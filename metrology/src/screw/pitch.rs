@@ -4,7 +4,7 @@
 //! Document 5 measures one point a turn; a dense curve has many starting phases within the turn,
 //! all are tried, and the worst counts.
 
-use super::{Characteristic, Curve, Reached, widest_in_windows};
+use super::{Characteristic, Curve, Missing, Reached, widest_in_windows};
 use crate::number::number;
 
 /// `ΔP`, `ΔPL60`, `ΔPL300` and `ΔPLu`, in this order.
@@ -17,14 +17,12 @@ pub fn pitch_characteristics(curve: &Curve, lead_mm: f64) -> [Characteristic; 4]
     let cumulative = |window_mm: f64| {
         let length_mm = curve.length_mm();
         if length_mm + super::WINDOW_SLACK_MM < window_mm {
-            return Err(format!(
-                "the travel evaluated, {length_mm:.3} mm, is shorter than {window_mm} mm"
-            ));
+            return Err(Missing::ShortTravel { travel_mm: length_mm, window_mm });
         }
-        worst(phases.as_ref(), |turns| within(turns, window_mm))
+        worst(&phases, lead_mm, |turns| within(turns, window_mm))
     };
     let make = |symbol, limit, meaning, reached| Characteristic { symbol, limit, meaning, reached };
-    let one = worst(phases.as_ref(), single_pitch);
+    let one = worst(&phases, lead_mm, single_pitch);
     [
         make("ΔP", "pitch", "error of one pitch", one),
         make("ΔPL60", "pitch-60", "cumulative pitch error within any 60 mm", cumulative(60.0)),
@@ -45,10 +43,10 @@ struct Turns {
 }
 
 /// One series of whole turns for each sample of the first turn.
-fn phases(curve: &Curve, lead_mm: f64) -> Result<Vec<Turns>, String> {
+fn phases(curve: &Curve, lead_mm: f64) -> Result<Vec<Turns>, Missing> {
     let samples_per_turn = lead_mm / curve.median_step_mm();
     if samples_per_turn < 1.0 - 1e-6 {
-        return Err(format!("{samples_per_turn:.2} samples a turn, expected one or more"));
+        return Err(Missing::TooFewPerTurn { found: samples_per_turn, expected: 1.0 });
     }
     if samples_per_turn < 1.0 + 1e-6 {
         let (travel_mm, deviation_um) = (curve.travel_mm(), curve.deviation_um());
@@ -75,12 +73,13 @@ fn whole_turns(curve: &Curve, start_mm: f64, lead_mm: f64) -> Turns {
 
 /// The worst over all phases, by absolute value.
 fn worst(
-    phases: Result<&Vec<Turns>, &String>,
+    phases: &Result<Vec<Turns>, Missing>,
+    lead_mm: f64,
     find: impl Fn(&Turns) -> Option<Reached>,
-) -> Result<Reached, String> {
-    let found = phases.map_err(String::clone)?.iter().filter_map(find);
+) -> Result<Reached, Missing> {
+    let found = phases.as_ref().map_err(|why| *why)?.iter().filter_map(find);
     let by_size = |a: &Reached, b: &Reached| a.value_um.abs().total_cmp(&b.value_um.abs());
-    found.max_by(by_size).ok_or_else(|| "no two samples are a pitch apart".into())
+    found.max_by(by_size).ok_or(Missing::NoPair { window_mm: lead_mm })
 }
 
 /// The worst step from one turn to the next, with its sign: positive when the pitch is too long.

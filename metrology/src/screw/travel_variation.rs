@@ -1,7 +1,8 @@
 //! The four characteristics of ISO 3408-3: e, Vu, V300 and V2π.
 
 use super::{
-    Characteristic, Curve, Gap, MeanLine, Reached, Weighting, fit_mean_line, widest_in_windows,
+    Characteristic, Curve, Gap, MeanLine, Missing, Reached, Weighting, fit_mean_line,
+    widest_in_windows,
 };
 use crate::Error;
 
@@ -28,6 +29,10 @@ pub struct TravelVariation {
 
 /// Fewer samples a turn than this cannot show a variation within a turn at all.
 const FEWEST_PER_TURN: f64 = 2.0;
+
+/// With fewer samples than this nothing can be said of what lies between them; the mean line alone
+/// fits two.
+const FEWEST_SAMPLES: usize = 8;
 
 /// With fewer samples a turn than this, up to 8 % of a sine's band lies between the samples.
 pub const FAITHFUL_PER_TURN: f64 = 8.0;
@@ -60,7 +65,7 @@ pub fn evaluate_travel(
     let from_mean_line_um: Vec<f64> =
         curve.travel_mm().iter().zip(curve.deviation_um()).map(off_line).collect();
     let samples_per_turn = lead_mm / curve.median_step_mm();
-    let e = mean_deviation(curve, &mean_line, compensation_um);
+    let e = enough_samples(curve).map(|()| mean_deviation(curve, &mean_line, compensation_um));
     let vu = over_any(curve, &from_mean_line_um, curve.length_mm()).map(|found| found.0);
     let (v300, intervals_in_300_mm) = match over_any(curve, &from_mean_line_um, 300.0) {
         Ok((reached, intervals)) => (Ok(reached), Some(intervals)),
@@ -75,7 +80,7 @@ pub fn evaluate_travel(
         samples_per_turn,
         intervals_in_300_mm,
         mean_line,
-        characteristics: named(Ok(e), vu, v300, v2pi),
+        characteristics: named(e, vu, v300, v2pi),
         gaps: curve.gaps(),
         from_mean_line_um,
     })
@@ -93,40 +98,42 @@ pub(super) fn over_any(
     curve: &Curve,
     values: &[f64],
     window_mm: f64,
-) -> Result<(Reached, usize), String> {
-    let length_mm = curve.length_mm();
+) -> Result<(Reached, usize), Missing> {
+    let (travel_mm, length_mm) = (curve.travel_mm(), curve.length_mm());
     if length_mm + super::WINDOW_SLACK_MM < window_mm {
-        return Err(format!(
-            "the travel evaluated, {length_mm:.3} mm, is shorter than {window_mm} mm"
-        ));
+        return Err(Missing::ShortTravel { travel_mm: length_mm, window_mm });
     }
-    let travel_mm = curve.travel_mm();
+    enough_samples(curve)?;
     match widest_in_windows(travel_mm, values, window_mm) {
         Some(found) if 1 < found.most_samples => {
             let (highest_mm, lowest_mm) = (travel_mm[found.highest], travel_mm[found.lowest]);
             let reached = Reached { value_um: found.spread, highest_mm, lowest_mm };
             Ok((reached, found.most_samples - 1))
         }
-        _ => Err(format!("no two samples lie within {window_mm} mm of each other")),
+        _ => Err(Missing::NoPair { window_mm }),
     }
 }
 
+/// Refuses a curve that is hardly sampled at all.
+fn enough_samples(curve: &Curve) -> Result<(), Missing> {
+    let (found, expected) = (curve.travel_mm().len(), FEWEST_SAMPLES);
+    if found < expected { Err(Missing::TooFewSamples { found, expected }) } else { Ok(()) }
+}
+
 /// Refuses a sampling that cannot see what happens within a turn.
-pub(super) fn enough_per_turn(samples_per_turn: f64) -> Result<(), String> {
+pub(super) fn enough_per_turn(samples_per_turn: f64) -> Result<(), Missing> {
     // A step computed from decimal positions may be off in its last digit.
     if samples_per_turn + 1e-6 < FEWEST_PER_TURN {
-        return Err(format!(
-            "{samples_per_turn:.2} samples a turn are too few, expected {FEWEST_PER_TURN} or more"
-        ));
+        return Err(Missing::TooFewPerTurn { found: samples_per_turn, expected: FEWEST_PER_TURN });
     }
     Ok(())
 }
 
 fn named(
-    e: Result<Reached, String>,
-    vu: Result<Reached, String>,
-    v300: Result<Reached, String>,
-    v2pi: Result<Reached, String>,
+    e: Result<Reached, Missing>,
+    vu: Result<Reached, Missing>,
+    v300: Result<Reached, Missing>,
+    v2pi: Result<Reached, Missing>,
 ) -> [Characteristic; 4] {
     let make = |symbol, limit, meaning, reached| Characteristic { symbol, limit, meaning, reached };
     [
