@@ -114,7 +114,7 @@ mod tests {
         let y: Vec<f64> = x.iter().map(|x| 20.0 * libm::sin(TAU * x / 6.0)).collect();
         let found = pitch_characteristics(&Curve::new(&x, &y).unwrap(), 6.0);
         for one in found {
-            assert!(one.reached.clone().unwrap().value_um.abs() < 1e-9, "{one:?}");
+            assert!(one.reached.unwrap().value_um.abs() < 1e-9, "{one:?}");
         }
     }
 
@@ -136,7 +136,7 @@ mod tests {
         let mut y = vec![0.0; 100];
         y[50] = -7.0;
         let found = pitch_characteristics(&Curve::new(&x, &y).unwrap(), 6.0);
-        let pitch = found[0].reached.clone().unwrap();
+        let pitch = found[0].reached.unwrap();
         assert!((pitch.value_um.abs() - 7.0).abs() < 1e-12);
     }
 }

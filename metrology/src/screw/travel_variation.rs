@@ -163,7 +163,7 @@ mod tests {
     #[test]
     fn slope_and_bands_of_known_sines() {
         let found = worked_example();
-        let value = |k: usize| found.characteristics[k].reached.clone().unwrap().value_um;
+        let value = |k: usize| found.characteristics[k].reached.unwrap().value_um;
         assert_eq!(found.intervals_in_300_mm, Some(2400));
         assert!((value(0) - 10.0).abs() < 0.05, "10 µm/m over 1 m, found {}", value(0));
         // Sine peaks lie a quarter lead beside a cosine peak: 2·(1.5 + 4) less than 0.01 µm.
@@ -181,7 +181,7 @@ mod tests {
         let found = evaluate_travel(&curve, 1.5, 0.0, Weighting::Samples).unwrap();
         assert!(found.characteristics[2].reached.is_err());
         assert!(found.characteristics[3].reached.is_err());
-        assert!((found.characteristics[0].reached.clone().unwrap().value_um - 100.0).abs() < 1e-9);
+        assert!((found.characteristics[0].reached.unwrap().value_um - 100.0).abs() < 1e-9);
     }
 
     #[test]
@@ -190,6 +190,6 @@ mod tests {
         let y: Vec<f64> = x.iter().map(|x| -0.02 * x).collect();
         let curve = Curve::new(&x, &y).unwrap();
         let found = evaluate_travel(&curve, 10.0, -20.0, Weighting::Samples).unwrap();
-        assert!(found.characteristics[0].reached.clone().unwrap().value_um.abs() < 1e-9);
+        assert!(found.characteristics[0].reached.unwrap().value_um.abs() < 1e-9);
     }
 }
