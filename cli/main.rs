@@ -1,45 +1,22 @@
 //! The `helixlock` command: reads files, calls the libraries, prints and writes what they say.
 
 mod add;
-mod captured;
 mod certify;
 mod challenge;
-mod challenge_score;
-mod closed_loop_check;
 mod compare;
 mod diagnose;
-mod diagnosis_json;
 mod dividers;
 mod effects;
 mod faults;
 mod r#gen;
-mod gen_summary;
-mod gen_vectors;
 mod learn;
-mod measured;
-mod output;
-mod pages;
-mod probe_readings;
-mod progress;
-mod pulse_capture;
-mod quantity;
 mod scale;
-mod scale_model;
-mod scale_samples;
-mod scale_summary;
 mod screw;
-mod series;
+mod shared;
 mod sim;
-mod sim_summary;
-mod sim_table;
 mod straightness;
-mod straightness_summary;
 mod sweep;
-mod sweep_journal;
 mod transmission;
-mod transmission_summary;
-mod wheels;
-mod words;
 
 use std::io::{self, Write};
 use std::process::ExitCode;

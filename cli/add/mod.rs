@@ -1,0 +1,150 @@
+//! `helixlock add`: one more effect in a machine file, fitted to data if there are any.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use anyhow::{Context, bail};
+use clap::Args;
+use helixlock_lab::adding::{Added, add};
+use helixlock_lab::diagnosis::FittedEffect;
+use helixlock_lab::learn::written;
+use helixlock_plant::{MachineFile, Term};
+use serde_json::json;
+
+use crate::shared::captured::Signals;
+use crate::shared::effect_file::{effect_text, own_effects};
+use crate::shared::{diagnosis_json, diagnosis_text, measured, output};
+
+/// Put an effect into a machine file, its parameters fitted to data
+#[derive(Debug, Args)]
+pub(crate) struct Add {
+    /// Machine file
+    machine: PathBuf,
+    /// Name of an effect of the catalogue, or a TOML file with one `[[effect]]`, such as a custom one
+    effect: String,
+    /// Measured data to fit its parameters to
+    #[arg(long, value_name = "DATA")]
+    fit: Option<PathBuf>,
+    /// Fit the effects that the machine file has already along with it
+    #[arg(long, requires = "fit")]
+    refit: bool,
+    /// A parameter, such as `amplitude="1.5 um"`; only without `--fit`
+    #[arg(long = "set", value_name = "KEY=VALUE", conflicts_with = "fit")]
+    values: Vec<String>,
+    #[command(flatten)]
+    signals: Signals,
+    /// New machine file
+    #[arg(short, long)]
+    output: PathBuf,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Add {
+    /// Writes the new machine file; exit status 1 when the effect has no influence on the data.
+    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+        let file = MachineFile::read(&self.machine)?;
+        let Some(data) = &self.fit else {
+            let new = self.with_given_values(&file)?;
+            self.write(&new)?;
+            writeln!(out, "{}: {} added", self.output.display(), self.effect)?;
+            return Ok(ExitCode::SUCCESS);
+        };
+        let term = self.term(&file)?;
+        let (base, beside) = if self.refit { stripped(&file)? } else { (file, Vec::new()) };
+        let problem = measured::problem(&base.machine, data, &self.signals)?;
+        let added = add(&problem, &beside, &term)
+            .with_context(|| format!("{}: {} cannot be fitted", data.display(), term.name))?;
+        let Some(added) = added else {
+            writeln!(out, "{} has no influence on these data", term.name)?;
+            return Ok(ExitCode::from(1));
+        };
+        self.write(&written(&base, &added.effects)?)?;
+        let unit = problem.measurement.unit_word();
+        if self.json {
+            writeln!(out, "{}", serde_json::to_string_pretty(&as_json(&added, unit))?)?;
+        } else {
+            print(out, &added, problem.measurement.unit())?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+
+    /// The effect as it stands before the fit.
+    fn term(&self, file: &MachineFile) -> anyhow::Result<Term> {
+        if let Some(card) = Term::card(&self.effect).filter(|card| !card.parameters.is_empty()) {
+            return Ok(Term::candidate(card));
+        }
+        own_effects(file, Path::new(&self.effect)).map(|mut terms| terms.remove(0))
+    }
+
+    /// The file with the effect's table as the user gave it.
+    fn with_given_values(&self, file: &MachineFile) -> anyhow::Result<MachineFile> {
+        let effect = Path::new(&self.effect);
+        let (text, path) = if Term::card(&self.effect).is_some() {
+            let mut text = format!("[[effect]]\nkind = \"{}\"\n", self.effect);
+            for pair in &self.values {
+                let Some((key, value)) = pair.split_once('=') else {
+                    bail!("--set {pair}: found no `=`, expected KEY=VALUE");
+                };
+                let plain = value.parse::<f64>().is_ok()
+                    || value.starts_with(['"', '\'', '[', '{'])
+                    || matches!(value, "true" | "false");
+                let value = if plain { value.to_owned() } else { format!("\"{value}\"") };
+                text.extend([key.trim(), " = ", &value, "\n"]);
+            }
+            (text, Path::new("--set"))
+        } else {
+            (effect_text(effect)?, effect)
+        };
+        Ok(file.with_text(&text, path)?)
+    }
+
+    fn write(&self, file: &MachineFile) -> anyhow::Result<()> {
+        output::write_content(&self.output, file.text())
+    }
+}
+
+/// The machine file without its effects, and those effects.
+fn stripped(file: &MachineFile) -> anyhow::Result<(MachineFile, Vec<Term>)> {
+    let terms = file.machine.effects.clone();
+    let mut bare = file.clone();
+    for _ in &terms {
+        bare = bare.without_effect(0)?;
+    }
+    Ok((bare, terms))
+}
+
+fn as_json(added: &Added, unit: &str) -> serde_json::Value {
+    let effects: Vec<_> = added.effects.iter().map(effect_json).collect();
+    json!({
+        "effects": effects,
+        "unit": unit,
+        "rms_before_um": added.rms_um[0],
+        "rms_um": added.rms_um[1],
+        "holdout_rms_before_um": added.holdout_rms_um[0],
+        "holdout_rms_um": added.holdout_rms_um[1],
+        "evidence": added.gain,
+    })
+}
+
+fn effect_json(effect: &FittedEffect) -> serde_json::Value {
+    json!({
+        "effect": effect.name,
+        "parameters": diagnosis_json::parameters(&effect.parameters),
+    })
+}
+
+fn print(out: &mut impl Write, added: &Added, unit: &str) -> anyhow::Result<()> {
+    writeln!(out, "error:     {:.4} → {:.4} {unit} rms", added.rms_um[0], added.rms_um[1])?;
+    writeln!(
+        out,
+        "held out:  {:.4} → {:.4} {unit} rms",
+        added.holdout_rms_um[0], added.holdout_rms_um[1]
+    )?;
+    for effect in &added.effects {
+        diagnosis_text::print_effect(out, effect)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,102 @@
+//! `helixlock challenge`: a machine with something hidden, or how well many of them are solved.
+
+mod score;
+
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Args;
+use helixlock_lab::challenge::{Challenge as Task, Hidden, challenge};
+use helixlock_lab::diagnosis::diagnose;
+use helixlock_lab::measurement::{Measurement, Nominal};
+use helixlock_lab::problem::Problem;
+use helixlock_traces::csv::write_csv;
+use serde_json::{Value, json};
+
+use self::score::Score;
+use crate::shared::output::Batch;
+use crate::shared::progress;
+
+/// Make a machine and data with something hidden, or score the diagnosis on many of them
+#[derive(Debug, Args)]
+pub(crate) struct Challenge {
+    /// Seed; equal seeds make equal files
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Folder for `machine.toml`, `data.csv` and, apart from them, `answer.json`
+    #[arg(short, long, required_unless_present = "score")]
+    output: Option<PathBuf>,
+    /// Solve this many challenges from the seed on and print how many were named rightly
+    #[arg(long, value_name = "K")]
+    score: Option<u64>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Challenge {
+    /// Writes a folder or prints a score.
+    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+        if let Some(folder) = &self.output {
+            write(&challenge(self.seed)?, self.seed, folder)?;
+            writeln!(out, "{}: machine.toml, data.csv, answer.json", folder.display())?;
+        }
+        if let Some(number) = self.score {
+            let score = score(self.seed, number)?;
+            if self.json {
+                writeln!(out, "{}", serde_json::to_string_pretty(&score.json())?)?;
+            } else {
+                score.print(out)?;
+            }
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+fn write(task: &Task, seed: u64, folder: &Path) -> anyhow::Result<()> {
+    let mut files = Batch::new(folder)?;
+    files.write_content("machine.toml", task.machine.text())?;
+    files.write("data.csv", |mut file| Ok(write_csv(&task.table, &mut file)?))?;
+    files.write_json("answer.json", &answer(task, seed))?;
+    files.keep()
+}
+
+fn answer(task: &Task, seed: u64) -> Value {
+    let effects: Vec<Value> = task
+        .terms
+        .iter()
+        .map(|term| {
+            let pairs = term.parameters.iter().zip(&term.values);
+            let values: BTreeMap<String, f64> = pairs.map(|(p, v)| (p.key(), *v)).collect();
+            json!({ "effect": term.name, "parameters": values })
+        })
+        .collect();
+    let outside = match &task.hidden {
+        Hidden::Outside(name) => Some(*name),
+        _ => None,
+    };
+    json!({
+        "seed": seed,
+        "effects": effects,
+        "outside_the_catalogue": outside,
+        "noise_um": task.noise_um,
+        "hidden_rms_um": task.hidden_um,
+    })
+}
+
+fn score(seed: u64, number: u64) -> anyhow::Result<Score> {
+    let bar = progress::bar(number, "challenges");
+    let mut score = Score::default();
+    for seed in seed..seed + number {
+        let task = challenge(seed)?;
+        let nominal = Nominal::from(&task.machine.machine);
+        let measurement = Measurement::from_table(&task.table, &nominal)?;
+        let diagnosis = diagnose(&Problem::new(&task.machine.machine, &measurement)?);
+        score.add(seed, &task, &diagnosis);
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    Ok(score)
+}

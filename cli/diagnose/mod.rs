@@ -1,0 +1,44 @@
+//! `helixlock diagnose`: which effects a model lacks, and how sure that is.
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Args;
+use helixlock_lab::diagnosis::diagnose;
+
+use crate::shared::diagnosis_json;
+use crate::shared::diagnosis_text::print;
+use crate::shared::effect_file::own_effects;
+use crate::shared::measured::Files;
+
+/// Name the effects that a machine file lacks, with evidence, rivals, and the experiment that tells
+#[derive(Debug, Args)]
+pub(crate) struct Diagnose {
+    #[command(flatten)]
+    files: Files,
+    /// TOML file with custom effects to try beside the catalogue
+    #[arg(long, value_name = "EFFECTS")]
+    custom: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Diagnose {
+    /// Prints the diagnosis; the verdict does not change the exit status.
+    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+        let (file, mut problem) = self.files.read()?;
+        if let Some(custom) = &self.custom {
+            problem.extra = own_effects(&file, custom)?;
+        }
+        let diagnosis = diagnose(&problem);
+        if self.json {
+            let value = diagnosis_json::diagnosis(&diagnosis, &problem.measurement);
+            writeln!(out, "{}", serde_json::to_string_pretty(&value)?)?;
+        } else {
+            print(out, &diagnosis, problem.measurement.unit())?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}

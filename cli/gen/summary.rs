@@ -1,0 +1,168 @@
+//! What `helixlock gen` says of the project it wrote.
+
+use std::io::Write;
+use std::path::Path;
+
+use comfy_table::presets::UTF8_FULL_CONDENSED;
+use comfy_table::{CellAlignment, Table};
+use helixlock_gen::{Board, Project, Synthesis};
+use helixlock_sim::Dialled;
+use serde::Serialize;
+
+use crate::shared::wheels::Wheels;
+
+/// The project in plain numbers; the JSON of `--json`.
+#[derive(Debug, Serialize)]
+pub(crate) struct Summary {
+    board: String,
+    title: String,
+    device: String,
+    package: String,
+    clock_source: String,
+    clock_hz: u64,
+    machine_file_clock_hz: f64,
+    settings: Wheels,
+    notes: Vec<String>,
+    pins: Vec<Pin>,
+    files: Vec<String>,
+    synthesis: Option<Built>,
+}
+
+#[derive(Debug, Serialize)]
+struct Pin {
+    port: String,
+    #[serde(rename = "pin")]
+    place: String,
+    note: String,
+}
+
+#[derive(Debug, Serialize)]
+struct Built {
+    cells: u32,
+    cells_available: u32,
+    lookup_tables: u32,
+    flip_flops: u32,
+    carry_cells: u32,
+    max_clock_mhz: f64,
+    meets_clock: bool,
+    files: Vec<String>,
+}
+
+impl Summary {
+    /// Gathers what there is to say.
+    pub(crate) fn new(
+        project: &Project,
+        board: &Board,
+        dialled: &Dialled,
+        machine_file_clock_hz: f64,
+        synthesis: Option<Synthesis>,
+    ) -> Self {
+        let pin = |pin: &helixlock_gen::Pin| Pin {
+            port: pin.port.clone(),
+            place: pin.pin.clone(),
+            note: pin.note.clone(),
+        };
+        Self {
+            board: board.name.clone(),
+            title: board.title.clone(),
+            device: board.device.clone(),
+            package: board.package.clone(),
+            clock_source: board.clock_source.clone(),
+            clock_hz: 1_000_000 * u64::from(board.clock_mhz),
+            machine_file_clock_hz,
+            settings: dialled.into(),
+            notes: board.notes.clone(),
+            pins: board.pins.iter().map(pin).collect(),
+            files: project.files.iter().map(|(name, _)| name.clone()).collect(),
+            synthesis: synthesis.map(built),
+        }
+    }
+
+    /// False when the board's clock is faster than the logic.
+    pub(crate) fn is_fast_enough(&self) -> bool {
+        self.synthesis.as_ref().is_none_or(|built| built.meets_clock)
+    }
+
+    /// Prints it for people.
+    pub(crate) fn print(&self, output: &Path, out: &mut impl Write) -> anyhow::Result<()> {
+        writeln!(out, "{}, {}-{}, {}", self.title, self.device, self.package, self.clock_source)?;
+        let wheels = &self.settings;
+        writeln!(
+            out,
+            "A {}, B {}, range x{}, initial phase {}, compensation {:+.3} µm/m, step every {} \
+             clocks ({:.3} Hz)",
+            wheels.divide_a,
+            wheels.divide_b,
+            wheels.range,
+            wheels.initial_phase,
+            wheels.compensation_um_per_m,
+            wheels.step_period_clocks,
+            wheels.step_frequency_hz,
+        )?;
+        #[expect(clippy::cast_precision_loss, reason = "megahertz are far below 2^53 Hz")]
+        let clock_hz = self.clock_hz as f64;
+        if (clock_hz - self.machine_file_clock_hz).abs() >= 0.5 {
+            writeln!(
+                out,
+                "note: the machine file is for another board at {} MHz; the step clock is set for \
+                 the {} MHz of this one",
+                self.machine_file_clock_hz / 1e6,
+                clock_hz / 1e6,
+            )?;
+        }
+        writeln!(out, "\n{}", self.pin_table())?;
+        self.notes.iter().try_for_each(|note| writeln!(out, "{note}"))?;
+        if let Some(built) = &self.synthesis {
+            writeln!(out, "\n{}", built.table(clock_hz / 1e6))?;
+        }
+        let made = self.synthesis.iter().flat_map(|built| &built.files);
+        let files = self.files.len() + made.count();
+        writeln!(out, "\n{}: {files} files; `make -C {0} sim` tests them", output.display())?;
+        Ok(())
+    }
+
+    fn pin_table(&self) -> Table {
+        let mut table = Table::new();
+        table.load_style(UTF8_FULL_CONDENSED).set_header(["port", "pin", "wire it to"]);
+        for pin in &self.pins {
+            table.add_row([&pin.port, &pin.place, &pin.note]);
+        }
+        table
+    }
+}
+
+fn built(synthesis: Synthesis) -> Built {
+    Built {
+        cells: synthesis.cells,
+        cells_available: synthesis.cells_available,
+        lookup_tables: synthesis.tables,
+        flip_flops: synthesis.flip_flops,
+        carry_cells: synthesis.carries,
+        max_clock_mhz: synthesis.max_mhz,
+        meets_clock: f64::from(synthesis.clock_mhz) <= synthesis.max_mhz,
+        files: synthesis.products,
+    }
+}
+
+impl Built {
+    fn table(&self, clock_mhz: f64) -> Table {
+        let cells = format!("{} of {}", self.cells, self.cells_available);
+        let clock = format!("{:.1} MHz, {clock_mhz} MHz needed", self.max_clock_mhz);
+        let rows = [
+            ("logic cells", cells),
+            ("lookup tables", self.lookup_tables.to_string()),
+            ("flip-flops", self.flip_flops.to_string()),
+            ("carry cells", self.carry_cells.to_string()),
+            ("maximum clock", clock),
+        ];
+        let mut table = Table::new();
+        table.load_style(UTF8_FULL_CONDENSED).set_header(["synthesis", ""]);
+        for (what, value) in rows {
+            table.add_row([what, &value]);
+        }
+        if let Some(values) = table.column_mut(1) {
+            values.set_cell_alignment(CellAlignment::Right);
+        }
+        table
+    }
+}

@@ -1,0 +1,152 @@
+//! `helixlock learn`: compare, name, add, until nothing significant is left.
+
+mod closed_loop_check;
+mod page;
+mod pictures;
+mod undone_page;
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use anyhow::{Context, bail};
+use clap::Args;
+use helixlock_lab::diagnosis::{Diagnosis, diagnose};
+use helixlock_lab::learn::{Ledger, fingerprint, ledger, written};
+use helixlock_lab::problem::Problem;
+use helixlock_plant::MachineFile;
+use helixlock_report::Page;
+use serde_json::Value;
+
+use self::closed_loop_check::Checked;
+use crate::shared::captured::Signals;
+use crate::shared::effect_file::own_effects;
+use crate::shared::output::Batch;
+use crate::shared::{diagnosis_json, diagnosis_text, measured};
+
+/// Find what a machine file lacks and write the better file, its ledger and a report
+#[derive(Debug, Args)]
+pub(crate) struct Learn {
+    /// Machine file
+    #[arg(required_unless_present = "undo")]
+    machine: Option<PathBuf>,
+    /// Measured data
+    #[arg(required_unless_present = "undo")]
+    data: Option<PathBuf>,
+    /// Folder for `machine.toml`, `ledger.json` and `report.html`
+    #[arg(short, long)]
+    output: Option<PathBuf>,
+    /// TOML file with custom effects to try beside the catalogue
+    #[arg(long, value_name = "EFFECTS")]
+    custom: Option<PathBuf>,
+    /// Take the last round in the folder's ledger back
+    #[arg(long, requires = "output", conflicts_with_all = ["machine", "data"])]
+    undo: bool,
+    #[command(flatten)]
+    signals: Signals,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Learn {
+    /// Writes the folder; the verdict does not change the exit status.
+    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+        match (&self.machine, &self.data, &self.output) {
+            (Some(machine), Some(data), folder) => {
+                self.learn(machine, data, folder.as_deref(), out)
+            }
+            (_, _, Some(folder)) => undo(folder, out),
+            _ => bail!("found no folder, expected `-o DIR`"),
+        }
+    }
+
+    fn learn(
+        &self,
+        machine: &Path,
+        data: &Path,
+        folder: Option<&Path>,
+        out: &mut impl Write,
+    ) -> anyhow::Result<ExitCode> {
+        let file = MachineFile::read(machine)?;
+        let mut problem = measured::problem(&file.machine, data, &self.signals)?;
+        if let Some(custom) = &self.custom {
+            problem.extra = own_effects(&file, custom)?;
+        }
+        let diagnosis = diagnose(&problem);
+        let check = checked(&file, &problem, &diagnosis)?;
+        let bytes = std::fs::read(data).with_context(|| format!("{}", data.display()))?;
+        let book = ledger(&file, &diagnosis, &bytes)?;
+        if let Some(folder) = folder {
+            let page = page::page(&file.machine.title, &problem, &diagnosis, &check);
+            let mut value = diagnosis_json::ledger(&book, &diagnosis, data);
+            value["final_check"] = check.json();
+            value["title"] = Value::from(file.machine.title.as_str());
+            value["unit"] = Value::from(problem.measurement.unit_word());
+            write_folder(folder, &book, &value, &page)?;
+        }
+        if self.json {
+            let mut value = diagnosis_json::diagnosis(&diagnosis, &problem.measurement);
+            value["data_hash"] = Value::from(fingerprint(&bytes));
+            value["final_check"] = check.json();
+            writeln!(out, "{}", serde_json::to_string_pretty(&value)?)?;
+        } else {
+            diagnosis_text::print(out, &diagnosis, problem.measurement.unit())?;
+            check.print(out)?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+fn write_folder(folder: &Path, book: &Ledger, value: &Value, page: &Page) -> anyhow::Result<()> {
+    let mut files = Batch::new(folder)?;
+    let last = book.entries.last().map(|entry| entry.machine.as_str()).unwrap_or_default();
+    files.write_content("machine.toml", last)?;
+    files.write_json("ledger.json", value)?;
+    files.write_content("report.html", page.html())?;
+    files.keep()
+}
+
+/// The learned machine in the closed loop, where the machine file says that the loop is closed.
+fn checked(
+    file: &MachineFile,
+    problem: &Problem,
+    diagnosis: &Diagnosis,
+) -> anyhow::Result<Checked> {
+    let learned = match diagnosis.rounds.last() {
+        Some(last) => written(file, &last.effects)?,
+        None => file.clone(),
+    };
+    Ok(Checked::run(problem, &file.machine, &learned.machine))
+}
+
+/// Goes back to the machine file before the last round that still stands.
+fn undo(folder: &Path, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+    let path = folder.join("ledger.json");
+    let text = std::fs::read_to_string(&path)
+        .with_context(|| format!("{}: cannot be read", path.display()))?;
+    let mut book: Value = serde_json::from_str(&text)
+        .with_context(|| format!("{}: found no ledger, expected one of `learn`", path.display()))?;
+    let Some(rounds) = book.get_mut("rounds").and_then(Value::as_array_mut) else {
+        bail!("{}: found no `rounds`, expected a ledger of `learn`", path.display());
+    };
+    let standing =
+        |round: &&mut Value| round.get("taken_back").and_then(Value::as_bool) != Some(true);
+    let mut left: Vec<&mut Value> = rounds.iter_mut().filter(standing).collect();
+    let (Some(last), Some(before)) = (left.pop(), left.pop()) else {
+        writeln!(out, "no round is left to take back")?;
+        return Ok(ExitCode::from(1));
+    };
+    let Some(machine) = before.get("machine").and_then(Value::as_str).map(str::to_owned) else {
+        bail!("{}: found a round without `machine`, expected its machine file", path.display());
+    };
+    last["taken_back"] = Value::from(true);
+    let added = last["added"].as_str().unwrap_or("nothing").to_owned();
+    let mut files = Batch::new(folder)?;
+    files.write_content("machine.toml", machine)?;
+    files.write_json("ledger.json", &book)?;
+    files.write_content("report.html", undone_page::page(&book).html())?;
+    files.keep()?;
+    writeln!(out, "{added} taken back")?;
+    Ok(ExitCode::SUCCESS)
+}

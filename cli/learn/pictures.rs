@@ -1,0 +1,158 @@
+//! Pictures of `helixlock learn`: the error falling, the model on the data, before and after.
+
+use helixlock_lab::amplitude_spectrum::amplitude_spectrum;
+use helixlock_lab::analysis::State;
+use helixlock_lab::diagnosis::{Diagnosis, Round};
+use helixlock_lab::lines::lines;
+use helixlock_lab::measurement::sensor_column;
+use helixlock_lab::problem::Problem;
+use helixlock_report::{Axis, Colour, Figure, Label, Panel, Part, Series, Style};
+
+use super::closed_loop_check::Checked;
+use crate::shared::residual_picture::{panel, points, x_axis};
+use crate::shared::spectrum;
+
+/// Samples shown closely: few enough that dots and curve stay apart.
+const CLOSE: usize = 150;
+
+/// What a round's model leaves.
+pub(crate) struct Left<'a> {
+    /// The effect it added.
+    pub(crate) added: Option<&'a str>,
+    /// Root mean square, µm (arcsec).
+    pub(crate) rms_um: f64,
+    /// The same on held-out data.
+    pub(crate) holdout_rms_um: f64,
+}
+
+impl<'a> From<&'a Round> for Left<'a> {
+    fn from(round: &'a Round) -> Self {
+        let Round { rms_um, holdout_rms_um, .. } = *round;
+        Self { added: round.added.as_deref(), rms_um, holdout_rms_um }
+    }
+}
+
+/// The error of each round's model.
+pub(crate) fn falling(rounds: &[Left], unit: &str) -> Part {
+    let all = rounds;
+    let rounds = || (0_u32..).map(f64::from).zip(all);
+    let series = |name, colour, style, value: fn(&Left) -> f64| {
+        Series::new(name, colour, style, rounds().map(|(n, round)| [n, value(round)]))
+    };
+    let series = vec![
+        series("", Colour::Blue, Style::Line, |round| round.rms_um),
+        series("on the data", Colour::Blue, Style::Dots, |round| round.rms_um),
+        series("on held-out data", Colour::Orange, Style::Dots, |round| round.holdout_rms_um),
+    ];
+    let highest = rounds().map(|(_, round)| round.rms_um.max(round.holdout_rms_um));
+    let highest = highest.fold(f64::MIN_POSITIVE, f64::max);
+    let last = rounds().last().map_or(0.0, |(n, _)| n);
+    let mut panel =
+        panel("The error falls", "round".into(), &format!("left, rms in {unit}"), series);
+    panel.x = Axis::counts("round").between(-0.5, last + 0.5);
+    panel.y = panel.y.between(0.0, 1.2 * highest);
+    panel.labels = rounds()
+        .map(|(n, round)| Label {
+            at: [n, round.rms_um.max(round.holdout_rms_um) + 0.04 * highest],
+            text: round.added.map_or("as it is".into(), |added| format!("+ {added}")),
+        })
+        .collect();
+    let rises = all.windows(2).any(|pair| pair[0].rms_um < pair[1].rms_um);
+    let hidden = if rises {
+        " Two effects that hide each other are found together; the first of them alone leaves more."
+    } else {
+        ""
+    };
+    picture(vec![panel], &format!("What each round's model leaves of the measurement.{hidden}"))
+}
+
+/// Measured and model, residual before and after, spectrum before and after, of one sensor.
+pub(crate) fn before_and_after(problem: &Problem, diagnosis: &Diagnosis, sensor: usize) -> Part {
+    let unit = problem.measurement.unit();
+    let after = &diagnosis.state.fit.left;
+    let model = |left: &[f64]| -> Vec<f64> {
+        problem.observed.iter().zip(left).map(|(observed, left)| observed - left).collect()
+    };
+    let (old, new) = (model(&diagnosis.before), model(after));
+    let line = |name, colour, style, values: &[f64]| {
+        Series::new(name, colour, style, points(problem, sensor, values))
+    };
+    let over = || {
+        vec![
+            line("measured", Colour::Orange, Style::Dots, &problem.observed),
+            line("learned model", Colour::Blue, Style::Line, &new),
+        ]
+    };
+    let mut close = over();
+    close.push(line("the file's model", Colour::Grey, Style::Dashes, &old));
+    let close = close.into_iter().map(first_of).collect();
+    let left = vec![
+        line("before", Colour::Orange, Style::Line, &diagnosis.before),
+        line("after", Colour::Blue, Style::Line, after),
+    ];
+    let column = sensor_column(problem.sensors[sensor], problem.measurement.rotary);
+    let axis = || x_axis(problem);
+    let panels = vec![
+        panel(&format!("{column}, measured and model"), axis(), unit, over()),
+        panel("The same closely, its beginning", axis(), unit, close),
+        panel("Residual", axis(), unit, left),
+        spectra(problem, diagnosis, sensor),
+    ];
+    picture(
+        panels,
+        "Each pass about its own zero. A line of the spectrum that the machine file cannot name \
+         carries a question mark.",
+    )
+}
+
+/// The beginning of the first pass.
+fn first_of(mut series: Series) -> Series {
+    let end = series.points.iter().position(|point| point[0].is_nan());
+    series.points.truncate(end.unwrap_or(series.points.len()).min(CLOSE));
+    series
+}
+
+fn spectra(problem: &Problem, diagnosis: &Diagnosis, sensor: usize) -> Panel {
+    let spectrum = |name, colour, values: &[f64]| {
+        Series::new(name, colour, Style::Line, amplitude_spectrum(problem, values, sensor))
+    };
+    let series = vec![
+        spectrum("before", Colour::Orange, &diagnosis.before),
+        spectrum("after", Colour::Blue, &diagnosis.state.fit.left),
+    ];
+    let unit = format!("amplitude in {}", problem.measurement.unit());
+    let mut panel =
+        panel("Order spectrum of the residual", "cycles a spindle turn".into(), &unit, series);
+    let bare = State::bare(problem);
+    let rotary = problem.machine.rotary;
+    panel.labels = spectrum::labels(&lines(problem, &bare.columns, &bare.fit), sensor, rotary);
+    panel.x = spectrum::axis(rotary);
+    panel
+}
+
+/// Measured and simulated over each other, where the loop is closed.
+pub(crate) fn closed_loop(check: &Checked) -> Vec<Part> {
+    let mut parts: Vec<Part> = check.sentences().into_iter().map(Part::Text).collect();
+    if !parts.is_empty() {
+        parts.insert(0, Part::Heading("In the closed loop".into()));
+    }
+    let Checked::Done(check) = check else { return parts };
+    for one in &check.sensors {
+        let column = |index: usize| one.points.iter().map(move |p| [p[0], p[index]]);
+        let series = vec![
+            Series::new("measured", Colour::Orange, Style::Dots, column(1)),
+            Series::new("simulated", Colour::Blue, Style::Line, column(2)),
+        ];
+        let title = format!("{}, pass {}", sensor_column(one.sensor, false), check.pass);
+        let panel = panel(&title, "position in mm".into(), "µm", series);
+        parts.push(picture(
+            vec![panel],
+            "The learned machine run clock by clock with its loop closed, and what was measured.",
+        ));
+    }
+    parts
+}
+
+fn picture(panels: Vec<Panel>, caption: &str) -> Part {
+    Part::Picture { svg: Figure { width_px: 900, panels }.svg(), caption: caption.into() }
+}

@@ -1,0 +1,72 @@
+//! A diagnosis in words.
+
+use std::io::Write;
+
+use helixlock_lab::diagnosis::{Diagnosis, FittedEffect};
+
+use crate::shared::words::with_p;
+
+/// The diagnosis for people: verdict, rounds, candidates, what is left, what to do next.
+pub(crate) fn print(out: &mut impl Write, diagnosis: &Diagnosis, unit: &str) -> anyhow::Result<()> {
+    writeln!(out, "verdict: {}", diagnosis.verdict.word())?;
+    writeln!(out, "left as noise: {:.4} {unit} rms\n", diagnosis.noise_um)?;
+    for round in &diagnosis.rounds {
+        let added = round.added.as_deref().unwrap_or("the model as it is");
+        writeln!(
+            out,
+            "round {}: {added}: {:.4} {unit} rms, {:.4} on held-out data",
+            round.round, round.rms_um, round.holdout_rms_um
+        )?;
+    }
+    if let Some(last) = diagnosis.rounds.last() {
+        for effect in &last.effects {
+            print_effect(out, effect)?;
+        }
+    }
+    print_candidates(out, diagnosis)?;
+    for left in &diagnosis.residual {
+        let at = left.at.map_or(String::new(), |at| format!(" at {at:.4}"));
+        writeln!(
+            out,
+            "left: {} along {}{at}, {:.4} {unit} rms, {}",
+            left.shape,
+            left.along,
+            left.rms_um,
+            with_p(left.p_value)
+        )?;
+    }
+    Ok(())
+}
+
+/// An effect with its parameters, a line each.
+pub(crate) fn print_effect(out: &mut impl Write, effect: &FittedEffect) -> anyhow::Result<()> {
+    writeln!(out, "\n{}", effect.name)?;
+    for parameter in &effect.parameters {
+        let stderr = parameter.stderr.map_or(String::new(), |s| format!(" ± {s:.3}"));
+        let warning = parameter.warning.map_or(String::new(), |w| format!("  ({w})"));
+        writeln!(out, "  {} = {:.4}{stderr}{warning}", parameter.key, parameter.value)?;
+    }
+    Ok(())
+}
+
+fn print_candidates(out: &mut impl Write, diagnosis: &Diagnosis) -> anyhow::Result<()> {
+    writeln!(out, "\ntried:")?;
+    for candidate in diagnosis.candidates.iter().take(8) {
+        let mark = if candidate.accepted { "*" } else { " " };
+        writeln!(
+            out,
+            "{mark} {:<24} rms {:.4}  held out {:.4}  {}",
+            candidate.name,
+            candidate.rms_um,
+            candidate.holdout_rms_um,
+            with_p(candidate.p_value)
+        )?;
+        if !candidate.confounded_with.is_empty() {
+            writeln!(out, "    cannot be told from: {}", candidate.confounded_with.join(", "))?;
+        }
+        if let Some(experiment) = &candidate.separate_by {
+            writeln!(out, "    to tell: {experiment}")?;
+        }
+    }
+    Ok(())
+}

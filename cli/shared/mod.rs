@@ -1,0 +1,15 @@
+//! What the commands share: reading measurements, writing files, words, pieces of pages.
+
+pub(crate) mod captured;
+pub(crate) mod diagnosis_json;
+pub(crate) mod diagnosis_text;
+pub(crate) mod effect_file;
+pub(crate) mod measured;
+pub(crate) mod output;
+pub(crate) mod progress;
+pub(crate) mod quantity;
+pub(crate) mod residual_picture;
+pub(crate) mod series;
+pub(crate) mod spectrum;
+pub(crate) mod wheels;
+pub(crate) mod words;

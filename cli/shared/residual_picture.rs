@@ -1,0 +1,43 @@
+//! Residuals drawn over travel or time.
+
+use helixlock_lab::problem::Problem;
+use helixlock_report::{Axis, Panel, Series};
+
+/// A panel of the usual height.
+pub(crate) fn panel(title: &str, x: String, y: &str, series: Vec<Series>) -> Panel {
+    Panel {
+        title: title.to_owned(),
+        height_px: 260,
+        x: Axis::linear(x),
+        y: Axis::linear(y),
+        bands: Vec::new(),
+        series,
+        labels: Vec::new(),
+    }
+}
+
+/// What residuals are drawn over: travel, or time for a rotary chain.
+pub(crate) fn x_axis(problem: &Problem) -> String {
+    if problem.machine.rotary { "time in s".into() } else { "position in mm".into() }
+}
+
+/// Values of one sensor about the zero of each pass, the passes apart.
+pub(crate) fn points(problem: &Problem, sensor: usize, values: &[f64]) -> Vec<[f64; 2]> {
+    let mut points = Vec::new();
+    for block in problem.layout.blocks.iter().filter(|block| block.sensor == sensor) {
+        let part = &values[block.rows.clone()];
+        #[expect(clippy::cast_precision_loss, reason = "a number of samples")]
+        let mean = part.iter().sum::<f64>() / part.len().max(1) as f64;
+        for row in block.rows.clone() {
+            let sample = problem.rows[row].sample;
+            let x = if problem.machine.rotary {
+                problem.record.time_s[sample]
+            } else {
+                problem.record.position_mm[sample]
+            };
+            points.push([x, values[row] - mean]);
+        }
+        points.push([f64::NAN, f64::NAN]);
+    }
+    points
+}

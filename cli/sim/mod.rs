@@ -1,0 +1,104 @@
+//! `helixlock sim`: grinds a workpiece without and with the correction.
+
+mod page;
+mod summary;
+mod table;
+mod waveforms;
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Args;
+use helixlock_plant::Machine;
+use helixlock_sim::{Course, Error, Options, Simulation, simulate, write_vcd};
+use helixlock_traces::csv::write_csv;
+
+use self::summary::Summary;
+use crate::shared::output::Batch;
+use crate::shared::progress;
+use crate::shared::quantity::length_mm;
+
+/// Grind a workpiece clock by clock, without and with the correction
+///
+/// Writes `trace.csv`, `wave.vcd`, `wave.gtkw`, `summary.json` and `report.html` into the folder.
+#[derive(Debug, Args)]
+pub(crate) struct Sim {
+    /// Machine file
+    #[arg(value_name = "MACHINE.toml")]
+    machine: PathBuf,
+    /// Folder for the results
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// What the waveform shows: `top`, `all`, an instance such as `phase_meter`, or a signal
+    #[arg(long = "scope", value_name = "SCOPE", default_value = "top")]
+    scopes: Vec<String>,
+    /// Begin of the waveform, s [default: begin of the pass]
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
+    from: Option<f64>,
+    /// End of the waveform, s [default: five comparisons later]
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
+    to: Option<f64>,
+    /// Grind only the first so many millimetres
+    #[arg(long, value_name = "MM", value_parser = length_mm, allow_hyphen_values = true)]
+    length: Option<f64>,
+    /// Print the summary as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Sim {
+    /// Simulates, writes, and prints the summary.
+    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+        let machine = Machine::read(&self.machine)?;
+        let options = Options {
+            length_mm: self.length,
+            scopes: self.scopes.clone(),
+            from_s: self.from,
+            to_s: self.to,
+        };
+        let place = |error| in_file(&self.machine, error);
+        let course = Course::new(&machine, &options).map_err(place)?;
+        let bar = progress::bar(course.clocks(), "clocks");
+        let mut progress = |clocks| bar.set_position(clocks);
+        let simulation = simulate(&machine, &options, &mut progress).map_err(place)?;
+        bar.finish_and_clear();
+        let summary = Summary::new(&self.machine, &machine, &simulation);
+        write_files(&self.output, &machine, &simulation, &summary)?;
+        if self.json {
+            writeln!(out, "{}", summary.json()?)?;
+        } else {
+            summary.print(out)?;
+            writeln!(out, "\n{}: report, trace, waveform", self.output.display())?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// Names the machine file where the fault is in it, and not in the words of the command.
+fn in_file(file: &Path, error: Error) -> anyhow::Error {
+    match error {
+        Error::NoScope { .. } | Error::Window { .. } | Error::WaveformFull { .. } => error.into(),
+        _ => anyhow::Error::new(error).context(file.display().to_string()),
+    }
+}
+
+fn write_files(
+    output: &Path,
+    machine: &Machine,
+    simulation: &Simulation,
+    summary: &Summary,
+) -> anyhow::Result<()> {
+    let page = page::page(machine, simulation, summary)?;
+    let mut files = Batch::new(output)?;
+    let trace = table::table(machine, simulation);
+    files.write("trace.csv", |mut file| Ok(write_csv(&trace, &mut file)?))?;
+    if let Some(waveform) = &simulation.closed.waveform {
+        let clock_hz = simulation.course.clock_hz;
+        files.write("wave.vcd", |file| Ok(write_vcd(file, waveform, clock_hz)?))?;
+        files.write_content("wave.gtkw", table::gtkwave_view(waveform))?;
+    }
+    files.write_content("summary.json", summary.json()? + "\n")?;
+    files.write_content("report.html", page)?;
+    files.keep()
+}

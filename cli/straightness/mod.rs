@@ -1,0 +1,313 @@
+//! `helixlock straightness`: a guideway and a workpiece apart, from three probes.
+
+mod page;
+mod readings;
+mod summary;
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use anyhow::{anyhow, bail};
+use clap::{Args, ValueEnum};
+use helixlock_metrology::straightness::{
+    Combined, CompensationModel, CompensationOutcome, CorrectionPoint, Plan, Readings, Separated,
+    Spacing, StraightnessLines, correction_table, plan, propose, separate_by_fourier,
+    separate_by_least_squares, simulate_compensation, straightness,
+};
+use helixlock_traces::csv::RowWriter;
+
+use self::readings::read_readings;
+use self::summary::{json_of, plan_json, print, print_plan};
+use crate::shared::output::Batch;
+use crate::shared::quantity::{length_mm, length_um};
+use crate::shared::series::print_json;
+
+/// Separate a guideway and a workpiece by three probes
+///
+/// Reads `position_mm`, `probe1_um`, `probe2_um`, `probe3_um` and, when runs were repeated, `repeat`:
+/// carriage positions at even steps; probe 2 touches the bar L1 behind probe 1, probe 3 L2 behind
+/// probe 2. Gives straightness of the bar and the carriage, the carriage's tilt, and their
+/// uncertainty, by Fourier series and by least squares without periodicity. Exit status 1: the
+/// straightness exceeds `--limit`.
+#[derive(Debug, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of the command line")]
+pub(crate) struct StraightnessCommand {
+    /// Readings of the three probes; not needed with `--plan`
+    #[arg(value_name = "DATA", required_unless_present = "plan")]
+    data: Option<PathBuf>,
+    /// Probe spacings L1 and L2, such as "25 mm,30 mm"
+    #[arg(long, value_name = "L1,L2", value_parser = length_mm, value_delimiter = ',', required_unless_present = "plan")]
+    spacing: Vec<f64>,
+    /// Show what spacings do to each harmonic, and propose better ones
+    #[arg(long)]
+    plan: bool,
+    /// Samples of the stroke (with `--plan`)
+    #[arg(long, value_name = "N", default_value = "32", value_parser = clap::value_parser!(u32).range(4..=100_000))]
+    samples: u32,
+    /// Sampling step, mm (with `--plan`)
+    #[arg(long, value_name = "MM", value_parser = length_mm, default_value = "5 mm")]
+    step: f64,
+    /// Longest distance from probe 1 to probe 3 to propose, mm [default: a third of the stroke]
+    #[arg(long, value_name = "MM", value_parser = length_mm)]
+    longest: Option<f64>,
+    /// Method whose result makes the correction table and is held against `--limit`
+    #[arg(long, value_enum, default_value = "fourier")]
+    method: By,
+    /// The probes' zeros are matched: the bar's parabola is measured, not assumed
+    #[arg(long)]
+    zeros_matched: bool,
+    /// Go on although the spacings lose harmonics; those are left at zero
+    #[arg(long)]
+    accept_lost_harmonics: bool,
+    /// Straightness of the bar (minimum zone) that must not be exceeded, µm
+    #[arg(long, value_name = "UM", value_parser = length_um)]
+    limit: Option<f64>,
+    /// Step of the correction table, mm
+    #[arg(long, value_name = "MM", value_parser = length_mm, default_value = "1 mm")]
+    table_step: f64,
+    /// Simulate cutting the next bar with the correction
+    #[arg(long)]
+    simulate: bool,
+    /// Carriage motion that does not repeat, standard deviation, µm [default: from the runs]
+    #[arg(long, value_name = "UM", value_parser = length_um)]
+    unrepeatable: Option<f64>,
+    /// Length over which that motion stays alike, mm
+    #[arg(long, value_name = "MM", value_parser = length_mm, default_value = "20 mm")]
+    correlation: f64,
+    /// Smallest motion of the corrector, µm
+    #[arg(long, value_name = "UM", value_parser = length_um, default_value = "0.01 um")]
+    corrector_step: f64,
+    /// Seed of the simulation
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Folder for report.html, figure.svg, result.json, separated.csv and correction.csv
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Methods on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum By {
+    /// Fourier series: the bar's form repeats with the stroke
+    Fourier,
+    /// Least squares: the bar is smooth, nothing repeats
+    LeastSquares,
+}
+
+/// One method's result with its straightness.
+pub(crate) struct Outcome {
+    /// Bar and carriage.
+    pub(crate) separated: Separated,
+    /// Straightness of the bar.
+    pub(crate) workpiece: StraightnessLines,
+    /// Straightness of the carriage motion.
+    pub(crate) carriage: StraightnessLines,
+}
+
+/// Everything a run of the command found.
+pub(crate) struct Evaluation {
+    /// The file.
+    pub(crate) path: PathBuf,
+    /// Runs in it.
+    pub(crate) repeats: usize,
+    /// The combined readings.
+    pub(crate) combined: Combined,
+    /// What the spacings do.
+    pub(crate) plan: Plan,
+    /// By Fourier series.
+    pub(crate) fourier: Outcome,
+    /// By least squares.
+    pub(crate) least_squares: Outcome,
+    /// Which one counts.
+    pub(crate) method: By,
+    /// The correction table.
+    pub(crate) correction: Vec<CorrectionPoint>,
+    /// The simulated compensation with its parameters.
+    pub(crate) compensation: Option<(CompensationModel, CompensationOutcome)>,
+}
+
+impl Evaluation {
+    /// The result that counts.
+    pub(crate) fn chosen(&self) -> &Outcome {
+        match self.method {
+            By::Fourier => &self.fourier,
+            By::LeastSquares => &self.least_squares,
+        }
+    }
+}
+
+impl StraightnessCommand {
+    /// Plans, or separates, writes and prints.
+    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+        if self.plan {
+            return self.run_plan(out);
+        }
+        let Some(path) = &self.data else { bail!("no data, expected a file") };
+        let readings = read_readings(path)?;
+        #[expect(clippy::cast_precision_loss, reason = "samples of a stroke are few")]
+        let stroke_mm = readings.samples() as f64 * readings.step_mm;
+        if 1e6 < stroke_mm / self.table_step {
+            bail!(
+                "`--table-step`: {} mm, expected a millionth of the stroke or more",
+                self.table_step
+            );
+        }
+        let spacing = self.spacing(readings.step_mm)?;
+        let evaluation = self
+            .evaluate(path, &readings, spacing)
+            .map_err(|error| anyhow!("{}: {error}", path.display()))?;
+        let exceeded = self
+            .limit
+            .is_some_and(|limit| limit < evaluation.chosen().workpiece.minimum_zone.error_um);
+        let result = json_of(&evaluation, self.limit);
+        if let Some(output) = &self.output {
+            write_files(output, &evaluation, &result)?;
+        }
+        if self.json {
+            print_json(out, &result)?;
+        } else {
+            print(out, &evaluation, self.limit)?;
+        }
+        Ok(if exceeded { ExitCode::from(1) } else { ExitCode::SUCCESS })
+    }
+
+    fn run_plan(&self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+        let (samples, step_mm) = match &self.data {
+            Some(path) => {
+                let readings = read_readings(path)?;
+                (readings.samples(), readings.step_mm)
+            }
+            None => (usize::try_from(self.samples)?, self.step),
+        };
+        let asked = match self.spacing.as_slice() {
+            [] => None,
+            _ => Some(plan(self.spacing(step_mm)?, samples)),
+        };
+        let longest = match self.longest {
+            Some(longest_mm) => whole_steps(longest_mm / step_mm).clamp(2, samples),
+            None => (samples / 3).max(2),
+        };
+        let proposals = propose(samples, longest, 5);
+        if self.json {
+            print_json(out, &plan_json(samples, step_mm, asked.as_ref(), &proposals))?;
+        } else {
+            print_plan(out, step_mm, asked.as_ref(), &proposals)?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+
+    fn spacing(&self, step_mm: f64) -> anyhow::Result<Spacing> {
+        let &[first_mm, second_mm] = self.spacing.as_slice() else {
+            bail!("`--spacing`: one length, expected two, such as `25 mm,30 mm`")
+        };
+        Spacing::from_lengths(first_mm, second_mm, step_mm)
+            .map_err(|error| anyhow!("`--spacing`: {error}"))
+    }
+
+    fn evaluate(
+        &self,
+        path: &Path,
+        readings: &Readings,
+        spacing: Spacing,
+    ) -> Result<Evaluation, helixlock_metrology::Error> {
+        let combined = readings.combine(spacing)?;
+        let fourier = outcome(separate_by_fourier(&combined, self.accept_lost_harmonics)?)?;
+        let least_squares = outcome(separate_by_least_squares(&combined, self.zeros_matched)?)?;
+        let chosen = match self.method {
+            By::Fourier => &fourier.separated,
+            By::LeastSquares => &least_squares.separated,
+        };
+        let correction = correction_table(chosen, self.table_step);
+        let compensation = self.simulate.then(|| {
+            let model = self.model(readings, &combined, chosen);
+            (model, simulate_compensation(chosen, &model))
+        });
+        Ok(Evaluation {
+            path: path.to_owned(),
+            repeats: readings.repeats.len(),
+            plan: plan(spacing, combined.z_um.len()),
+            method: self.method,
+            combined,
+            fourier,
+            least_squares,
+            correction,
+            compensation,
+        })
+    }
+
+    /// The simulation's parameters: told, or taken from the runs.
+    fn model(
+        &self,
+        readings: &Readings,
+        combined: &Combined,
+        separated: &Separated,
+    ) -> CompensationModel {
+        let from_runs = || readings.unrepeatable_um(combined).unwrap_or(0.0);
+        let uncertainty = separated.uncertainty_um.as_ref();
+        CompensationModel {
+            unrepeatable_um: self.unrepeatable.unwrap_or_else(from_runs),
+            correlation_mm: self.correlation,
+            measurement_um: uncertainty.and_then(|each| each.first().copied()).unwrap_or(0.0),
+            corrector_step_um: self.corrector_step,
+            table_step_mm: self.table_step,
+            passes: 400,
+            seed: self.seed,
+        }
+    }
+}
+
+fn outcome(separated: Separated) -> Result<Outcome, helixlock_metrology::Error> {
+    let lines = |heights: &[f64]| {
+        let found = straightness(&separated.position_mm, heights);
+        found.ok_or(helixlock_metrology::Error::TooFewSamples { found: heights.len(), expected: 2 })
+    };
+    let (workpiece, carriage) = (lines(&separated.workpiece_um)?, lines(&separated.carriage_um)?);
+    Ok(Outcome { separated, workpiece, carriage })
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped by the caller"
+)]
+fn whole_steps(steps: f64) -> usize {
+    (steps + 1e-9).floor() as usize
+}
+
+fn write_files(
+    output: &Path,
+    evaluation: &Evaluation,
+    result: &serde_json::Value,
+) -> anyhow::Result<()> {
+    let page = page::page(evaluation);
+    let figure = page::figure(evaluation).svg();
+    let mut files = Batch::new(output)?;
+    files.write_content("figure.svg", figure)?;
+    files.write_json("result.json", result)?;
+    files.write_content("report.html", page.html())?;
+    files.write("separated.csv", |file| write_separated(file, evaluation.chosen()))?;
+    files.write("correction.csv", |file| {
+        let mut rows = RowWriter::new(file, &["position_mm", "correction_um"])?;
+        for point in &evaluation.correction {
+            rows.row(&[point.position_mm, point.correction_um])?;
+        }
+        Ok(())
+    })?;
+    files.keep()
+}
+
+fn write_separated(file: &mut dyn Write, outcome: &Outcome) -> anyhow::Result<()> {
+    let found = &outcome.separated;
+    let names = ["position_mm", "workpiece_um", "carriage_um", "tilt_urad", "uncertainty_um"];
+    let mut rows = RowWriter::new(file, &names)?;
+    for (index, position) in found.position_mm.iter().enumerate() {
+        let uncertainty = found.uncertainty_um.as_ref().map_or(f64::NAN, |each| each[index]);
+        let (bar, carriage) = (found.workpiece_um[index], found.carriage_um[index]);
+        rows.row(&[*position, bar, carriage, found.tilt_urad[index], uncertainty])?;
+    }
+    Ok(())
+}

@@ -1,0 +1,135 @@
+//! What a sweep has done so far, line by line, so that it can go on after an interruption.
+//!
+//! The first line says of which sweep it is; every other is a case. A line cut off in the middle
+//! does not count.
+
+use std::fs::File;
+use std::io::{Read, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, bail};
+
+use crate::shared::output::open_to_append;
+
+/// One case.
+#[derive(Clone, Debug)]
+pub(crate) struct Row {
+    pub(crate) case: u64,
+    pub(crate) cells: Vec<f64>,
+}
+
+/// The file beside the results, and the rows in it.
+#[derive(Debug)]
+pub(crate) struct Journal {
+    file: File,
+    path: PathBuf,
+    pub(crate) rows: Vec<Row>,
+}
+
+impl Journal {
+    /// Opens the journal of the results `output`, or begins one; `identity` tells sweeps apart.
+    pub(crate) fn open(output: &Path, identity: &str, width: usize) -> anyhow::Result<Self> {
+        let path = path_beside(output);
+        let mut file = open_to_append(&path)?;
+        let mut text = String::new();
+        file.read_to_string(&mut text).with_context(|| path.display().to_string())?;
+        let head = format!("# helixlock sweep {:016x}\n", fingerprint(identity));
+        // A head cut off in the middle is that of a sweep which has done nothing.
+        let whole = text.rfind('\n').map_or(0, |end| end + 1);
+        if whole != 0 && !text.starts_with(&head) {
+            bail!(
+                "{}: is of another machine file or other values, expected those of this sweep\n\
+                 remove it to begin anew, or choose another output",
+                path.display()
+            );
+        }
+        file.set_len(whole as u64).with_context(|| path.display().to_string())?;
+        let mut journal = Self { file, path, rows: Vec::new() };
+        if whole == 0 {
+            journal.write(&head)?;
+        }
+        journal.rows = text[..whole].lines().skip(1).filter_map(|line| row(line, width)).collect();
+        journal.rows.sort_by_key(|row| row.case);
+        journal.rows.dedup_by_key(|row| row.case);
+        Ok(journal)
+    }
+
+    /// True when a case of those found at opening is done.
+    pub(crate) fn has(&self, case: u64) -> bool {
+        self.rows.binary_search_by_key(&case, |row| row.case).is_ok()
+    }
+
+    /// Adds a case, on disk first.
+    pub(crate) fn append(&mut self, row: Row) -> anyhow::Result<()> {
+        let cells: Vec<String> = row.cells.iter().map(f64::to_string).collect();
+        self.write(&format!("{},{}\n", row.case, cells.join(",")))?;
+        self.rows.push(row);
+        Ok(())
+    }
+
+    /// The results are written: nothing is left to go on with.
+    pub(crate) fn remove(output: &Path) -> anyhow::Result<()> {
+        let path = path_beside(output);
+        std::fs::remove_file(&path).with_context(|| path.display().to_string())
+    }
+
+    fn write(&mut self, line: &str) -> anyhow::Result<()> {
+        let write = self.file.write_all(line.as_bytes()).and_then(|()| self.file.flush());
+        write.with_context(|| format!("{}: cannot be written", self.path.display()))
+    }
+}
+
+fn path_beside(output: &Path) -> PathBuf {
+    let mut name = output.as_os_str().to_owned();
+    name.push(".part");
+    name.into()
+}
+
+fn row(line: &str, width: usize) -> Option<Row> {
+    let (case, cells) = line.split_once(',')?;
+    let cells: Vec<f64> = cells.split(',').map(|cell| cell.parse().ok()).collect::<Option<_>>()?;
+    (cells.len() == width).then_some(Row { case: case.parse().ok()?, cells })
+}
+
+/// FNV-1a over the bytes.
+fn fingerprint(text: &str) -> u64 {
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(case: u64) -> Row {
+        Row { case, cells: vec![0.1, f64::NAN] }
+    }
+
+    #[test]
+    fn a_cut_line_is_run_again_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let output = folder.path().join("out.csv");
+        let mut journal = Journal::open(&output, "this", 2).unwrap();
+        journal.append(row(3)).unwrap();
+        journal.append(row(1)).unwrap();
+        journal.write("2,0.1").unwrap();
+        drop(journal);
+        let mut journal = Journal::open(&output, "this", 2).unwrap();
+        assert_eq!([1, 2, 3].map(|case| journal.has(case)), [true, false, true]);
+        journal.append(row(2)).unwrap();
+        drop(journal);
+        let journal = Journal::open(&output, "this", 2).unwrap();
+        assert_eq!(journal.rows.iter().map(|row| row.case).collect::<Vec<_>>(), [1, 2, 3]);
+        assert!(journal.rows.iter().all(|row| row.cells[1].is_nan()));
+    }
+
+    #[test]
+    fn another_sweep_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let output = folder.path().join("out.csv");
+        drop(Journal::open(&output, "this", 2).unwrap());
+        let error = Journal::open(&output, "that", 2).unwrap_err().to_string();
+        assert!(error.contains("is of another machine file"), "{error}");
+    }
+}

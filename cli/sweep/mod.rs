@@ -1,0 +1,163 @@
+//! `helixlock sweep`: one simulation a point of a grid, or a draw of chance.
+
+mod journal;
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Mutex;
+
+use anyhow::{anyhow, bail};
+use clap::Args;
+use helixlock_plant::MachineFile;
+use helixlock_sim::sweep::{Axis, Case, DrawnAxis, FIGURES, Plan};
+use helixlock_sim::{Options, parallel};
+use helixlock_traces::csv::write_csv;
+use helixlock_traces::parquet::write_parquet;
+use helixlock_traces::table::{Column, Table};
+
+use self::journal::{Journal, Row};
+use crate::shared::output::write_whole;
+use crate::shared::progress;
+
+/// Simulate many machines: any value of the file over a range, or by chance
+///
+/// Results stream into FILE.part while they come; run the same command again after an interruption
+/// and only what is missing is simulated. At the end FILE holds all cases in order.
+#[derive(Debug, Args)]
+pub(crate) struct Sweep {
+    /// Machine file
+    #[arg(value_name = "MACHINE.toml")]
+    machine: PathBuf,
+    /// Results, one row a case: `.csv` or `.parquet`
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// A key of the machine file and its values: `drive.frequency=80,160 Hz`, or eight values
+    /// `drive.frequency=40..320:8 Hz`; effects are counted from 0: `effect.0.amplitude=1,2 um`
+    #[arg(long = "set", value_name = "KEY=VALUES")]
+    axes: Vec<String>,
+    /// A key of the machine file and bounds to draw from: `effect.0.amplitude=0.5..3 um`
+    #[arg(long = "draw", value_name = "KEY=LOW..HIGH")]
+    drawn: Vec<String>,
+    /// Draws at every point of the grid
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
+    samples: u64,
+    /// Seed of the draws
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Grind only the first so many millimetres
+    #[arg(long, value_name = "MM", value_parser = crate::shared::quantity::length_mm)]
+    length: Option<f64>,
+}
+
+impl Sweep {
+    /// Runs what is missing and writes the table.
+    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+        let text = std::fs::read_to_string(&self.machine).unwrap_or_default();
+        let file = MachineFile::read(&self.machine)?;
+        let plan = self.plan()?;
+        let options = Options { length_mm: self.length, ..Options::default() };
+        let is_parquet = self.is_parquet()?;
+        let identity = format!("{text}\n{plan:?}\n{options:?}");
+        let width = plan.columns().len() + FIGURES.len();
+        let journal = Journal::open(&self.output, &identity, width)?;
+        let resumed = journal.rows.len();
+        let (rows, failures) = run_missing(&file, &plan, &options, journal)?;
+        let table = table(&plan, &rows);
+        write_whole(&self.output, |mut file| {
+            if is_parquet {
+                let mut bytes = Vec::new();
+                write_parquet(&table, &mut bytes)?;
+                Ok(file.write_all(&bytes)?)
+            } else {
+                Ok(write_csv(&table, &mut file)?)
+            }
+        })?;
+        Journal::remove(&self.output)?;
+        let done = rows.len() - resumed;
+        writeln!(out, "{}: {} cases, {done} of them run now", self.output.display(), rows.len())?;
+        for failure in &failures {
+            writeln!(out, "case {failure}")?;
+        }
+        Ok(if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+    }
+
+    fn plan(&self) -> anyhow::Result<Plan> {
+        if self.axes.is_empty() && self.drawn.is_empty() {
+            bail!("nothing is varied: expected `--set KEY=VALUES` or `--draw KEY=LOW..HIGH`");
+        }
+        if self.drawn.is_empty() && 1 < self.samples {
+            bail!("`--samples {}`: nothing is drawn, expected `--draw` with it", self.samples);
+        }
+        let grid = self.axes.iter().map(|text| Axis::parse(text)).collect::<Result<_, _>>()?;
+        let drawn =
+            self.drawn.iter().map(|text| DrawnAxis::parse(text)).collect::<Result<_, _>>()?;
+        Ok(Plan { grid, drawn, samples: self.samples, seed: self.seed })
+    }
+
+    fn is_parquet(&self) -> anyhow::Result<bool> {
+        match self.output.extension().and_then(|extension| extension.to_str()) {
+            Some("csv") => Ok(false),
+            Some("parquet") => Ok(true),
+            _ => bail!("{}: expected a name in .csv or .parquet", self.output.display()),
+        }
+    }
+}
+
+/// Simulates the cases that the journal lacks, on all cores; gives all rows in order and what went
+/// wrong.
+fn run_missing(
+    file: &MachineFile,
+    plan: &Plan,
+    options: &Options,
+    journal: Journal,
+) -> anyhow::Result<(Vec<Row>, Vec<String>)> {
+    let missing: Vec<u64> = (0..plan.cases()).filter(|case| !journal.has(*case)).collect();
+    let bar = progress::bar(plan.cases(), "cases");
+    bar.set_position(plan.cases() - missing.len() as u64);
+    let journal = Mutex::new(journal);
+    let failures = Mutex::new(Vec::new());
+    parallel(&missing, |index| {
+        let case = plan.case(*index);
+        let row = row(&case, file, options, &failures);
+        bar.inc(1);
+        journal.lock().map_err(|_| anyhow!("another case has failed"))?.append(row)
+    })?;
+    bar.finish_and_clear();
+    let journal = journal.into_inner().map_err(|_| anyhow!("another case has failed"))?;
+    let mut failures: Vec<(u64, String)> =
+        failures.into_inner().map_err(|_| anyhow!("another case has failed"))?;
+    failures.sort();
+    let failures = failures.into_iter().map(|(index, text)| format!("{index}: {text}")).collect();
+    let mut rows = journal.rows;
+    rows.sort_by_key(|row| row.case);
+    Ok((rows, failures))
+}
+
+/// Values and figures of a case; figures are not numbers when it cannot be run.
+fn row(
+    case: &Case,
+    file: &MachineFile,
+    options: &Options,
+    failures: &Mutex<Vec<(u64, String)>>,
+) -> Row {
+    let figures = case.run(file, options).unwrap_or_else(|error| {
+        if let Ok(mut failures) = failures.lock() {
+            failures.push((case.index, error.to_string()));
+        }
+        vec![f64::NAN; FIGURES.len()]
+    });
+    Row { case: case.index, cells: [case.values.clone(), figures].concat() }
+}
+
+#[expect(clippy::cast_precision_loss, reason = "fewer than 2⁵³ cases")]
+fn table(plan: &Plan, rows: &[Row]) -> Table {
+    let number =
+        Column { name: "case".into(), values: rows.iter().map(|row| row.case as f64).collect() };
+    let names = plan.columns().into_iter().chain(FIGURES.iter().map(|name| (*name).to_owned()));
+    let columns = names.enumerate().map(|(place, name)| Column {
+        name,
+        values: rows.iter().map(|row| row.cells[place]).collect(),
+    });
+    Table::new(std::iter::once(number).chain(columns).collect())
+}

@@ -1,0 +1,344 @@
+//! `helixlock transmission`: transmission error from two pulse trains, by five methods.
+
+mod page;
+mod pulses;
+mod summary;
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use anyhow::{anyhow, bail};
+use clap::{Args, ValueEnum};
+use helixlock_metrology::transmission::{
+    Gearing, Method, OrderSpectrum, Peak, Pulses, Reading, Setup, Shaft, error_against, measure,
+    order_spectrum, peaks,
+};
+use helixlock_plant::Machine;
+use helixlock_traces::csv::RowWriter;
+
+use self::pulses::{Names, read_pulses};
+use self::summary::{json_of, print};
+use crate::shared::output::Batch;
+use crate::shared::quantity::{frequency_hz, lead_mm, time_s};
+use crate::shared::series::{Series, print_json};
+
+/// Radians to arc seconds.
+pub(crate) const ARCSEC: f64 = 180.0 * 3600.0 / std::f64::consts::PI;
+
+/// Measure a transmission error from two pulse trains
+///
+/// The error is what the output has turned less what it should have, δ = θ2 − θ1/i: positive when
+/// the output is ahead, zero at the first sample. Pulses come from a value change dump, or from a
+/// table: `input_s` and `output_s`; or `time_s` and `channel` (1 input, 2 output); or `time_s` and the
+/// levels `input` and `output`. Exit status 1: the error exceeds `--limit`.
+#[derive(Debug, Args)]
+pub(crate) struct TransmissionCommand {
+    /// Pulses: value change dump, CSV or Parquet
+    #[arg(value_name = "CAPTURE")]
+    capture: PathBuf,
+    /// Method
+    #[arg(long, value_enum, default_value = "all")]
+    method: By,
+    /// Pulses a turn of the input
+    #[arg(long, value_name = "N")]
+    input_lines: u64,
+    /// Pulses a turn of the output
+    #[arg(long, value_name = "N")]
+    output_lines: u64,
+    /// Turns of the input for one turn of the output, such as 36 or 5/2
+    #[arg(long, value_name = "I", value_parser = ratio, default_value = "1")]
+    ratio: (u64, u64),
+    /// Signal or column of the input
+    #[arg(long, value_name = "NAME")]
+    input_signal: Option<String>,
+    /// Signal or column of the output
+    #[arg(long, value_name = "NAME")]
+    output_signal: Option<String>,
+    /// Clock that subdivides pulses
+    #[arg(long, value_name = "HZ", value_parser = frequency_hz, default_value = "12 MHz")]
+    clock: f64,
+    /// Further division for the analog and the digital method: more range, fewer samples
+    #[arg(long, value_name = "K", default_value_t = 1)]
+    range_divider: u64,
+    /// Time constant of the analog method's recorder
+    #[arg(long, value_name = "S", value_parser = time_s, default_value = "0.05 s")]
+    recorder: f64,
+    /// Shaft by its turns for one turn of the output, such as worm=36; may be repeated
+    #[arg(long = "shaft", value_name = "NAME=ORDER", value_parser = shaft)]
+    shafts: Vec<Shaft>,
+    /// Machine file whose gears name the orders
+    #[arg(long, value_name = "MACHINE.toml")]
+    machine: Option<PathBuf>,
+    /// True error, `output_turns` and `delta_arcsec`, to hold the methods against
+    #[arg(long, value_name = "DATA")]
+    truth: Option<PathBuf>,
+    /// Lead, when the output is a length: the hand-over file is in mm and µm
+    #[arg(long, value_name = "LENGTH", value_parser = lead_mm)]
+    lead: Option<f64>,
+    /// Peak-to-peak error that must not be exceeded, arcsec
+    #[arg(long, value_name = "ARCSEC")]
+    limit: Option<f64>,
+    /// Folder for report.html, figure.svg, result.json, error.csv and compare.csv
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Methods on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum By {
+    /// All five, side by side
+    All,
+    /// Trigger phase meter and recorder
+    Analog,
+    /// Digital phase comparison
+    Digital,
+    /// Subdivided phase comparison
+    Subdivided,
+    /// Direct counting
+    Counting,
+    /// Subdivided counting
+    SubdividedCounting,
+}
+
+/// One method's result.
+pub(crate) struct MethodResult {
+    /// The method.
+    pub(crate) method: Method,
+    /// What it found, or why it cannot work here.
+    pub(crate) found: Result<Found, String>,
+}
+
+/// What a method found.
+pub(crate) struct Found {
+    /// The error along the run.
+    pub(crate) reading: Reading,
+    /// Its spectrum, when there are samples enough.
+    pub(crate) spectrum: Option<OrderSpectrum>,
+    /// Its tallest lines.
+    pub(crate) peaks: Vec<Peak>,
+    /// Largest and rms difference from the truth, rad.
+    pub(crate) against_truth: Option<(f64, f64)>,
+}
+
+/// Everything a run of the command found.
+pub(crate) struct Evaluation {
+    /// The file.
+    pub(crate) path: PathBuf,
+    /// The pulses.
+    pub(crate) pulses: Pulses,
+    /// The setting.
+    pub(crate) setup: Setup,
+    /// Each method asked for.
+    pub(crate) results: Vec<MethodResult>,
+    /// Largest peak-to-peak error allowed, arcsec.
+    pub(crate) limit_arcsec: Option<f64>,
+}
+
+impl Found {
+    /// Highest less lowest error, rad.
+    pub(crate) fn peak_to_peak_rad(&self) -> f64 {
+        let errors = || self.reading.samples.iter().map(|sample| sample.error_rad);
+        let (low, high) =
+            (errors().fold(f64::INFINITY, f64::min), errors().fold(f64::NEG_INFINITY, f64::max));
+        if low <= high { high - low } else { 0.0 }
+    }
+}
+
+impl Evaluation {
+    /// The best method that worked: subdivided counting before the others.
+    pub(crate) fn best(&self) -> Option<&Found> {
+        self.results.iter().rev().find_map(|result| result.found.as_ref().ok())
+    }
+
+    /// True when there is no limit or the best method keeps it.
+    pub(crate) fn holds(&self) -> bool {
+        let limit_rad = self.limit_arcsec.map(|limit| limit / ARCSEC);
+        limit_rad.is_none_or(|limit| self.best().is_some_and(|f| f.peak_to_peak_rad() <= limit))
+    }
+}
+
+impl TransmissionCommand {
+    /// Measures, writes, prints.
+    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+        let evaluation = self.evaluate()?;
+        let result = json_of(&evaluation);
+        if let Some(output) = &self.output {
+            self.write_files(output, &evaluation, &result)?;
+        }
+        if self.json {
+            print_json(out, &result)?;
+        } else {
+            print(out, &evaluation)?;
+        }
+        Ok(if evaluation.holds() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+    }
+
+    fn evaluate(&self) -> anyhow::Result<Evaluation> {
+        let names =
+            Names { input: self.input_signal.as_deref(), output: self.output_signal.as_deref() };
+        let gearing = Gearing {
+            input_lines: self.input_lines,
+            output_lines: self.output_lines,
+            ratio: self.ratio,
+        };
+        gearing.check()?;
+        let setup = Setup {
+            gearing,
+            clock_hz: self.clock,
+            range_divider: self.range_divider,
+            recorder_s: self.recorder,
+        };
+        let pulses = read_pulses(&self.capture, &names)?;
+        pulses
+            .check_ratio(&gearing)
+            .map_err(|error| anyhow!("{}: {error}", self.capture.display()))?;
+        let shafts = self.named_shafts()?;
+        let truth = self.truth.as_deref().map(read_truth).transpose()?;
+        let evaluate = |method: Method| {
+            let found = measure(&pulses, &setup, method).map(|reading| {
+                let spectrum = order_spectrum(&reading.samples, &shafts).ok();
+                let peaks = spectrum.as_ref().map_or(Vec::new(), |s| peaks(s, &shafts, 8));
+                let against_truth = truth.as_ref().map(|t| error_against(&reading, |x| t.at(x)));
+                Found { reading, spectrum, peaks, against_truth }
+            });
+            MethodResult { method, found: found.map_err(|error| error.to_string()) }
+        };
+        let results: Vec<MethodResult> = self.methods().into_iter().map(evaluate).collect();
+        if let [MethodResult { found: Err(why), .. }] = results.as_slice() {
+            bail!("{}: {why}", self.capture.display());
+        }
+        Ok(Evaluation {
+            path: self.capture.clone(),
+            pulses,
+            setup,
+            results,
+            limit_arcsec: self.limit,
+        })
+    }
+
+    fn methods(&self) -> Vec<Method> {
+        match self.method {
+            By::All => Method::ALL.to_vec(),
+            By::Analog => vec![Method::Analog],
+            By::Digital => vec![Method::Digital],
+            By::Subdivided => vec![Method::SubdividedComparison],
+            By::Counting => vec![Method::DirectCounting],
+            By::SubdividedCounting => vec![Method::SubdividedCounting],
+        }
+    }
+
+    fn named_shafts(&self) -> anyhow::Result<Vec<Shaft>> {
+        let mut shafts = self.shafts.clone();
+        if let Some(path) = &self.machine {
+            let gears = Machine::read(path)?.gear_orders().into_iter();
+            shafts.extend(gears.map(|(name, order)| Shaft { name, order }));
+        }
+        Ok(shafts)
+    }
+
+    fn write_files(
+        &self,
+        output: &Path,
+        evaluation: &Evaluation,
+        result: &serde_json::Value,
+    ) -> anyhow::Result<()> {
+        let page = page::page(evaluation);
+        let figure = page::figure(evaluation).svg();
+        let mut files = Batch::new(output)?;
+        files.write_content("figure.svg", figure)?;
+        files.write_json("result.json", result)?;
+        files.write_content("report.html", page.html())?;
+        if let Some(best) = evaluation.best() {
+            files.write("error.csv", |file| write_error(file, &best.reading))?;
+            files.write("compare.csv", |file| self.hand_over(file, &best.reading))?;
+        }
+        files.keep()
+    }
+
+    /// What `helixlock compare` reads. Its recorder counts an output that lags as positive: −δ.
+    fn hand_over(&self, file: &mut dyn Write, reading: &Reading) -> anyhow::Result<()> {
+        let Some(lead_mm) = self.lead else {
+            let mut rows = RowWriter::new(file, &["time_s", "angle_rev", "error_arcsec"])?;
+            for one in &reading.samples {
+                rows.row(&[one.time_s, one.output_turns, -one.error_rad * ARCSEC])?;
+            }
+            return Ok(());
+        };
+        let mut rows = RowWriter::new(file, &["time_s", "angle_rev", "position_mm", "error_um"])?;
+        let um_per_rad = lead_mm * 1000.0 / std::f64::consts::TAU;
+        for one in &reading.samples {
+            let (turns, error) = (one.output_turns, -one.error_rad * um_per_rad);
+            rows.row(&[one.time_s, turns, turns * lead_mm, error])?;
+        }
+        Ok(())
+    }
+}
+
+fn write_error(file: &mut dyn Write, reading: &Reading) -> anyhow::Result<()> {
+    let mut rows = RowWriter::new(file, &["time_s", "output_turns", "delta_arcsec"])?;
+    for one in &reading.samples {
+        rows.row(&[one.time_s, one.output_turns, one.error_rad * ARCSEC])?;
+    }
+    Ok(())
+}
+
+/// The true error, linear between its rows.
+struct Truth {
+    turns: Vec<f64>,
+    error_rad: Vec<f64>,
+}
+
+impl Truth {
+    fn at(&self, turns: f64) -> f64 {
+        let after = self.turns.partition_point(|x| *x < turns).clamp(1, self.turns.len() - 1);
+        let (x0, x1) = (self.turns[after - 1], self.turns[after]);
+        let part = ((turns - x0) / (x1 - x0)).clamp(0.0, 1.0);
+        self.error_rad[after - 1] + (self.error_rad[after] - self.error_rad[after - 1]) * part
+    }
+}
+
+fn read_truth(path: &Path) -> anyhow::Result<Truth> {
+    let series = Series::read_all(path)?;
+    let (turns, error) = (series.column("output_turns")?, series.column("delta_arcsec")?);
+    if turns.len() < 2 {
+        bail!("{}: {} rows, expected two or more", path.display(), turns.len());
+    }
+    let falls = |pair: &[f64]| pair[1].partial_cmp(&pair[0]) != Some(std::cmp::Ordering::Greater);
+    if let Some(row) = turns.windows(2).position(falls) {
+        bail!(
+            "{}: {} turns after {}, expected increasing turns",
+            series.place(row + 1),
+            turns[row + 1],
+            turns[row]
+        );
+    }
+    Ok(Truth { turns, error_rad: error.iter().map(|arcsec| arcsec / ARCSEC).collect() })
+}
+
+/// `36`, `5/2` or `2.5` as numerator and denominator.
+fn ratio(text: &str) -> Result<(u64, u64), String> {
+    let expected =
+        || String::from("expected a whole number, a fraction such as 5/2, or a decimal number");
+    if let Some((over, under)) = text.split_once('/') {
+        let parts = over.trim().parse().ok().zip(under.trim().parse().ok());
+        return parts.filter(|(_, under)| 0 < *under).ok_or_else(expected);
+    }
+    let (whole, decimals) = text.split_once('.').unwrap_or((text, ""));
+    let under = 10_u64.checked_pow(u32::try_from(decimals.len()).unwrap_or(u32::MAX));
+    let over = format!("{whole}{decimals}").parse().ok();
+    over.zip(under).filter(|(over, _)| 0 < *over).ok_or_else(expected)
+}
+
+fn shaft(text: &str) -> anyhow::Result<Shaft> {
+    let expected = || anyhow!("expected NAME=ORDER, such as worm=36");
+    let (name, order) = text.rsplit_once('=').ok_or_else(expected)?;
+    let order: f64 = order.trim().parse().map_err(|_| expected())?;
+    if !(0.0 < order && order.is_finite()) {
+        return Err(expected());
+    }
+    Ok(Shaft { name: name.trim().into(), order })
+}
