@@ -9,7 +9,7 @@ use helixlock_netlist::{Library, Netlist, elaborate, rust_source};
 use helixlock_rtl::{APART, BLOCKS, BlockCard};
 use random_design::{Dice, random_design};
 
-#[path = "src/random_design.rs"]
+#[path = "src/engine/random_design.rs"]
 mod random_design;
 
 /// Random designs compiled into the tests: they take a minute to compile.
@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     write(&Path::new(&folder).join("device.rs"), &source)?;
     write(&Path::new(&folder).join("samples.rs"), &samples()?)?;
     println!("cargo::rerun-if-changed=build.rs");
-    println!("cargo::rerun-if-changed=src/random_design.rs");
+    println!("cargo::rerun-if-changed=src/engine/random_design.rs");
     Ok(())
 }
 

@@ -1,28 +1,32 @@
 //! The device, compiled in: its circuit, and engines that run it.
 
+mod device_pins;
+mod settings;
+mod wheels;
+
 use std::sync::LazyLock;
 
 use helixlock_netlist::{Library, Netlist, elaborate};
 
-use crate::circuit::Circuit;
-use crate::compiled::Compiled;
-use crate::lanes::Lanes;
-use crate::leap::Leap;
+use crate::engine::{Circuit, Compiled, Lanes, Leap};
 
 #[allow(clippy::all, clippy::pedantic, reason = "generated: written for the compiler alone")]
 #[allow(unused_imports, reason = "a design may do without shifts")]
 #[allow(unused_variables, reason = "bits that nobody takes: the compiler drops them")]
 mod generated {
-    use crate::compiled::DenseKernel;
-    use crate::lanes::{LANE_WORDS, Lane, LaneKernel};
-    use crate::moment::{Coasting, Kernel, Moment};
-    use crate::vector::Vector;
-    use crate::words::{choose, shift_down, shift_up};
+    use crate::engine::{
+        Coasting, DenseKernel, Kernel, LANE_WORDS, Lane, LaneKernel, Moment, Vector, choose,
+        shift_down, shift_up,
+    };
 
     include!(concat!(env!("OUT_DIR"), "/device.rs"));
 }
 
+pub use device_pins::DevicePins;
+pub(crate) use device_pins::find;
 pub use generated::DeviceKernel;
+pub use settings::{Dialled, settings_for};
+pub use wheels::set_wheels;
 
 /// The fast engine of the device: what a closed loop runs on.
 pub type DeviceEngine = Leap<'static, DeviceKernel>;
@@ -69,11 +73,7 @@ mod tests {
     use helixlock_netlist::{SignalId, mask};
 
     use super::*;
-    use crate::agreement::compare;
-    use crate::random_design::Dice;
-    use crate::{
-        ClosedLoop, Engine, Interpreter, LANES, Probe, Progress, Swing, signals_of, write_vcd,
-    };
+    use crate::engine::{Dice, Engine, Interpreter, LANE_WORDS, LANES, compare};
 
     /// Each lane gets inputs of its own; a few of them are held to the reference engine.
     #[test]
@@ -104,56 +104,11 @@ mod tests {
         }
     }
 
-    /// Half a second of a machine that swings, looked at in a window with every signal there is.
-    fn waveform(engine: impl Engine) -> Vec<u8> {
-        let swing = Swing {
-            speed_um_per_s: 1500.0,
-            line_um: 0.43,
-            fringe_um: 0.316,
-            amplitude_um: 5.0,
-            period_s: 0.4,
-            step_um: 0.0125,
-            begin_s: 0.0,
-            progress: Progress::START,
-        };
-        let clock_hz = 1e6;
-        let mut device = ClosedLoop::new(engine, swing, clock_hz, 3.0).unwrap();
-        let pins = device.pins();
-        let netlist = device.engine().netlist().clone();
-        for (path, value) in [
-            ("divide_a", 0x007),
-            ("divide_b", 0x009),
-            ("range_x2", 1),
-            ("initial_phase", 0x009),
-            ("compensation", 0x0001),
-            ("step_period", 1009),
-        ] {
-            device.engine().set_input(netlist.find(path).unwrap(), value);
-        }
-        device.engine().set_input(pins.start, 1);
-        device.engine().set_input(pins.correct, 1);
-        device.set_moving().unwrap();
-        device.run_until(480_000, |_| false).unwrap();
-        let signals = signals_of(&netlist, &["all".to_owned()]).unwrap();
-        device.begin_recording(Probe { signals, window: 480_000..500_000 });
-        device.run_until(500_000, |_| false).unwrap();
-        let mut bytes = Vec::new();
-        write_vcd(&mut bytes, &device.end_recording().unwrap(), 1_000_000).unwrap();
-        bytes
-    }
-
-    #[test]
-    fn the_waveform_of_a_leap_is_that_of_stepping_byte_by_byte() {
-        let stepped = waveform(stepped_device());
-        assert!(100_000 < stepped.len(), "something has been recorded");
-        assert!(waveform(device_engine()) == stepped);
-    }
-
     #[test]
     fn only_the_flipped_lane_is_unlike() {
         let mut lanes = device_lanes();
         lanes.flip(77, 5);
-        let mut expected = [0; crate::LANE_WORDS];
+        let mut expected = [0; LANE_WORDS];
         expected[1] = 1 << 13;
         assert_eq!(lanes.unlike(0), expected);
     }

@@ -16,9 +16,43 @@
 //! This is a Verilog test bench that changes its inputs after one rising edge and before the next.
 //! An input set after `step` number n is therefore first seen by edge n + 1.
 
+#[cfg(test)]
+mod agreement;
+mod circuit;
+mod compiled;
+mod interpreted_pieces;
+mod interpreter;
+#[allow(unsafe_code, reason = "vector instructions, after asking the processor for them")]
+mod lanes;
+mod leap;
+mod moment;
+#[cfg(test)]
+mod random_design;
+#[cfg(test)]
+mod samples;
+mod state;
+#[allow(unsafe_code, reason = "vector instructions have no other way in")]
+#[allow(clippy::inline_always, reason = "in a function of its own it would lack the instructions")]
+mod vector;
+#[allow(dead_code, reason = "a design may do without shifts")]
+mod words;
+
 use helixlock_netlist::{Netlist, SignalId};
 
-use crate::{FlipFlops, Snapshot};
+#[cfg(test)]
+pub(crate) use agreement::compare;
+pub use circuit::Circuit;
+pub use compiled::{Compiled, DenseKernel};
+pub use interpreted_pieces::InterpretedPieces;
+pub use interpreter::Interpreter;
+pub use lanes::{LANE_WORDS, LANES, Lane, LaneKernel, Lanes};
+pub use leap::Leap;
+pub use moment::{Coasting, Kernel, Moment};
+#[cfg(test)]
+pub(crate) use random_design::Dice;
+pub use state::{FlipFlops, Snapshot, SnapshotError, differences};
+pub use vector::Vector;
+pub(crate) use words::{choose, shift_down, shift_up};
 
 /// Why [`Engine::run_until`] came back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

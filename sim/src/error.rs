@@ -4,8 +4,6 @@ use helixlock_plant::EffectError;
 use helixlock_rtl::settings::SettingsError as WheelError;
 use thiserror::Error;
 
-use crate::SettingsError;
-
 /// A machine that cannot be simulated, or a window that is not there.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -66,4 +64,37 @@ pub enum Error {
         /// End of the run, s.
         end_s: f64,
     },
+}
+
+/// A machine file that no setting of the device serves.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum SettingsError {
+    /// Steps come faster, or slower, than the step clock can be set.
+    #[error(
+        "drive.frequency: {found_hz} Hz, expected {low_hz:.3} Hz to {high_hz} Hz with an FPGA clock \
+         of {clock_hz} Hz"
+    )]
+    StepFrequency {
+        /// In the file.
+        found_hz: f64,
+        /// Slowest that can be set.
+        low_hz: f64,
+        /// Fastest that can be set.
+        high_hz: f64,
+        /// FPGA clock.
+        clock_hz: f64,
+    },
+    /// More compensation than one pulse in 1000.
+    #[error(
+        "dividers.compensation: {found_um_per_m} µm/m, expected at most ±1000 µm/m, one pulse in \
+         1000"
+    )]
+    Compensation {
+        /// In the file.
+        found_um_per_m: f64,
+    },
+    /// A rotary chain has no table, so there is nothing to correct.
+    #[error("output.rotary: the device corrects the table of a grinder, expected a workpiece")]
+    Rotary,
 }

@@ -2,10 +2,14 @@
 
 use helixlock_rtl::settings::{Range, Settings};
 
-use crate::pass::{Pass, PassPlan, run_pass};
-use crate::probe::{Probe, signals_of};
-use crate::swing::{Progress, Swing};
-use crate::{Engine, device, device_engine, measure_hunting, set_wheels, stepped_device};
+use super::appraisal::measure_hunting;
+use super::feedback::ClosedLoop;
+use super::pass::{Pass, PassPlan, run_pass};
+use super::probe::{Probe, signals_of};
+use super::swing::{Progress, Swing};
+use super::vcd_file::write_vcd;
+use crate::device::{device, device_engine, set_wheels, stepped_device};
+use crate::engine::Engine;
 
 const CLOCK_HZ: f64 = 12e6;
 
@@ -127,7 +131,7 @@ fn the_dump_reads_back_as_the_waveform() {
     let waveform =
         run_on(device_engine(), MACHINE, true, 0.4, Some(&probe)).waveform.expect("a window");
     let mut text = Vec::new();
-    crate::write_vcd(&mut text, &waveform, 12_000_000).unwrap();
+    write_vcd(&mut text, &waveform, 12_000_000).unwrap();
 
     let mut dump = Parser::new(&text[..]);
     let header = dump.parse_header().unwrap();
@@ -157,4 +161,49 @@ fn the_dump_reads_back_as_the_waveform() {
         .map(|c| (Tick::PICOSECOND.of_clock(c.clock, 12_000_000), codes[c.signal], c.value))
         .collect();
     assert_eq!(found, due);
+}
+
+/// Half a second of a machine that swings, looked at in a window with every signal there is.
+fn waveform(engine: impl Engine) -> Vec<u8> {
+    let swing = Swing {
+        speed_um_per_s: 1500.0,
+        line_um: 0.43,
+        fringe_um: 0.316,
+        amplitude_um: 5.0,
+        period_s: 0.4,
+        step_um: 0.0125,
+        begin_s: 0.0,
+        progress: Progress::START,
+    };
+    let clock_hz = 1e6;
+    let mut device = ClosedLoop::new(engine, swing, clock_hz, 3.0).unwrap();
+    let pins = device.pins();
+    let netlist = device.engine().netlist().clone();
+    for (path, value) in [
+        ("divide_a", 0x007),
+        ("divide_b", 0x009),
+        ("range_x2", 1),
+        ("initial_phase", 0x009),
+        ("compensation", 0x0001),
+        ("step_period", 1009),
+    ] {
+        device.engine().set_input(netlist.find(path).unwrap(), value);
+    }
+    device.engine().set_input(pins.start, 1);
+    device.engine().set_input(pins.correct, 1);
+    device.set_moving().unwrap();
+    device.run_until(480_000, |_| false).unwrap();
+    let signals = signals_of(&netlist, &["all".to_owned()]).unwrap();
+    device.begin_recording(Probe { signals, window: 480_000..500_000 });
+    device.run_until(500_000, |_| false).unwrap();
+    let mut bytes = Vec::new();
+    write_vcd(&mut bytes, &device.end_recording().unwrap(), 1_000_000).unwrap();
+    bytes
+}
+
+#[test]
+fn the_waveform_of_a_leap_is_that_of_stepping_byte_by_byte() {
+    let stepped = waveform(stepped_device());
+    assert!(100_000 < stepped.len(), "something has been recorded");
+    assert!(waveform(device_engine()) == stepped);
 }

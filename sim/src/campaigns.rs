@@ -1,0 +1,13 @@
+//! Many runs: everything varied, every flip-flop flipped, every instant compared with the print.
+
+#[cfg(test)]
+mod adversary;
+mod certify;
+pub mod faults;
+mod parallel;
+pub mod sweep;
+
+pub use certify::{
+    BothClosed, Certificate, FLIP_FLOP, FlipFlop, OpenLoop, certify, mtbf_log10_years,
+};
+pub use parallel::parallel;

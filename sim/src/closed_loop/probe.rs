@@ -1,0 +1,140 @@
+//! Which signals, which window: every change of the chosen signals, clock by clock.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+use helixlock_netlist::{Netlist, SignalId};
+
+use crate::Error;
+use crate::engine::Engine;
+
+/// What to look at, and when.
+#[derive(Clone, Debug)]
+pub struct Probe {
+    /// Signals, in the order of the netlist.
+    pub signals: Vec<SignalId>,
+    /// First clock, and the one after the last.
+    pub window: Range<u64>,
+}
+
+/// Most changes a waveform holds: about half a gigabyte.
+const MOST_CHANGES: usize = 20_000_000;
+
+/// A change of one signal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Change {
+    /// Clock number since when it holds.
+    pub clock: u64,
+    /// Index in [`Waveform::signals`].
+    pub signal: usize,
+    /// The value it has taken.
+    pub value: u64,
+}
+
+/// Micrometres at one clock.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Analogue {
+    /// Clock number since when they hold.
+    pub clock: u64,
+    /// Workpiece position, mm.
+    pub position_mm: f64,
+    /// Lead error of the table, µm.
+    pub lead_error_um: f64,
+    /// Correction by the motor, µm.
+    pub correction_um: f64,
+    /// Last reading of the recorder, µm.
+    pub error_um: f64,
+}
+
+/// Bits and micrometres of a window, complete: every signal at its first clock, then each change.
+#[derive(Clone, Debug, Default)]
+pub struct Waveform {
+    /// Signals looked at: path and width in bits.
+    pub signals: Vec<(String, u32)>,
+    /// Changes, by clock; at the first clock one for every signal.
+    pub changes: Vec<Change>,
+    /// Micrometres, by clock.
+    pub analogue: Vec<Analogue>,
+    /// First clock, and the one after the last.
+    pub window: Range<u64>,
+}
+
+/// The signals of the named scopes: an instance with all below it, `top` for the ports and local
+/// signals of the device itself, `all` for everything, or one signal by its path.
+///
+/// # Errors
+///
+/// [`Error::NoScope`] when a name fits nothing.
+pub fn signals_of(netlist: &Netlist, scopes: &[String]) -> Result<Vec<SignalId>, Error> {
+    for scope in scopes {
+        if !netlist.signals.iter().any(|signal| is_in(&signal.path, scope)) {
+            return Err(Error::NoScope { scope: scope.clone(), known: scopes_of(netlist) });
+        }
+    }
+    let chosen = |path: &str| scopes.iter().any(|scope| is_in(path, scope));
+    let ids = (0..).map(SignalId).zip(&netlist.signals);
+    Ok(ids.filter(|(_, signal)| chosen(&signal.path)).map(|(id, _)| id).collect())
+}
+
+fn is_in(path: &str, scope: &str) -> bool {
+    match scope {
+        "all" => true,
+        "top" => !path.contains('.'),
+        _ => path.strip_prefix(scope).is_some_and(|rest| rest.is_empty() || rest.starts_with('.')),
+    }
+}
+
+fn scopes_of(netlist: &Netlist) -> Vec<String> {
+    let instances = netlist.signals.iter().filter_map(|signal| signal.path.rsplit_once('.'));
+    let names: BTreeSet<&str> = instances.map(|(instance, _)| instance).collect();
+    ["all", "top"].into_iter().chain(names).map(str::to_owned).collect()
+}
+
+impl Waveform {
+    /// An empty waveform of what `probe` looks at.
+    #[must_use]
+    pub fn new(netlist: &Netlist, probe: &Probe) -> Self {
+        let named = |id: &SignalId| {
+            let signal = &netlist.signals[id.0 as usize];
+            (signal.path.clone(), signal.width)
+        };
+        Self {
+            signals: probe.signals.iter().map(named).collect(),
+            window: probe.window.clone(),
+            ..Self::default()
+        }
+    }
+}
+
+/// Fills a [`Waveform`] as the run goes on.
+#[derive(Clone, Debug)]
+pub(crate) struct Recording {
+    pub(crate) probe: Probe,
+    pub(crate) waveform: Waveform,
+    last: Vec<Option<u64>>,
+}
+
+impl Recording {
+    pub(crate) fn new(netlist: &Netlist, probe: Probe) -> Self {
+        let waveform = Waveform::new(netlist, &probe);
+        let last = vec![None; probe.signals.len()];
+        Self { probe, waveform, last }
+    }
+
+    /// Notes what has changed, at most once a clock, when inputs and flip-flops are settled; false
+    /// when the waveform is full.
+    pub(crate) fn sample(&mut self, engine: &mut impl Engine, analogue: Analogue) -> bool {
+        let clock = engine.clock();
+        for (signal, (&id, last)) in self.probe.signals.iter().zip(&mut self.last).enumerate() {
+            let value = engine.value(id);
+            if last.replace(value) != Some(value) {
+                self.waveform.changes.push(Change { clock, signal, value });
+            }
+        }
+        let differs = |before: &Analogue| Analogue { clock: before.clock, ..analogue } != *before;
+        if self.waveform.analogue.last().is_none_or(differs) {
+            self.waveform.analogue.push(analogue);
+        }
+        self.waveform.changes.len() < MOST_CHANGES
+    }
+}
