@@ -44,6 +44,20 @@ pub enum Error {
         /// The instant before it, s.
         previous_s: f64,
     },
+    /// A train that lost a pulse or has one twice.
+    #[error(
+        "{column} {row}: at {at_s} s a pulse was {what}, expected periods like those beside it\nhint: cut the capture there, both trains alike"
+    )]
+    PulseMissing {
+        /// Which pulse.
+        row: usize,
+        /// Of which train.
+        column: &'static str,
+        /// Its instant, s.
+        at_s: f64,
+        /// What befell it.
+        what: &'static str,
+    },
     /// Pulse trains whose rates cannot come from the transmission described.
     #[error(
         "{found:.4} input pulses for each output pulse, expected about {expected:.4} from the lines and the ratio"

@@ -17,11 +17,13 @@ mod digital;
 mod divided;
 mod gearing;
 mod method;
+mod missing_pulses;
 mod order_spectrum;
 mod peaks;
 mod pulses;
 mod subdivided;
 mod synthesis;
+mod unevenness;
 
 pub use digital::digital_word;
 pub use gearing::Gearing;

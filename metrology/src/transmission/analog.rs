@@ -16,14 +16,14 @@ pub(super) fn measure(pulses: &Pulses, setup: &Setup) -> Result<(Vec<Sample>, Li
     let range_rad = divided.range_pulses * gearing.input_pulse_rad();
     let samples = recorded(&divided, setup, range_rad);
     let steepest_rad_per_s = steepest(&samples);
-    let period_s = mean_period(&divided);
+    let period_s = longest_period(&divided);
     let limits = Limits {
         resolution_rad: 0.0,
         range_rad: Some(range_rad),
         step_rad: None,
         samples_per_turn: float(gearing.output_lines) / number(divided.divider),
         bound_rad: steepest_rad_per_s * (2.0 * setup.recorder_s + period_s)
-            + range_rad * ripple(period_s / setup.recorder_s),
+            + range_rad * (ripple(period_s / setup.recorder_s) + 2.0 * divided.unevenness(pulses)),
         in_words: "equal frequencies only; starts again beyond its range; the recorder lags by its time constant and lets some of the comparison frequency through",
     };
     Ok((samples, limits))
@@ -55,9 +55,8 @@ fn recorded(divided: &Divided, setup: &Setup, range_rad: f64) -> Vec<Sample> {
     samples
 }
 
-fn mean_period(divided: &Divided) -> f64 {
-    let set_s = &divided.set_s;
-    (set_s[set_s.len() - 1] - set_s[0]) / number(set_s.len() - 1)
+fn longest_period(divided: &Divided) -> f64 {
+    divided.set_s.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max)
 }
 
 /// Steepest change of a reading, rad/s.

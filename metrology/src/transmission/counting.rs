@@ -2,6 +2,7 @@
 
 use super::method::{Limits, Sample, Setup};
 use super::pulses::Pulses;
+use super::unevenness::{fastest_pulses_per_tick, interpolation_pulses};
 use crate::Error;
 use crate::number::number;
 
@@ -32,14 +33,12 @@ pub(super) fn subdivided(pulses: &Pulses, setup: &Setup) -> Result<(Vec<Sample>,
         quotient(since, period)
     };
     let samples = at_output_pulses(pulses, setup, fraction)?;
-    let tick_rad = tick_rad(pulses, setup);
     let limits = Limits {
-        resolution_rad: tick_rad,
+        resolution_rad: tick_rad(pulses, setup),
         range_rad: None,
         step_rad: None,
         samples_per_turn: super::gearing::float(setup.gearing.output_lines),
-        // Three instants are clocked, for this sample and for the first one.
-        bound_rad: 4.0 * tick_rad,
+        bound_rad: fraction_bound_pulses(pulses, setup) * setup.gearing.input_pulse_rad(),
         in_words: "any ratio, any size; takes the speed as even within one input pulse",
     };
     Ok((samples, limits))
@@ -66,6 +65,12 @@ fn at_output_pulses(
         }
     };
     Ok(placed.iter().map(sample).collect())
+}
+
+/// Bound on a difference of two fractions of an input pulse: three instants are clocked for each,
+/// and each takes the speed as even between two pulses.
+pub(super) fn fraction_bound_pulses(pulses: &Pulses, setup: &Setup) -> f64 {
+    4.0 * fastest_pulses_per_tick(pulses, setup.clock_hz) + 2.0 * interpolation_pulses(pulses)
 }
 
 /// Turn of the output that one clock stands for at the mean speed, rad.

@@ -1,6 +1,6 @@
 //! Digital phase comparison: `δ = 2π·Δt/T` of the compared period, both counted in clocks.
 
-use super::counting::{quotient, tick_rad};
+use super::counting::{fraction_bound_pulses, quotient, tick_rad};
 use super::divided::divide;
 use super::gearing::float;
 use super::method::{Limits, Sample, Setup};
@@ -32,13 +32,14 @@ pub(super) fn measure(pulses: &Pulses, setup: &Setup) -> Result<(Vec<Sample>, Li
         }
     };
     let samples: Vec<Sample> = divided.pairs().iter().map(sample).collect();
-    let tick_rad = tick_rad(pulses, setup);
+    let bound_pulses = fraction_bound_pulses(pulses, setup)
+        + 2.0 * divided.unevenness(pulses) * divided.range_pulses;
     let limits = Limits {
-        resolution_rad: tick_rad,
+        resolution_rad: tick_rad(pulses, setup),
         range_rad: Some(range_rad),
         step_rad: None,
         samples_per_turn: float(gearing.output_lines) / number(divided.divider),
-        bound_rad: 4.0 * tick_rad,
+        bound_rad: bound_pulses * gearing.input_pulse_rad(),
         in_words: "equal frequencies only: whole dividers for both trains; starts again beyond its range; a change of speed within a comparison period counts as error",
     };
     Ok((samples, limits))

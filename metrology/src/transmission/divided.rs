@@ -3,6 +3,7 @@
 use super::gearing::float;
 use super::method::Setup;
 use super::pulses::Pulses;
+use super::unevenness::phase_at;
 use crate::Error;
 
 /// Two trains of nominally equal frequency.
@@ -62,6 +63,18 @@ pub(super) fn divide(
 }
 
 impl Divided {
+    /// Largest part of a comparison period by which time and the input's turn tell it apart.
+    pub(super) fn unevenness(&self, pulses: &Pulses) -> f64 {
+        let input_s = pulses.input_s();
+        let off = |&(clear, set): &(usize, usize)| {
+            let (clear_s, set_s, next_s) =
+                (self.clear_s[clear], self.set_s[set], self.set_s[set + 1]);
+            let turned = phase_at(input_s, clear_s)? - phase_at(input_s, set_s)?;
+            Some(((clear_s - set_s) / (next_s - set_s) - turned / self.range_pulses).abs())
+        };
+        self.pairs().iter().filter_map(off).fold(0.0, f64::max)
+    }
+
     /// Each clear pulse between two set pulses: its number among the clears, and the set before it.
     pub(super) fn pairs(&self) -> Vec<(usize, usize)> {
         let mut last = 0;

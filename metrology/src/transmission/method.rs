@@ -57,7 +57,8 @@ pub struct Limits {
     pub step_rad: Option<f64>,
     /// Samples a turn of the output.
     pub samples_per_turn: f64,
-    /// Bound on the error of a sample against the first one for a uniform input, rad.
+    /// Bound on the error of a sample against the first one, rad, for an input whose speed changes
+    /// between two pulses no quicker than from pulse to pulse.
     pub bound_rad: f64,
     /// In words, what it needs and what it loses.
     pub in_words: &'static str,
@@ -216,6 +217,29 @@ mod tests {
             let size_rad = size_arcsec / 3600.0 * TAU / 360.0;
             let synthesis = Synthesis { input_hz: 6.0, output_turns: 1.1 };
             let pulses = synthesise(&setup().gearing, &synthesis, truth(size_rad)).unwrap();
+            for method in Method::ALL {
+                let reading = measure(&pulses, &setup(), method).unwrap();
+                let (largest, _) = error_against(&reading, truth(size_rad));
+                prop_assert!(largest <= reading.limits.bound_rad, "{method:?}: {largest} {:?}", reading.limits);
+            }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+        /// The input swings by up to 30 %, up to 50 times a turn of 1000 pulses.
+        #[test]
+        fn bounds_hold_for_an_input_that_turns_unevenly(
+            size_arcsec in 1.0..30.0f64, depth in 0.0..0.3f64, swings in 0.1..50.0f64,
+        ) {
+            let size_rad = size_arcsec / 3600.0 * TAU / 360.0;
+            let synthesis = Synthesis { input_hz: 6.0, output_turns: 1.1 };
+            let even = synthesise(&setup().gearing, &synthesis, truth(size_rad)).unwrap();
+            let rate = TAU * 6.0 * swings;
+            let uneven = |s: &[f64]| -> Vec<f64> {
+                s.iter().map(|t| t + depth / rate * libm::sin(rate * t)).collect()
+            };
+            let pulses = Pulses::new(uneven(even.input_s()), uneven(even.output_s())).unwrap();
             for method in Method::ALL {
                 let reading = measure(&pulses, &setup(), method).unwrap();
                 let (largest, _) = error_against(&reading, truth(size_rad));

@@ -1,6 +1,7 @@
 //! Two pulse trains on one time axis.
 
 use super::gearing::{Gearing, float};
+use super::missing_pulses;
 use crate::Error;
 use crate::number::number;
 
@@ -20,10 +21,13 @@ impl Pulses {
     ///
     /// # Errors
     ///
-    /// When an instant is not finite, a train does not increase, or one has fewer than four.
+    /// When an instant is not finite, a train does not increase, one has fewer than four, or lost
+    /// a pulse, or has one twice.
     pub fn new(input_s: Vec<f64>, output_s: Vec<f64>) -> Result<Self, Error> {
         check(&input_s, "input pulse")?;
         check(&output_s, "output pulse")?;
+        missing_pulses::check(&input_s, &output_s, "input pulse")?;
+        missing_pulses::check(&output_s, &input_s, "output pulse")?;
         Ok(Self { input_s, output_s })
     }
 

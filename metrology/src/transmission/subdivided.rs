@@ -5,7 +5,7 @@
 //! the ratio asks for. Only the fraction is measured; whole pulses are followed from sample to
 //! sample, so there is no range, but the error must not change by half an input pulse between two.
 
-use super::counting::{quotient, tick_rad};
+use super::counting::{fraction_bound_pulses, quotient, tick_rad};
 use super::method::{Limits, Sample, Setup};
 use super::pulses::Pulses;
 use crate::Error;
@@ -25,6 +25,9 @@ pub fn subdivided_word(since: u32, period: u32) -> u16 {
     u16::try_from(quotient).unwrap_or(u16::MAX)
 }
 
+/// Two fractions off by more than a quarter may be taken for the next whole pulse.
+const MOST_SPEED_PULSES: f64 = 0.25;
+
 pub(super) fn measure(pulses: &Pulses, setup: &Setup) -> Result<(Vec<Sample>, Limits), Error> {
     let (input_s, gearing) = (pulses.input_s(), setup.gearing);
     // The first input period is the first one that can be measured against.
@@ -35,10 +38,14 @@ pub(super) fn measure(pulses: &Pulses, setup: &Setup) -> Result<(Vec<Sample>, Li
     };
     let mut behind: Option<f64> = None;
     let mut samples = Vec::with_capacity(placed.len());
+    let mut speed_pulses: f64 = 0.0;
     for (output, last) in placed {
         let last_tick = setup.ticks(input_s[last]);
         let since = setup.ticks(pulses.output_s()[output]) - last_tick;
         let period = last_tick - setup.ticks(input_s[last - 1]);
+        let running = setup.ticks(input_s[last + 1]) - last_tick;
+        let by_last_speed = quotient(since, period) - quotient(since, running);
+        speed_pulses = speed_pulses.max(by_last_speed.abs());
         let phase = gearing.nominal(output - first_output).1 - quotient(since, period);
         let before = behind.unwrap_or(phase);
         let now = phase + (before - phase).round();
@@ -49,13 +56,21 @@ pub(super) fn measure(pulses: &Pulses, setup: &Setup) -> Result<(Vec<Sample>, Li
             error_rad: now * gearing.input_pulse_rad(),
         });
     }
-    let tick_rad = tick_rad(pulses, setup);
+    if MOST_SPEED_PULSES < speed_pulses {
+        return Err(Error::MethodCannot {
+            method: "subdivided",
+            reason: format!(
+                "takes the speed as that of the last period, which puts a fraction off by {speed_pulses:.2} of an input pulse here, expected {MOST_SPEED_PULSES} or less\nhint: `subdivided-counting` takes a speed that changes"
+            ),
+        });
+    }
+    let bound_pulses = fraction_bound_pulses(pulses, setup) + 2.0 * speed_pulses;
     let limits = Limits {
-        resolution_rad: tick_rad,
+        resolution_rad: tick_rad(pulses, setup),
         range_rad: None,
         step_rad: Some(gearing.input_pulse_rad() / 2.0),
         samples_per_turn: super::gearing::float(gearing.output_lines),
-        bound_rad: 4.0 * tick_rad,
+        bound_rad: bound_pulses * gearing.input_pulse_rad(),
         in_words: "any ratio, no 360° limit; misreads a change of half an input pulse between two samples, and takes the speed as that of the last period",
     };
     Ok((samples, limits))
