@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use criterion::{Criterion, Throughput};
-use helixlock_plant::Machine;
+use helixlock_plant::Model;
 use helixlock_sim::{Course, Options, simulate};
 
 pub(crate) fn closed_loop(criterion: &mut Criterion) {
     let path = Path::new("examples/sg7430-6mm/machine.toml");
-    let machine = Machine::read(path).expect("the example is a machine file");
+    let machine = Model::read(path).expect("the example is a machine file");
     let options = Options { length_mm: Some(10.0), ..Options::default() };
     let course = Course::new(&machine, &options).expect("the example can be simulated");
     let mut group = criterion.benchmark_group("closed_loop");

@@ -8,7 +8,7 @@ use std::path::Path;
 use helixlock_lab::diagnosis::{Diagnosis, Verdict, diagnose};
 use helixlock_lab::measurement::{Measurement, Nominal};
 use helixlock_lab::problem::Problem;
-use helixlock_plant::Machine;
+use helixlock_plant::Model;
 use helixlock_sim::{Options, simulate};
 use helixlock_traces::{Column, Table};
 use rand::SeedableRng;
@@ -38,8 +38,8 @@ const NOISE_UM: f64 = 0.02;
 /// Comparisons in which the loop pulls in.
 const PULLING_IN: usize = 20;
 
-fn machine(more: &str) -> Machine {
-    Machine::parse(&format!("{MACHINE}{more}"), Path::new("machine.toml")).expect("a machine")
+fn machine(more: &str) -> Model {
+    Model::parse(&format!("{MACHINE}{more}"), Path::new("machine.toml")).expect("a machine")
 }
 
 /// Two passes at two speeds, on a day that grows warmer, with an effect in the machine.
@@ -57,10 +57,9 @@ fn passes(effect: &str) -> Table {
             "{effect}\n[environment]\nair_temperature = \"{air_c} degC\"\n\
              workpiece_temperature = \"{air_c} degC\"\n"
         );
-        let mut machine = machine(&day);
-        machine.spindle.speed_rpm = speed_rpm;
-        let run =
-            simulate(&machine, &Options::default(), &mut |_| {}).expect("a machine that runs");
+        let mut model = machine(&day);
+        model.machine.spindle.speed_rpm = speed_rpm;
+        let run = simulate(&model, &Options::default(), &mut |_| {}).expect("a machine that runs");
         let trace = run.closed.trace;
         for row in PULLING_IN..trace.time_s.len() {
             let mut blurred = |value: f64| value + noise.sample(&mut chance);
@@ -93,7 +92,7 @@ fn diagnosis(table: &Table, without: &[&str]) -> Diagnosis {
     let table = Table::new(kept.cloned().collect());
     let machine = machine("");
     let measurement =
-        Measurement::from_table(&table, &Nominal::from(&machine)).expect("a measurement");
+        Measurement::from_table(&table, &Nominal::of(&machine)).expect("a measurement");
     diagnose(&Problem::new(&machine, &measurement).expect("all columns are there"))
 }
 

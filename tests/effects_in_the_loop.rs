@@ -7,7 +7,7 @@
 use std::path::Path;
 
 use helixlock_plant::prediction::{Sensor, predict};
-use helixlock_plant::{CATALOGUE, Machine, Record, Samples};
+use helixlock_plant::{CATALOGUE, Model, Record, Samples};
 use helixlock_sim::{Options, Simulation, Trace, simulate};
 
 use crate::support::command::{put, scratch};
@@ -105,19 +105,19 @@ const JUMP_S: f64 = 2e-5;
 /// After a jump the motor is under way for this time; all jumps of the table are at 20 s.
 const UNDER_WAY_S: std::ops::Range<f64> = 20.0..22.0;
 
-fn machine(kind: &str, values: &str) -> Machine {
+fn machine(kind: &str, values: &str) -> Model {
     let text = format!("{MACHINE}kind = \"{kind}\"\n{values}\n");
     let folder = scratch();
     put(&folder.path().join("curve.csv"), CURVE);
-    Machine::parse(&text, &folder.path().join("machine.toml")).expect("a machine file")
+    Model::parse(&text, &folder.path().join("machine.toml")).expect("a machine file")
 }
 
-fn run(machine: &Machine) -> Simulation {
+fn run(machine: &Model) -> Simulation {
     simulate(machine, &Options::default(), &mut |_| {}).expect("a machine that runs")
 }
 
 /// What a sensor should have shown, a moment early or late; the record begins with the pass.
-fn predicted(machine: &Machine, trace: &Trace, sensor: Sensor, shift_s: f64) -> Vec<f64> {
+fn predicted(machine: &Model, trace: &Trace, sensor: Sensor, shift_s: f64) -> Vec<f64> {
     let from_start = |values: &[f64], shift: f64| {
         std::iter::once(0.0).chain(values.iter().map(|value| value + shift)).collect::<Vec<f64>>()
     };
@@ -144,7 +144,7 @@ fn steps(trace: &Trace) -> Vec<f64> {
 
 /// Largest distance of what was shown from what was predicted, apart from the constant that suits
 /// best: the grating starts up to one line late.
-fn worst(machine: &Machine, trace: &Trace, sensor: Sensor, shown: &[f64]) -> f64 {
+fn worst(machine: &Model, trace: &Trace, sensor: Sensor, shown: &[f64]) -> f64 {
     let [early, late] = [-JUMP_S, JUMP_S].map(|shift_s| predicted(machine, trace, sensor, shift_s));
     let (mut above, mut below) = (f64::NEG_INFINITY, f64::INFINITY);
     for (shown, (early, late)) in shown.iter().zip(early.iter().zip(&late)) {
@@ -187,12 +187,12 @@ fn open_loop_shows_what_the_closed_form_says() {
 fn closed_loop_grinds_and_counts_what_the_closed_form_says() {
     let mut wrong = Vec::new();
     for (kind, values) in EFFECTS.iter().filter(|(kind, _)| !TOO_FAST_FOR_THE_LOOP.contains(kind)) {
-        let mut machine = machine(kind, values);
-        machine.loop_closed = true;
-        let trace = settled(&run(&machine).closed.trace);
-        let thread = worst(&machine, &trace, Sensor::Thread, &trace.lead_error_um);
-        let counter = worst(&machine, &trace, Sensor::Counter, &steps(&trace));
-        let counter_um = counter * machine.drive.step_um;
+        let mut model = machine(kind, values);
+        model.machine.loop_closed = true;
+        let trace = settled(&run(&model).closed.trace);
+        let thread = worst(&model, &trace, Sensor::Thread, &trace.lead_error_um);
+        let counter = worst(&model, &trace, Sensor::Counter, &steps(&trace));
+        let counter_um = counter * model.drive.step_um;
         if !(thread < CLOSED_TOLERANCE_UM && counter_um < CLOSED_TOLERANCE_UM) {
             wrong.push(format!("{kind}: thread off by {thread} µm, counter by {counter_um} µm"));
         }
@@ -208,13 +208,13 @@ fn a_compensation_of_the_machine_file_is_stairs() {
             "initial_phase = 150",
             &format!("initial_phase = 150, compensation = \"{rate}\""),
         );
-        let mut machine = Machine::parse(&text, Path::new("machine.toml")).expect("a machine");
-        let trace = run(&machine).open.trace;
-        let recorder = worst(&machine, &trace, Sensor::Recorder, &trace.error_um);
+        let mut model = Model::parse(&text, Path::new("machine.toml")).expect("a machine");
+        let trace = run(&model).open.trace;
+        let recorder = worst(&model, &trace, Sensor::Recorder, &trace.error_um);
         assert!(recorder < OPEN_TOLERANCE_UM, "{rate}: recorder off by {recorder} µm");
-        machine.loop_closed = true;
-        let trace = settled(&run(&machine).closed.trace);
-        let thread = worst(&machine, &trace, Sensor::Thread, &trace.lead_error_um);
+        model.machine.loop_closed = true;
+        let trace = settled(&run(&model).closed.trace);
+        let thread = worst(&model, &trace, Sensor::Thread, &trace.lead_error_um);
         assert!(thread < CLOSED_TOLERANCE_UM, "{rate}: thread off by {thread} µm");
     }
 }

@@ -11,7 +11,7 @@ fn the_ring_clears_itself_and_the_counter_is_told() {
     // Faster than the example, so that the test is short.
     let file = MachineFile::read(path).unwrap();
     let file = file.with_setting("spindle.speed", "\"15 rpm\"").unwrap();
-    let faults = flip_everything(&file.machine, 1, &|| {}).unwrap();
+    let faults = flip_everything(&file.model, 1, &|| {}).unwrap();
     assert_eq!(faults.outcomes.len(), flip_flops());
     let of = |prefix: &str| -> Vec<&Outcome> {
         faults.outcomes.iter().filter(|flip| flip.flip_flop.starts_with(prefix)).collect()

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use helixlock_plant::Machine;
+use helixlock_plant::Model;
 use helixlock_traces::capture::capture_edges;
 use helixlock_traces::csv::read_csv;
 use helixlock_traces::parquet::read_parquet;
@@ -51,6 +51,6 @@ fn dumps() {
 fn machine_files() {
     answers_all("machine_file", |path, bytes| {
         let text = String::from_utf8_lossy(&bytes);
-        Machine::parse(&text, path).map(drop).map_err(|error| error.to_string())
+        Model::parse(&text, path).map(drop).map_err(|error| error.to_string())
     });
 }

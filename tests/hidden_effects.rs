@@ -7,21 +7,21 @@ use helixlock_lab::compare::compare;
 use helixlock_lab::diagnosis::{Diagnosis, Verdict, diagnose};
 use helixlock_lab::measurement::{Measurement, Nominal};
 use helixlock_lab::problem::Problem;
-use helixlock_plant::{Machine, MachineFile};
+use helixlock_plant::{MachineFile, Model};
 use helixlock_traces::{Column, Table, read_table};
 
 fn example(file: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("examples").join(file)
 }
 
-fn problem(machine: &Machine, table: &Table) -> Problem {
+fn problem(machine: &Model, table: &Table) -> Problem {
     let measurement =
-        Measurement::from_table(table, &Nominal::from(machine)).expect("a measurement");
+        Measurement::from_table(table, &Nominal::of(machine)).expect("a measurement");
     Problem::new(machine, &measurement).expect("all columns are there")
 }
 
-fn of_example(folder: &str) -> (Machine, Table) {
-    let machine = Machine::read(&example(&format!("{folder}/machine.toml"))).expect("a machine");
+fn of_example(folder: &str) -> (Model, Table) {
+    let machine = Model::read(&example(&format!("{folder}/machine.toml"))).expect("a machine");
     let table = read_table(&example(&format!("{folder}/data.csv"))).expect("a table");
     (machine, table)
 }
@@ -54,7 +54,7 @@ fn examples_tell_their_stories() {
 #[test]
 fn worm_periods_come_out_of_real_logs_untold() {
     let folder = "real-worm-drive";
-    let machine = Machine::read(&example(&format!("{folder}/machine.toml"))).expect("a machine");
+    let machine = Model::read(&example(&format!("{folder}/machine.toml"))).expect("a machine");
     for (log, period_s) in [
         ("dataset01", 481.0),
         ("performance_dataset03", 382.95),
@@ -77,7 +77,7 @@ fn challenges_are_named_rightly_or_not_at_all() {
     let mut right = 0;
     for seed in 9000..9006 {
         let task = challenge(seed).expect("a recipe that fits");
-        let diagnosis = diagnose(&problem(&task.machine.machine, &task.table));
+        let diagnosis = diagnose(&problem(&task.machine.model, &task.table));
         let names: Vec<String> = names(&diagnosis).into_iter().map(str::to_owned).collect();
         let outcome = judge(&task.hidden, diagnosis.verdict, &names);
         assert_ne!(outcome, Outcome::FalselyNamed, "seed {seed}: {:?}, not {names:?}", task.hidden);
@@ -106,7 +106,7 @@ fn neither_units_nor_the_order_of_passes_change_the_verdict() {
         for column in scaled.columns.iter_mut().filter(|column| column.name == "error_um") {
             column.values.iter_mut().for_each(|value| *value *= factor);
         }
-        let diagnosis = diagnose(&problem(&bare.machine, &scaled));
+        let diagnosis = diagnose(&problem(&bare.model, &scaled));
         names(&diagnosis).iter().map(ToString::to_string).collect::<Vec<_>>()
     };
     assert_eq!(verdict(1.0), verdict(2.0));

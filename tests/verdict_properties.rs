@@ -8,7 +8,7 @@ use helixlock_lab::diagnosis::{Verdict, diagnose};
 use helixlock_lab::measurement::{Measurement, Nominal};
 use helixlock_lab::problem::Problem;
 use helixlock_plant::prediction::{Sensor, predict};
-use helixlock_plant::{Machine, Record, Samples};
+use helixlock_plant::{Model, Record, Samples};
 use helixlock_traces::{Column, Table};
 use proptest::prelude::*;
 use rand::seq::SliceRandom;
@@ -88,7 +88,7 @@ fn scene() -> impl Strategy<Value = Scene> {
 }
 
 impl Scene {
-    fn machine(&self, with: &str) -> Machine {
+    fn machine(&self, with: &str) -> Model {
         let (lead, a, b) = LEADS[self.lead];
         let Self { screw_mm, gear, .. } = self;
         let text = format!(
@@ -118,11 +118,11 @@ step = "0.0125 um"
 frequency = "160 Hz"
 {with}"#
         );
-        Machine::parse(&text, Path::new("machine.toml")).expect("a machine")
+        Model::parse(&text, Path::new("machine.toml")).expect("a machine")
     }
 
     /// The machine as its file has it.
-    fn known(&self) -> Machine {
+    fn known(&self) -> Model {
         self.machine("")
     }
 
@@ -198,9 +198,9 @@ fn noise(chance: &mut ChaCha8Rng, rows: usize, kept: f64) -> Vec<f64> {
 }
 
 /// Verdict and names, sorted.
-fn answer(machine: &Machine, table: &Table) -> (Verdict, Vec<String>) {
+fn answer(machine: &Model, table: &Table) -> (Verdict, Vec<String>) {
     let measurement =
-        Measurement::from_table(table, &Nominal::from(machine)).expect("a measurement");
+        Measurement::from_table(table, &Nominal::of(machine)).expect("a measurement");
     let diagnosis = diagnose(&Problem::new(machine, &measurement).expect("all columns are there"));
     let effects = &diagnosis.rounds.last().expect("there is always a round 0").effects;
     let mut names: Vec<String> = effects.iter().map(|effect| effect.name.clone()).collect();

@@ -98,10 +98,10 @@ fn grind(clock_mhz: u32, length_mm: u32) -> anyhow::Result<ClosedLoopRun> {
         .with_setting("spindle.speed", "\"15 rpm\"")?
         .with_setting("fpga.clock", &format!("\"{clock_mhz} MHz\""))?
         .with_setting("workpiece.length", &format!("\"{length_mm} mm\""))?;
-    let half = Course::new(&file.machine, &Options::default())?.clocks() / 2;
+    let half = Course::new(&file.model, &Options::default())?.clocks() / 2;
     let begin = processor_seconds()?;
     let mut turned = begin;
-    let run = simulate(&file.machine, &Options::default(), &mut |clocks| {
+    let run = simulate(&file.model, &Options::default(), &mut |clocks| {
         if clocks <= half {
             turned = processor_seconds().unwrap_or(f64::NAN);
         }

@@ -54,7 +54,7 @@ impl Add {
         };
         let term = self.term(&file)?;
         let (base, beside) = if self.refit { stripped(&file)? } else { (file, Vec::new()) };
-        let problem = measured::problem(&base.machine, data, &self.signals)?;
+        let problem = measured::problem(&base.model, data, &self.signals)?;
         let added = add(&problem, &beside, &term)
             .with_context(|| format!("{}: {} cannot be fitted", data.display(), term.name))?;
         let Some(added) = added else {
@@ -108,7 +108,7 @@ impl Add {
 
 /// The machine file without its effects, and those effects.
 fn stripped(file: &MachineFile) -> anyhow::Result<(MachineFile, Vec<Term>)> {
-    let terms = file.machine.effects.clone();
+    let terms = file.model.effects.clone();
     let mut bare = file.clone();
     for _ in &terms {
         bare = bare.without_effect(0)?;

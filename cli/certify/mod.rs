@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use helixlock_plant::Machine;
+use helixlock_plant::Model;
 use helixlock_sim::{Certificate, Course, FLIP_FLOP, FlipFlop, Options, certify, mtbf_log10_years};
 
 use crate::shared::progress;
@@ -48,7 +48,7 @@ fn positive_ns(word: &str) -> Result<f64, String> {
 impl Certify {
     /// Runs the pass through both and prints what differs.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
-        let machine = Machine::read(&self.machine)?;
+        let machine = Model::read(&self.machine)?;
         let options = Options { length_mm: self.length, ..Options::default() };
         let bar = progress::bar(Course::new(&machine, &options)?.clocks(), "clocks");
         let certificate = certify(&machine, self.length, &mut |clocks| bar.set_position(clocks))?;

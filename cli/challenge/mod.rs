@@ -91,9 +91,9 @@ fn score(seed: u64, number: u64) -> anyhow::Result<Score> {
     let mut score = Score::default();
     for seed in seed..seed + number {
         let task = challenge(seed)?;
-        let nominal = Nominal::from(&task.machine.machine);
+        let nominal = Nominal::of(&task.machine.model);
         let measurement = Measurement::from_table(&task.table, &nominal)?;
-        let diagnosis = diagnose(&Problem::new(&task.machine.machine, &measurement)?);
+        let diagnosis = diagnose(&Problem::new(&task.machine.model, &measurement)?);
         score.add(seed, &task, &diagnosis);
         bar.inc(1);
     }

@@ -36,8 +36,8 @@ pub(crate) fn page(problem: &Problem, comparison: &Comparison) -> Page {
                 sensor.spectrum.iter().copied(),
             )],
         );
-        spectrum.labels = spectrum::labels(&comparison.lines, index, problem.machine.rotary);
-        spectrum.x = spectrum::axis(problem.machine.rotary);
+        spectrum.labels = spectrum::labels(&comparison.lines, index, problem.model.rotary);
+        spectrum.x = spectrum::axis(problem.model.rotary);
         let svg = Figure { width_px: 900, panels: vec![residual, spectrum] }.svg();
         parts.push(Part::Picture {
             svg,
@@ -51,7 +51,7 @@ pub(crate) fn page(problem: &Problem, comparison: &Comparison) -> Page {
     parts.extend(problem.measurement.notes.iter().cloned().map(Part::Text));
     let says = if comparison.noise_only { "noise" } else { "more than noise" };
     Page {
-        title: format!("{}: model against measurement", problem.machine.title),
+        title: format!("{}: model against measurement", problem.model.title),
         summary: format!(
             "What the model leaves is {says} (chance of noise alone: {}).",
             chance(comparison.noise_p_value)

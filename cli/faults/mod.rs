@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 use comfy_table::{Cell, CellAlignment, Table};
-use helixlock_plant::Machine;
+use helixlock_plant::Model;
 use helixlock_sim::faults::{Faults, Outcome, Verdict, flip_everything, flip_flops};
 use serde_json::{Value, json};
 
@@ -37,7 +37,7 @@ pub(crate) struct FaultsCommand {
 impl FaultsCommand {
     /// Runs the campaign, writes and prints it.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
-        let machine = Machine::read(&self.machine)?;
+        let machine = Model::read(&self.machine)?;
         let bar = progress::bar(flip_flops() as u64 * u64::from(self.instants), "flips");
         let faults = flip_everything(&machine, self.instants, &|| bar.inc(1))?;
         bar.finish_and_clear();

@@ -11,7 +11,7 @@ use anyhow::bail;
 use clap::Args;
 use helixlock_gen::{Board, Project, Synthesis, project, synthesise};
 use helixlock_netlist::{Library, Netlist, elaborate};
-use helixlock_plant::Machine;
+use helixlock_plant::{Machine, Model};
 use helixlock_rtl::BLOCKS;
 use helixlock_rtl::board_shell::BoardShell;
 use helixlock_sim::settings_for;
@@ -49,7 +49,7 @@ pub(crate) struct Gen {
 impl Gen {
     /// Writes the project, builds it if asked to, and prints what it is.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
-        let mut machine = Machine::read(&self.machine)?;
+        let mut machine = Model::read(&self.machine)?.machine;
         let board = self.board_for(&machine)?;
         let file_clock_hz = machine.fpga.clock_hz;
         machine.fpga.clock_hz = 1e6 * f64::from(board.clock_mhz);

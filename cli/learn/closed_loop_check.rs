@@ -5,7 +5,7 @@ use std::io::Write;
 use helixlock_lab::final_check::{FinalCheck, final_check};
 use helixlock_lab::measurement::sensor_column;
 use helixlock_lab::problem::Problem;
-use helixlock_plant::Machine;
+use helixlock_plant::Model;
 use serde_json::{Value, json};
 
 /// What became of the check.
@@ -20,7 +20,7 @@ pub(crate) enum Checked {
 
 impl Checked {
     /// Runs both machines where the loop is closed.
-    pub(crate) fn run(problem: &Problem, file: &Machine, learned: &Machine) -> Self {
+    pub(crate) fn run(problem: &Problem, file: &Model, learned: &Model) -> Self {
         if !file.loop_closed || file.rotary {
             return Self::NotAsked;
         }

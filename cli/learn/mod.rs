@@ -69,7 +69,7 @@ impl Learn {
         out: &mut impl Write,
     ) -> anyhow::Result<ExitCode> {
         let file = MachineFile::read(machine)?;
-        let mut problem = measured::problem(&file.machine, data, &self.signals)?;
+        let mut problem = measured::problem(&file.model, data, &self.signals)?;
         if let Some(custom) = &self.custom {
             problem.extra = own_effects(&file, custom)?;
         }
@@ -78,10 +78,10 @@ impl Learn {
         let bytes = std::fs::read(data).with_context(|| format!("{}", data.display()))?;
         let book = ledger(&file, &diagnosis, &bytes)?;
         if let Some(folder) = folder {
-            let page = page::page(&file.machine.title, &problem, &diagnosis, &check);
+            let page = page::page(&file.model.title, &problem, &diagnosis, &check);
             let mut value = diagnosis_json::ledger(&book, &diagnosis, data);
             value["final_check"] = check.json();
-            value["title"] = Value::from(file.machine.title.as_str());
+            value["title"] = Value::from(file.model.title.as_str());
             value["unit"] = Value::from(problem.measurement.unit_word());
             write_folder(folder, &book, &value, &page)?;
         }
@@ -117,7 +117,7 @@ fn checked(
         Some(last) => written(file, &last.effects)?,
         None => file.clone(),
     };
-    Ok(Checked::run(problem, &file.machine, &learned.machine))
+    Ok(Checked::run(problem, &file.model, &learned.model))
 }
 
 /// Goes back to the machine file before the last round that still stands.

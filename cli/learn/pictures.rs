@@ -124,7 +124,7 @@ fn spectra(problem: &Problem, diagnosis: &Diagnosis, sensor: usize) -> Panel {
     let mut panel =
         panel("Order spectrum of the residual", "cycles a spindle turn".into(), &unit, series);
     let bare = State::bare(problem);
-    let rotary = problem.machine.rotary;
+    let rotary = problem.model.rotary;
     panel.labels = spectrum::labels(&lines(problem, &bare.columns, &bare.fit), sensor, rotary);
     panel.x = spectrum::axis(rotary);
     panel

@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::{anyhow, bail};
 use clap::Args;
 use helixlock_lab::pulse_trains::{PulseTrains, Steps};
-use helixlock_plant::Machine;
+use helixlock_plant::Model;
 use helixlock_traces::{Capture, CapturedSignal, read_capture};
 
 /// Signals of a captured value change dump; without them they are found by their names.
@@ -43,7 +43,7 @@ impl Signals {
     }
 
     /// Reads the trains of a dump.
-    pub(crate) fn read(&self, machine: &Machine, path: &Path) -> anyhow::Result<PulseTrains> {
+    pub(crate) fn read(&self, machine: &Model, path: &Path) -> anyhow::Result<PulseTrains> {
         if machine.rotary {
             bail!(
                 "{}: found a value change dump, expected a table for a rotary chain\nhint: `helixlock transmission` makes one of two captured encoders",
@@ -66,7 +66,7 @@ impl Signals {
     fn references<'a>(
         &self,
         capture: &'a Capture,
-        machine: &Machine,
+        machine: &Model,
     ) -> anyhow::Result<(&'a CapturedSignal, &'a CapturedSignal)> {
         let grating = chosen(capture, self.grating.as_deref(), &GRATING)?;
         let laser = chosen(capture, self.laser.as_deref(), &LASER)?;
@@ -152,7 +152,7 @@ fn chosen<'a>(
 fn by_rate<'a>(
     one: &'a CapturedSignal,
     two: &'a CapturedSignal,
-    machine: &Machine,
+    machine: &Model,
 ) -> Option<(&'a CapturedSignal, &'a CapturedSignal)> {
     /// Rates may be off by this much, either way.
     const NEAR: f64 = 1.05;

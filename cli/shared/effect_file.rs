@@ -7,9 +7,9 @@ use helixlock_plant::{CATALOGUE, MachineFile, Term};
 
 /// Effects of a user's own file, read as part of the machine.
 pub(crate) fn own_effects(file: &MachineFile, path: &Path) -> anyhow::Result<Vec<Term>> {
-    let before = file.machine.effects.len();
+    let before = file.model.effects.len();
     let whole = file.with_text(&effect_text(path)?, path)?;
-    let own = whole.machine.effects[before..].to_vec();
+    let own = whole.model.effects[before..].to_vec();
     if own.is_empty() {
         bail!("{}: found no effect, expected a table `[[effect]]`", path.display());
     }

@@ -6,7 +6,7 @@ use anyhow::{Context, bail};
 use clap::Args;
 use helixlock_lab::measurement::{Measurement, Nominal};
 use helixlock_lab::problem::Problem;
-use helixlock_plant::{Machine, MachineFile};
+use helixlock_plant::{MachineFile, Model};
 use helixlock_traces::read_table;
 
 use super::captured::{Signals, is_dump};
@@ -27,33 +27,29 @@ impl Files {
     /// Reads both and lays the data out against the machine.
     pub(crate) fn read(&self) -> anyhow::Result<(MachineFile, Problem)> {
         let file = MachineFile::read(&self.machine)?;
-        let problem = problem(&file.machine, &self.data, &self.signals)?;
+        let problem = problem(&file.model, &self.data, &self.signals)?;
         Ok((file, problem))
     }
 }
 
 /// Reads measured data and lays them out against a machine.
-pub(crate) fn problem(
-    machine: &Machine,
-    data: &Path,
-    signals: &Signals,
-) -> anyhow::Result<Problem> {
+pub(crate) fn problem(machine: &Model, data: &Path, signals: &Signals) -> anyhow::Result<Problem> {
     let measurement = if is_dump(data)? {
         captured(machine, data, signals)?
     } else if signals.named() {
         bail!("{}: found a table, expected a VCD capture with the named signals", data.display());
     } else {
         let table = read_table(data)?;
-        Measurement::from_table(&table, &Nominal::from(machine))?
+        Measurement::from_table(&table, &Nominal::of(machine))?
     };
     Problem::new(machine, &measurement)
         .with_context(|| format!("{}: does not carry the machine's effects", data.display()))
 }
 
 /// The samples of a capture.
-fn captured(machine: &Machine, data: &Path, signals: &Signals) -> anyhow::Result<Measurement> {
+fn captured(machine: &Model, data: &Path, signals: &Signals) -> anyhow::Result<Measurement> {
     let (table, notes) = signals.read(machine, data)?.table(machine)?;
-    let mut measurement = Measurement::from_table(&table, &Nominal::from(machine))?;
+    let mut measurement = Measurement::from_table(&table, &Nominal::of(machine))?;
     measurement.notes.splice(0..0, notes);
     Ok(measurement)
 }

@@ -18,7 +18,7 @@ pub(crate) fn panel(title: &str, x: String, y: &str, series: Vec<Series>) -> Pan
 
 /// What residuals are drawn over: travel, or time for a rotary chain.
 pub(crate) fn x_axis(problem: &Problem) -> String {
-    if problem.machine.rotary { "time in s".into() } else { "position in mm".into() }
+    if problem.model.rotary { "time in s".into() } else { "position in mm".into() }
 }
 
 /// Values of one sensor about the zero of each pass, the passes apart.
@@ -30,7 +30,7 @@ pub(crate) fn points(problem: &Problem, sensor: usize, values: &[f64]) -> Vec<[f
         let mean = part.iter().sum::<f64>() / part.len().max(1) as f64;
         for row in block.rows.clone() {
             let sample = problem.rows[row].sample;
-            let x = if problem.machine.rotary {
+            let x = if problem.model.rotary {
                 problem.record.time_s[sample]
             } else {
                 problem.record.position_mm[sample]

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use helixlock_plant::Machine;
+use helixlock_plant::{Machine, Model};
 use helixlock_sim::{Course, Error, Options, Simulation, simulate, write_vcd};
 use helixlock_traces::csv::write_csv;
 
@@ -50,7 +50,7 @@ pub(crate) struct Sim {
 impl Sim {
     /// Simulates, writes, and prints the summary.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
-        let machine = Machine::read(&self.machine)?;
+        let machine = Model::read(&self.machine)?;
         let options = Options {
             length_mm: self.length,
             scopes: self.scopes.clone(),

@@ -14,7 +14,7 @@ use helixlock_metrology::transmission::{
     Gearing, Method, OrderSpectrum, Peak, Pulses, Reading, Setup, Shaft, error_against, measure,
     order_spectrum, peaks,
 };
-use helixlock_plant::Machine;
+use helixlock_plant::Model;
 use helixlock_traces::csv::RowWriter;
 
 use self::pulses::{Names, read_pulses};
@@ -234,7 +234,7 @@ impl TransmissionCommand {
     fn named_shafts(&self) -> anyhow::Result<Vec<Shaft>> {
         let mut shafts = self.shafts.clone();
         if let Some(path) = &self.machine {
-            let gears = Machine::read(path)?.gear_orders().into_iter();
+            let gears = Model::read(path)?.gear_orders().into_iter();
             shafts.extend(gears.map(|(name, order)| Shaft { name, order }));
         }
         Ok(shafts)

@@ -3,11 +3,11 @@
 
 use std::path::Path;
 
-use helixlock_plant::Machine;
+use helixlock_plant::Model;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {
-    if let Err(error) = Machine::parse(text, Path::new("machine.toml")) {
+    if let Err(error) = Model::parse(text, Path::new("machine.toml")) {
         assert!(error.to_string().contains("machine.toml"), "{error}");
     }
 });

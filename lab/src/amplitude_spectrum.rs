@@ -53,7 +53,7 @@ pub fn amplitude_spectrum(problem: &Problem, left: &[f64], sensor: usize) -> Vec
 mod tests {
     use std::path::Path;
 
-    use helixlock_plant::Machine;
+    use helixlock_plant::Model;
     use helixlock_traces::{Column, Table};
 
     use super::*;
@@ -65,7 +65,7 @@ mod tests {
         let text = "workpiece.lead = '6 mm'\nspindle.speed = '6 rpm'\ngrating.lines = 13906\n\
                     laser.wavelength = '0.6 um'\ndividers = { a = 110, b = 150 }\n\
                     drive = { step = '0.0125 um', frequency = '100 Hz' }\n";
-        let machine = Machine::parse(text, Path::new("machine.toml")).expect("a machine");
+        let machine = Model::parse(text, Path::new("machine.toml")).expect("a machine");
         let rows: Vec<f64> = (0..2000).map(count).collect();
         let position_mm: Vec<f64> =
             rows.iter().map(|i| (i % 1000.0) * 0.4 + 0.1 * libm::sin(i * i)).collect();
@@ -77,7 +77,7 @@ mod tests {
         ];
         let column = |(name, values): (&str, Vec<f64>)| Column { name: name.into(), values };
         let table = Table::new(columns.into_iter().map(column).collect());
-        let measurement = Measurement::from_table(&table, &Nominal::from(&machine)).expect("data");
+        let measurement = Measurement::from_table(&table, &Nominal::of(&machine)).expect("data");
         let problem = Problem::new(&machine, &measurement).expect("a problem");
         let spectrum = amplitude_spectrum(&problem, &problem.observed, 0);
         let highest = spectrum.iter().max_by(|a, b| a[1].total_cmp(&b[1])).expect("points");

@@ -60,8 +60,8 @@ fn with_overtones(mut candidate: Candidate, problem: &Problem, found: &[Componen
     if candidate.term.kind() != "gear-error" {
         return candidate;
     }
-    let orders = gear_orders(&problem.machine);
-    let known = problem.machine.effects.iter().chain(found.iter().map(|one| &one.term));
+    let orders = gear_orders(&problem.model);
+    let known = problem.model.effects.iter().chain(found.iter().map(|one| &one.term));
     let known = known.filter(|term| term.kind() == "gear-error").flat_map(Term::nonlinear);
     let overtones = known
         .filter(|order| orders.contains(order))
@@ -74,7 +74,7 @@ fn with_overtones(mut candidate: Candidate, problem: &Problem, found: &[Componen
 
 /// Parameters in µm are in seconds of arc on a rotary chain.
 fn in_unit_of(problem: &Problem, mut term: Term) -> Term {
-    for what in term.parameters.iter_mut().filter(|_| problem.machine.rotary) {
+    for what in term.parameters.iter_mut().filter(|_| problem.model.rotary) {
         what.unit = what.unit.on_rotary_chain();
     }
     term
@@ -140,7 +140,7 @@ impl Candidate {
 
 /// True when the corrector takes steps: in a closed loop, or by hand and logged.
 fn corrector_moves(problem: &Problem) -> bool {
-    problem.machine.loop_closed || problem.measurement.covariates.contains_key("steps")
+    problem.model.loop_closed || problem.measurement.covariates.contains_key("steps")
 }
 
 /// True when the covariates an effect needs are logged and not constant.
@@ -158,7 +158,7 @@ fn axis(stage: &Stage<'_>, parameter: &Parameter) -> Vec<f64> {
         Search::Whole => whole(low, high),
         Search::Position => inside(&record.position_mm, PLACES),
         Search::Time => evenly_among(&between_samples(&record.time_s), INSTANTS),
-        Search::GearOrder => gear_orders(&stage.problem.machine),
+        Search::GearOrder => gear_orders(&stage.problem.model),
         Search::Fixed => vec![parameter.default.unwrap_or(low)],
     }
 }

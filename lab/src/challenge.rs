@@ -5,7 +5,7 @@ mod recipe;
 mod scene;
 
 use helixlock_plant::{
-    EffectError, Machine, MachineError, MachineFile, Parameter, Record, Role, Term,
+    EffectError, Machine, MachineError, MachineFile, Model, Parameter, Record, Role, Term,
 };
 use helixlock_traces::{Column, Table};
 use rand::{RngExt, SeedableRng};
@@ -65,7 +65,7 @@ pub fn challenge(seed: u64) -> Result<Challenge, ChallengeError> {
     let recipe = &RECIPES[chance.random_range(0..RECIPES.len())];
     let kind = chance.random_range(0..10);
     let machine = scene::machine(&mut chance)?;
-    let record = scene::record(&machine.machine, recipe, &mut chance);
+    let record = scene::record(&machine.model, recipe, &mut chance);
     let noise_um = 0.05;
     let mut terms = Vec::new();
     let mut hidden = Hidden::Nothing;
@@ -80,25 +80,19 @@ pub fn challenge(seed: u64) -> Result<Challenge, ChallengeError> {
             hidden = Hidden::Outside(name);
         }
         _ => {
-            terms.push(hidden_term(&machine.machine, &record, recipe, noise_um, &mut chance)?);
+            terms.push(hidden_term(&machine.model, &record, recipe, noise_um, &mut chance)?);
             if kind < 6 {
                 let gear = &RECIPES[recipe::COMPANION];
                 if recipe.kind != gear.kind {
-                    terms.push(hidden_term(
-                        &machine.machine,
-                        &record,
-                        gear,
-                        noise_um,
-                        &mut chance,
-                    )?);
+                    terms.push(hidden_term(&machine.model, &record, gear, noise_um, &mut chance)?);
                 }
             }
             hidden = Hidden::Effects(terms.iter().map(|term| term.name.clone()).collect());
         }
     }
-    let truth = Machine { effects: terms.clone(), ..machine.machine.clone() };
+    let truth = Model { effects: terms.clone(), ..machine.model.clone() };
     let (table, hidden_um) =
-        scene::measured(&machine.machine, &truth, &record, recipe, &extra, noise_um, &mut chance)?;
+        scene::measured(&machine.model, &truth, &record, recipe, &extra, noise_um, &mut chance)?;
     Ok(Challenge { machine, table, hidden, terms, noise_um, hidden_um })
 }
 

@@ -100,9 +100,9 @@ fn pair_advice(problem: &Problem, a: &Term, b: &Term) -> Vec<Advice> {
 
 /// How far apart two fitted effects are on samples as an experiment would give them.
 fn separation(problem: &Problem, changed: &Measurement, a: &Term, b: &Term) -> Option<f64> {
-    let both = Problem::new(&problem.machine, changed).ok()?;
+    let both = Problem::new(&problem.model, changed).ok()?;
     let pattern = |term: &Term| {
-        let effect = term.effect(&both.machine, &both.record.columns).ok()?;
+        let effect = term.effect(&both.model, &both.record.columns).ok()?;
         Some(both.column(term.entry, &helixlock_plant::Effect::deltas_um(&effect, &both.record)))
     };
     let (a, b) = (pattern(a)?, pattern(b)?);

@@ -3,7 +3,7 @@
 //! A search fits closed forms, which take the loop to be perfect. The run has the loop's hunting,
 //! lag and slew in it, and shows whether the learned effects do in the machine what the fit says.
 
-use helixlock_plant::Machine;
+use helixlock_plant::Model;
 use helixlock_plant::prediction::Sensor;
 use helixlock_sim::{Error, Options, Simulation, Trace, simulate};
 
@@ -52,8 +52,8 @@ pub struct FinalCheck {
 /// [`Error`] when the device cannot serve the machine.
 pub fn final_check(
     problem: &Problem,
-    file: &Machine,
-    learned: &Machine,
+    file: &Model,
+    learned: &Model,
 ) -> Result<Option<FinalCheck>, Error> {
     let Some(rows) = forward_pass(problem) else { return Ok(None) };
     let end_mm = problem.measurement.position_mm[rows.end - 1];
@@ -79,10 +79,11 @@ pub fn final_check(
     }))
 }
 
-fn run(machine: &Machine, end_mm: f64) -> Result<Simulation, Error> {
-    let machine = Machine { loop_closed: true, ..machine.clone() };
+fn run(model: &Model, end_mm: f64) -> Result<Simulation, Error> {
+    let mut model = model.clone();
+    model.machine.loop_closed = true;
     let options = Options { length_mm: Some(end_mm), ..Options::default() };
-    simulate(&machine, &options, &mut |_| {})
+    simulate(&model, &options, &mut |_| {})
 }
 
 /// Samples of the first pass whose travel never falls.
@@ -103,7 +104,7 @@ fn forward_pass(problem: &Problem) -> Option<std::ops::Range<usize>> {
 fn measured(problem: &Problem) -> Vec<(Sensor, Vec<f64>)> {
     let measurement = &problem.measurement;
     if let Some(steps) = measurement.covariates.get("steps") {
-        let step_um = problem.machine.drive.step_um;
+        let step_um = problem.model.drive.step_um;
         return vec![(Sensor::Counter, steps.iter().map(|steps| steps * step_um).collect())];
     }
     measurement.observations.iter().map(|(sensor, values)| (*sensor, values.clone())).collect()

@@ -67,7 +67,7 @@ impl Finer {
 mod tests {
     use std::path::Path;
 
-    use helixlock_plant::Machine;
+    use helixlock_plant::Model;
     use helixlock_traces::{Column, Table};
 
     use crate::measurement::{Measurement, Nominal};
@@ -101,7 +101,7 @@ width = "0.8 um"
 
     /// Two passes over 90 mm with the initial phases 0 and 3.
     fn problem() -> Problem {
-        let machine = Machine::parse(MACHINE, Path::new("machine.toml")).expect("a machine");
+        let machine = Model::parse(MACHINE, Path::new("machine.toml")).expect("a machine");
         let column = |name: &str, value: &dyn Fn(u32, u32) -> f64| {
             let samples = (0..2_u32).flat_map(|pass| (0..900_u32).map(move |row| (pass, row)));
             Column { name: name.into(), values: samples.map(|(p, r)| value(p, r)).collect() }
@@ -112,7 +112,7 @@ width = "0.8 um"
             column("initial_phase", &|pass, _| f64::from(3 * pass)),
             column("error_um", &|_, _| 0.0),
         ]);
-        let measurement = Measurement::from_table(&table, &Nominal::from(&machine));
+        let measurement = Measurement::from_table(&table, &Nominal::of(&machine));
         Problem::new(&machine, &measurement.expect("a measurement")).expect("all columns")
     }
 
@@ -135,7 +135,7 @@ width = "0.8 um"
     #[test]
     fn columns_of_an_effect_of_the_error_are_means_of_all_samples() {
         let whole = problem();
-        let dead_zone = &whole.machine.effects[1];
+        let dead_zone = &whole.model.effects[1];
         let all = whole.design(dead_zone).expect("a column").fixed.expect("it does not scale");
         let groups = whole.measurement.picks(7);
         let small = whole.averaged(groups.clone()).expect("all columns");

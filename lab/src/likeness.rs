@@ -94,7 +94,7 @@ fn slopes_like(problem: &Problem, component: &Component) -> Vec<String> {
 /// True when no sensor tells two entries apart: their gains differ by one factor.
 fn seen_alike(problem: &Problem, a: Entry, b: Entry) -> bool {
     let gains = |entry| {
-        let of = |&sensor| gain(&problem.machine, entry, sensor);
+        let of = |&sensor| gain(&problem.model, entry, sensor);
         problem.sensors.iter().map(of).collect::<Vec<f64>>()
     };
     let (a, b) = (gains(a), gains(b));
@@ -122,7 +122,7 @@ pub fn lets_motion_through(problem: &Problem, component: &Component) -> bool {
     let (true, Some(steps)) = (component.term.kind() == "corrector-lost-motion", steps) else {
         return true;
     };
-    let moved_um = spread(steps) * problem.machine.drive.step_um;
+    let moved_um = spread(steps) * problem.model.drive.step_um;
     component.term.nonlinear().iter().all(|width_um| *width_um < moved_um)
 }
 

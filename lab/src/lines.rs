@@ -126,7 +126,7 @@ fn wave(problem: &Problem, sensor: usize, turns: &[f64], order: f64) -> Columns 
 }
 
 fn named(problem: &Problem, sensor: usize, line: Line) -> NamedLine {
-    let machine = &problem.machine;
+    let machine = &problem.model;
     let mut speeds = problem.measurement.speed_rpm.clone();
     let usual = crate::noise_fit::median(&mut speeds);
     let period_s = 60.0 / (usual * line.frequency);

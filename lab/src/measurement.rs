@@ -32,8 +32,10 @@ pub struct Nominal {
     pub closed: bool,
 }
 
-impl From<&Machine> for Nominal {
-    fn from(machine: &Machine) -> Self {
+impl Nominal {
+    /// What a machine file says of it.
+    #[must_use]
+    pub fn of(machine: &Machine) -> Self {
         Self {
             lead_mm: machine.workpiece.lead.mm(),
             speed_rpm: machine.spindle.speed_rpm,

@@ -167,7 +167,7 @@ fn smooth(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
     let position = &record.position_mm;
     let mut axes =
         vec![("position", position, 6), ("position", position, 24), ("position", position, 64)];
-    if problem.machine.rotary || 1 < passes {
+    if problem.model.rotary || 1 < passes {
         axes.push(("time", &record.time_s, 6));
     }
     let mut found = Vec::new();
@@ -241,8 +241,8 @@ fn jumping(problem: &Problem, fit: &Fit) -> Option<Structure> {
 fn cyclic_shapes(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
     let turns: Vec<f64> = problem.record.turns().collect();
     let mut axes = vec![("spindle angle", 1.0)];
-    if let Some(screw) = problem.machine.lead_screw.as_ref().filter(|_| !problem.machine.rotary) {
-        axes.push(("machine screw angle", problem.machine.workpiece.lead.mm() / screw.mm()));
+    if let Some(screw) = problem.model.lead_screw.as_ref().filter(|_| !problem.model.rotary) {
+        axes.push(("machine screw angle", problem.model.workpiece.lead.mm() / screw.mm()));
     }
     let enough = |order: &f64| 2.0 < order * spread(&turns);
     axes.into_iter()

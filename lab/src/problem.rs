@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use helixlock_plant::prediction::{Sensor, gain, meter_um, observe, predict};
-use helixlock_plant::{Effect, EffectError, Entry, Machine, Record, Samples, Term};
+use helixlock_plant::{Effect, EffectError, Entry, Machine, Model, Record, Samples, Term};
 
 use crate::designs::Designs;
 use crate::finer::Finer;
@@ -25,8 +25,8 @@ pub struct Row {
 /// All sensors of a measurement stacked, with what the model predicts taken off.
 #[derive(Debug, Clone)]
 pub struct Problem {
-    /// The machine; the effects in it are part of the prediction.
-    pub machine: Machine,
+    /// The machine and its effects, which are part of the prediction.
+    pub model: Model,
     /// The samples.
     pub measurement: Measurement,
     /// The samples as the catalogue wants them.
@@ -62,8 +62,8 @@ impl Problem {
     /// # Errors
     ///
     /// [`EffectError`] when an effect of the machine needs a column the measurement lacks.
-    pub fn new(machine: &Machine, measurement: &Measurement) -> Result<Self, EffectError> {
-        Self::laid_out(machine, measurement, None)
+    pub fn new(model: &Model, measurement: &Measurement) -> Result<Self, EffectError> {
+        Self::laid_out(model, measurement, None)
     }
 
     /// The same with means of groups of neighbouring samples.
@@ -79,21 +79,21 @@ impl Problem {
             }
             _ => Finer { record: self.record.clone(), measured: None, groups },
         };
-        Self::laid_out(&self.machine, &measurement, Some(finer))
+        Self::laid_out(&self.model, &measurement, Some(finer))
     }
 
     fn laid_out(
-        machine: &Machine,
+        model: &Model,
         measurement: &Measurement,
         finer: Option<Finer>,
     ) -> Result<Self, EffectError> {
-        let record = record(machine, measurement);
+        let record = record(model, measurement);
         let sensors: Vec<Sensor> = measurement.observations.keys().copied().collect();
         let whole = finer.is_none();
         let lags = whole && sensors.contains(&Sensor::Recorder);
-        let finer = if lags { Finer::between(machine, &record) } else { finer };
+        let finer = if lags { Finer::between(model, &record) } else { finer };
         let mut problem = Self {
-            machine: as_measured(machine, measurement),
+            model: as_measured(model, measurement),
             measurement: measurement.clone(),
             record,
             finer: finer.map(Arc::new),
@@ -132,10 +132,10 @@ impl Problem {
     /// # Errors
     ///
     /// As [`Self::new`].
-    pub fn with_machine(&self, machine: &Machine) -> Result<Self, EffectError> {
+    pub fn with_model(&self, model: &Model) -> Result<Self, EffectError> {
         let designs = Designs::default();
-        let machine = as_measured(machine, &self.measurement);
-        let mut problem = Self { machine, designs, ..self.clone() };
+        let model = as_measured(model, &self.measurement);
+        let mut problem = Self { model, designs, ..self.clone() };
         problem.predict()?;
         Ok(problem)
     }
@@ -155,18 +155,18 @@ impl Problem {
     /// Design column, row by row, of an effect whose δ at every sample is given.
     #[must_use]
     pub fn column(&self, entry: Entry, deltas: &[f64]) -> Vec<f64> {
-        self.stacked(|sensor| observe(&self.machine, &self.record, entry, sensor, deltas))
+        self.stacked(|sensor| observe(&self.model, &self.record, entry, sensor, deltas))
     }
 
     /// Design column of an effect, through the recorder's filter at every comparison.
     fn column_of(&self, entry: Entry, unit: &dyn Effect) -> Vec<f64> {
         let between = self.finer.as_ref().filter(|finer| finer.measured.is_some());
-        let Some(finer) = between.filter(|_| self.machine.filter_cutoff_hz.is_some()) else {
+        let Some(finer) = between.filter(|_| self.model.filter_cutoff_hz.is_some()) else {
             return self.column(entry, &self.deltas_um(unit));
         };
         let deltas = unit.deltas_um(&finer.record);
         self.stacked(|sensor| {
-            finer.means(&observe(&self.machine, &finer.record, entry, sensor, &deltas))
+            finer.means(&observe(&self.model, &finer.record, entry, sensor, &deltas))
         })
     }
 
@@ -186,7 +186,7 @@ impl Problem {
     /// True when some sensor sees an entry.
     #[must_use]
     pub fn sees(&self, entry: Entry) -> bool {
-        self.sensors.iter().any(|&s| gain(&self.machine, entry, s) != 0.0)
+        self.sensors.iter().any(|&s| gain(&self.model, entry, s) != 0.0)
     }
 
     /// Design columns of a term at its nonlinear values, and what does not scale.
@@ -196,7 +196,7 @@ impl Problem {
     /// [`EffectError`] when a column or a section of the machine file is missing.
     pub fn design(&self, term: &Term) -> Result<Design, EffectError> {
         let context =
-            helixlock_plant::Context { machine: &self.machine, columns: &self.record.columns };
+            helixlock_plant::Context { machine: &self.model, columns: &self.record.columns };
         let basis = term.basis(&context)?;
         let column = |unit: &dyn Effect| self.column_of(term.entry, unit);
         let columns = basis.columns.iter().map(|unit| column(unit.as_ref())).collect();
@@ -222,7 +222,7 @@ impl Problem {
 
     /// µm a unit of a sensor's prediction: the counter counts steps.
     fn unit(&self, sensor: Sensor) -> f64 {
-        if sensor == Sensor::Counter { self.machine.drive.step_um } else { 1.0 }
+        if sensor == Sensor::Counter { self.model.drive.step_um } else { 1.0 }
     }
 
     fn stack_rows(&mut self) {
@@ -250,7 +250,7 @@ impl Problem {
     /// Where the compensator began to count is not in the file: at the first sample of each pass,
     /// or at travel zero before it, whichever leaves the smaller steps between neighbours.
     fn find_start(&mut self) -> Result<(), EffectError> {
-        if self.machine.rotary || self.machine.dividers.compensation_cycle().is_none() {
+        if self.model.rotary || self.model.dividers.compensation_cycle().is_none() {
             return Ok(());
         }
         let mut other = Self { record: self.record.begun_at_zero(), ..self.clone() };
@@ -276,22 +276,21 @@ impl Problem {
         // Effects that depend on the error get the predicted one: what was measured carries the
         // noise, and a column made of the noise explains it.
         let effects = self
-            .machine
+            .model
             .effects
             .iter()
-            .map(|term| Ok((term.entry, term.effect(&self.machine, &self.record.columns)?)))
+            .map(|term| Ok((term.entry, term.effect(&self.model, &self.record.columns)?)))
             .collect::<Result<Vec<_>, EffectError>>()?;
-        self.record.error_um = meter_um(&self.machine, &self.record, &effects);
+        self.record.error_um = meter_um(&self.model, &self.record, &effects);
         if let Some(finer) = self.finer.as_mut().map(Arc::make_mut) {
-            finer.record.error_um = meter_um(&self.machine, &finer.record, &effects);
+            finer.record.error_um = meter_um(&self.model, &finer.record, &effects);
         }
         let shown = match &self.finer {
-            None => predict(&self.machine, &self.record)?,
-            Some(finer) => finer.mean_of(&predict(&self.machine, &finer.record)?),
+            None => predict(&self.model, &self.record)?,
+            Some(finer) => finer.mean_of(&predict(&self.model, &finer.record)?),
         };
         for (slot, row) in self.predicted.iter_mut().zip(&self.rows) {
-            let factor =
-                if row.sensor == Sensor::Counter { self.machine.drive.step_um } else { 1.0 };
+            let factor = if row.sensor == Sensor::Counter { self.model.drive.step_um } else { 1.0 };
             *slot = factor * shown.of(row.sensor)[row.sample];
         }
         Ok(())
@@ -300,9 +299,11 @@ impl Problem {
 
 /// The machine as the samples show it: where the steps are known, a closed loop is an open one
 /// whose motor was turned by hand, and its hunting is no part of the error.
-fn as_measured(machine: &Machine, measurement: &Measurement) -> Machine {
+fn as_measured(model: &Model, measurement: &Measurement) -> Model {
     let known = measurement.covariates.contains_key("steps");
-    Machine { loop_closed: machine.loop_closed && !known, ..machine.clone() }
+    let mut shown = model.clone();
+    shown.machine.loop_closed &= !known;
+    shown
 }
 
 /// Most samples, with those in between, that a search on means works out its columns for.
@@ -315,7 +316,7 @@ const SWINGS: f64 = 6.0;
 /// What the motor moves from one comparison to the next, at the slowest speed of the samples; less
 /// where neighbours differ too little for it.
 fn hunting_um(problem: &Problem, residual: &[f64]) -> f64 {
-    let machine = &problem.machine;
+    let machine = &problem.model;
     if !machine.loop_closed || machine.rotary {
         return 0.0;
     }

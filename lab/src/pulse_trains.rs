@@ -12,7 +12,7 @@
 
 use std::path::PathBuf;
 
-use helixlock_plant::{LowPass, Machine};
+use helixlock_plant::{LowPass, Machine, Model};
 use helixlock_traces::{Column, Table};
 
 use crate::count;
@@ -70,7 +70,7 @@ impl PulseTrains {
     /// # Errors
     ///
     /// Fewer than four pulses in a train, or trains whose ratio is not that of the machine.
-    pub fn table(&self, machine: &Machine) -> Result<(Table, Vec<String>), LabError> {
+    pub fn table(&self, machine: &Model) -> Result<(Table, Vec<String>), LabError> {
         for (train, pulses) in [("grating", &self.grating_s), ("laser", &self.laser_s)] {
             if pulses.len() < FEWEST {
                 let path = self.path.display().to_string();
@@ -212,7 +212,7 @@ fn blocked(machine: &Machine, tap: Tap, passed: f64) -> f64 {
 }
 
 /// What the recorder would have drawn of raw errors.
-fn recorded(machine: &Machine, instants: &[f64], raw_um: Vec<f64>) -> Vec<f64> {
+fn recorded(machine: &Model, instants: &[f64], raw_um: Vec<f64>) -> Vec<f64> {
     let filters = machine.filter_cutoff_hz.map(LowPass::with_cutoff).into_iter();
     let lags = machine.recorder_lags_s().into_iter().map(LowPass::new);
     filters.chain(lags).fold(raw_um, |values, filter| filter.pass(instants, &values))
@@ -228,13 +228,13 @@ mod tests {
     use super::*;
 
     /// The 6 mm lead of document 1, a 0.25 mm piece of it, at 0.6 mm/s.
-    fn machine(more: &str) -> Machine {
+    fn machine(more: &str) -> Model {
         let text = format!(
             "workpiece.lead = '6 mm'\nspindle.speed = '6 rpm'\ngrating.lines = 13906\n\
              laser.wavelength = '0.63281983 um'\ndrive.step = '0.0125 um'\n\
              drive.frequency = '100 Hz'\ndividers = {{ a = 110, b = 150, range = 1, {more} }}\n"
         );
-        Machine::parse(&text, Path::new("machine.toml")).expect("a machine")
+        Model::parse(&text, Path::new("machine.toml")).expect("a machine")
     }
 
     /// Pulses at a rate, from an instant on.
@@ -250,7 +250,7 @@ mod tests {
 
     const LINES_HZ: f64 = 1390.6;
 
-    fn error_um(trains: &PulseTrains, machine: &Machine) -> Vec<f64> {
+    fn error_um(trains: &PulseTrains, machine: &Model) -> Vec<f64> {
         let (table, _) = trains.table(machine).expect("two good trains");
         table.column("error_um").expect("it is made").to_vec()
     }

@@ -29,7 +29,7 @@ pub fn setting_trials(stage: &Stage<'_>) -> Option<Trial> {
     if !value.is_finite() || stderr <= 0.0 || value.abs() < 4.0 * stderr {
         return None;
     }
-    let all = alternatives(&problem.machine);
+    let all = alternatives(&problem.model);
     let tried = count(all.len());
     let near = |setting: &Setting| {
         let slope = slope_um_per_m(stage, setting)?;
@@ -51,7 +51,7 @@ pub fn setting_trials(stage: &Stage<'_>) -> Option<Trial> {
 /// Slope a setting leaves, from its effect one metre along.
 fn slope_um_per_m(stage: &Stage<'_>, setting: &Setting) -> Option<f64> {
     let record = &stage.problem.record;
-    let effect = setting.term.effect(&stage.problem.machine, &record.columns).ok()?;
+    let effect = setting.term.effect(&stage.problem.model, &record.columns).ok()?;
     let mut now = record.instant(0);
     let at = |now: &helixlock_plant::Instant<'_>| helixlock_plant::Effect::delta_um(&effect, now);
     now.position_mm = 0.0;

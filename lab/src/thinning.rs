@@ -82,7 +82,7 @@ impl Problem {
             lowest: 1.5 / spread(&turns).max(f64::MIN_POSITIVE),
             highest: self.highest_order,
         };
-        let orders = gear_orders(&self.machine);
+        let orders = gear_orders(&self.model);
         let looks = count(orders.len());
         let clear = |order: &f64| {
             let line = scan.line(&white, *order);

@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use helixlock_plant::Machine;
+use helixlock_plant::Model;
 use helixlock_plant::edges::Edges;
 use helixlock_plant::motion::Pass;
 
@@ -40,7 +40,7 @@ fn a_metre(c: &mut Criterion) {
     group.sample_size(10).throughput(Throughput::Elements(5_478_000));
     for (name, effects) in [("without effects", ""), ("with four effects", EFFECTS)] {
         let text = format!("{MACHINE}{effects}");
-        let machine = Machine::parse(&text, Path::new("machine.toml")).expect("a machine");
+        let machine = Model::parse(&text, Path::new("machine.toml")).expect("a machine");
         let pass = Pass::forward(&machine);
         group.bench_function(name, |b| {
             b.iter(|| Edges::new(&machine, &pass).expect("a pass").count());

@@ -3,31 +3,7 @@
 use crate::motion::surroundings;
 use crate::record::Covariate;
 use crate::term::Sum;
-use crate::{Effect, EffectError, Entry, Instant, Machine, Motion};
-
-/// Lost motion: the output follows the input once the play is taken up.
-///
-/// It starts in the middle of the play, so a motion of less than half the width moves nothing.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Play {
-    width_um: f64,
-    output_um: f64,
-}
-
-impl Play {
-    /// With a dead zone of this width, µm.
-    #[must_use]
-    pub fn new(width_um: f64) -> Self {
-        Self { width_um: width_um.abs(), output_um: 0.0 }
-    }
-
-    /// Output for an input, µm.
-    pub fn follow(&mut self, input_um: f64) -> f64 {
-        let half_um = self.width_um / 2.0;
-        self.output_um = self.output_um.clamp(input_um - half_um, input_um + half_um);
-        self.output_um
-    }
-}
+use crate::{Effect, EffectError, Entry, Instant, Model, Motion, Play};
 
 /// The corrector: step motor, lever and nut.
 #[derive(Debug)]
@@ -41,27 +17,27 @@ pub struct Actuator {
 }
 
 impl Actuator {
-    /// At rest in its middle, with the actuator effects of the machine.
+    /// At rest in its middle, with the actuator effects of the model.
     ///
     /// # Errors
     ///
     /// [`EffectError`] when an effect needs a part of the machine file that is missing.
-    pub fn new(machine: &Machine) -> Result<Self, EffectError> {
-        let (columns, covariates) = surroundings(machine);
+    pub fn new(model: &Model) -> Result<Self, EffectError> {
+        let (columns, covariates) = surroundings(model);
         let columns = crate::Columns::new(columns.present().chain(["steps"]));
         let mut actuator = Self {
-            step_um: machine.drive.step_um,
+            step_um: model.drive.step_um,
             steps: 0,
             plays: Vec::new(),
             effects: Vec::new(),
             covariates,
             corrector_um: 0.0,
         };
-        for term in machine.effects.iter().filter(|term| term.entry == Entry::Actuator) {
+        for term in model.effects.iter().filter(|term| term.entry == Entry::Actuator) {
             if term.kind() == "corrector-lost-motion" {
                 actuator.plays.extend(term.values.first().map(|width_um| Play::new(*width_um)));
             } else {
-                actuator.effects.push(term.effect(machine, &columns)?);
+                actuator.effects.push(term.effect(model, &columns)?);
             }
         }
         Ok(actuator)

@@ -11,9 +11,28 @@ use std::f64::consts::PI;
 use num_rational::Ratio;
 
 use crate::lead::{Lead, LeadUnit};
-use crate::machine::Range;
 
 pub use line_count::{LineCount, find_line_counts};
+
+/// Measuring range: how much table error turns the meter once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Range {
+    /// `B·λ/2`.
+    X1,
+    /// Twice that.
+    X2,
+}
+
+impl Range {
+    /// 1 or 2.
+    #[must_use]
+    pub fn factor(self) -> u16 {
+        match self {
+            Self::X1 => 1,
+            Self::X2 => 2,
+        }
+    }
+}
 
 /// Largest number three thumb wheels can show.
 pub const LARGEST_PRESET: u16 = 999;

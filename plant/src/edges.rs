@@ -18,7 +18,7 @@ mod channel;
 use channel::{Channel, Reading};
 
 use crate::actuator::Actuator;
-use crate::{EffectError, Machine, Motion, motion::Pass};
+use crate::{EffectError, Model, Motion, motion::Pass};
 
 /// Shortest time between two pulses of one channel, s: photo detectors of 1 MHz.
 pub const SHORTEST_S: f64 = 1e-6;
@@ -61,10 +61,10 @@ pub struct Place {
 /// # let text = "workpiece.lead = '6 mm'\nspindle.speed = '6 rpm'\ngrating.lines = 13906\n\
 /// #     laser.wavelength = '0.63281983 um'\ndividers = { a = 110, b = 150 }\n\
 /// #     drive = { step = '0.0125 um', frequency = '160 Hz' }";
-/// use helixlock_plant::{Machine, edges::{Edges, Source}, motion::Pass};
+/// use helixlock_plant::{Model, edges::{Edges, Source}, motion::Pass};
 ///
-/// let machine = Machine::parse(text, Path::new("machine.toml"))?;
-/// let mut edges = Edges::new(&machine, &Pass::forward(&machine))?;
+/// let model = Model::parse(text, Path::new("machine.toml"))?;
+/// let mut edges = Edges::new(&model, &Pass::forward(&model))?;
 /// // The fringe is shorter than the line: λ/2 = 0.316 µm against 6 mm / 13906 = 0.431 µm.
 /// let first = edges.next().expect("the pass has just begun");
 /// assert_eq!(first.source, Source::Fringe);
@@ -86,12 +86,12 @@ impl Edges {
     /// # Errors
     ///
     /// [`EffectError`] when an effect needs a section of the machine file that is missing.
-    pub fn new(machine: &Machine, pass: &Pass) -> Result<Self, EffectError> {
-        let motion = Motion::new(machine, pass)?;
-        let line_um = 1000.0 * machine.workpiece.lead.mm() / f64::from(machine.grating.lines);
-        let fringe = Channel::new(&motion, Reading::Laser, machine.fringe_um());
+    pub fn new(model: &Model, pass: &Pass) -> Result<Self, EffectError> {
+        let motion = Motion::new(model, pass)?;
+        let line_um = 1000.0 * model.workpiece.lead.mm() / f64::from(model.grating.lines);
+        let fringe = Channel::new(&motion, Reading::Laser, model.fringe_um());
         let line = Channel::new(&motion, Reading::Grating, line_um);
-        let actuator = Actuator::new(machine)?;
+        let actuator = Actuator::new(model)?;
         let mut edges = Self { motion, actuator, corrector_um: 0.0, fringe, line };
         edges.fringe.plan(&edges.motion, 0.0, 0.0);
         edges.line.plan(&edges.motion, 0.0, 0.0);

@@ -1,18 +1,7 @@
-//! The machine: what its file says, with defaults filled in.
+//! The machine: what its file says but for the effects, with defaults filled in.
 
-mod effects;
-mod parts;
-pub(crate) mod section;
-mod write;
-
-use std::path::Path;
-
-use crate::dividers::{fringes_per_mm, settable_cycle};
-use crate::error::MachineError;
+use crate::dividers::{Range, fringes_per_mm, settable_cycle};
 use crate::lead::Lead;
-use crate::term::Term;
-
-pub use write::MachineFile;
 
 /// A grinder (or a rotary chain) with its correction device, as its machine file describes it.
 ///
@@ -47,8 +36,6 @@ pub struct Machine {
     pub fpga: Fpga,
     /// What the sensors around the machine say, for runs without a log of their own.
     pub environment: Environment,
-    /// Effects that the model contains.
-    pub effects: Vec<Term>,
 }
 
 /// The screw that is ground.
@@ -117,26 +104,6 @@ pub struct Air {
     pub humidity_pct: f64,
 }
 
-/// Measuring range: how much table error turns the meter once.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Range {
-    /// `B·λ/2`.
-    X1,
-    /// Twice that.
-    X2,
-}
-
-impl Range {
-    /// 1 or 2.
-    #[must_use]
-    pub fn factor(self) -> u16 {
-        match self {
-            Self::X1 => 1,
-            Self::X2 => 2,
-        }
-    }
-}
-
 /// Thumb wheels and switches of the device.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dividers {
@@ -196,34 +163,6 @@ impl Environment {
 }
 
 impl Machine {
-    /// Reads a machine file, and the curves it names.
-    ///
-    /// # Errors
-    ///
-    /// [`MachineError`] with the place of the first thing that is wrong.
-    pub fn read(path: &Path) -> Result<Self, MachineError> {
-        MachineFile::read(path).map(|file| file.machine)
-    }
-
-    /// Reads the text of a machine file; `path` names it in messages and is where it looks for
-    /// curves.
-    ///
-    /// # Errors
-    ///
-    /// [`MachineError`] with the place of the first thing that is wrong.
-    pub fn parse(text: &str, path: &Path) -> Result<Self, MachineError> {
-        Self::parse_source(section::Source { path, text, behind: None })
-    }
-
-    fn parse_source(source: section::Source<'_>) -> Result<Self, MachineError> {
-        let document =
-            toml_edit::Document::parse(source.text).map_err(|error| MachineError::Syntax {
-                at: source.at(Some(error.span().unwrap_or_default())),
-                message: error.message().trim().replace('\n', ", ").into(),
-            })?;
-        parts::machine(&section::Section::root(source, document.as_table()))
-    }
-
     /// Fringes per mm of table travel in the reference air: `N = 2/λ`.
     #[must_use]
     pub fn fringes_per_mm(&self) -> f64 {
@@ -273,13 +212,6 @@ impl Machine {
         }
     }
 
-    /// Time constants of the recorder's own lags, s; the loop does not go through it.
-    #[must_use]
-    pub fn recorder_lags_s(&self) -> Vec<f64> {
-        let lags = self.effects.iter().filter(|term| term.kind() == "recorder-lag");
-        lags.filter_map(|term| term.values.first().copied()).collect()
-    }
-
     /// Turns of the machine's screw per mm of table travel.
     #[must_use]
     pub fn screw_turns_per_mm(&self) -> Option<f64> {
@@ -297,6 +229,3 @@ impl Machine {
         orders
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::record::{COVARIATES, Columns, Covariate};
 use crate::term::Sum;
-use crate::{Effect, EffectError, Entry, Instant, Machine};
+use crate::{Effect, EffectError, Entry, Instant, Machine, Model};
 
 /// A stretch of a pass at constant spindle speed in one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,23 +97,23 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// The motion of a machine over a pass; actuator effects are the [`crate::Actuator`]'s.
+    /// The motion of a model over a pass; actuator effects are the [`crate::Actuator`]'s.
     ///
     /// # Errors
     ///
     /// [`EffectError`] when an effect needs a section of the machine file that is missing.
-    pub fn new(machine: &Machine, pass: &Pass) -> Result<Self, EffectError> {
-        let (columns, covariates) = surroundings(machine);
+    pub fn new(model: &Model, pass: &Pass) -> Result<Self, EffectError> {
+        let (columns, covariates) = surroundings(model);
         let mut effects = Vec::new();
         let mut left_out = Vec::new();
-        for term in machine.effects.iter().filter(|term| term.entry != Entry::Actuator) {
-            match term.effect(machine, &columns) {
+        for term in model.effects.iter().filter(|term| term.entry != Entry::Actuator) {
+            match term.effect(model, &columns) {
                 Ok(effect) => effects.push((term.entry, effect)),
                 Err(EffectError::MissingColumn { .. }) => left_out.push(term.name.clone()),
                 Err(error) => return Err(error),
             }
         }
-        let lead_mm = machine.workpiece.lead.mm();
+        let lead_mm = model.workpiece.lead.mm();
         let stretches = stretches(pass, lead_mm);
         Ok(Self { stretches, effects, covariates, lead_mm, number: pass.number, left_out })
     }

@@ -15,8 +15,11 @@
 //!
 //! Each pass has its own zero: everything is counted from its first sample.
 
-use crate::compensation::{compensation_um, dialled_um_per_m};
-use crate::{Effect, EffectError, Entry, LowPass, Machine, Record, record::Covariate, term::Sum};
+use crate::compensation::compensation_um;
+use crate::rationalisation::rationalisation_um_per_m;
+use crate::{
+    Effect, EffectError, Entry, LowPass, Machine, Model, Record, record::Covariate, term::Sum,
+};
 
 /// Something that records an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -76,13 +79,14 @@ impl Prediction {
     }
 }
 
-/// Predicts all sensors for a machine with the effects of its file.
+/// Predicts all sensors for a machine with its effects.
 ///
 /// # Errors
 ///
 /// [`EffectError`] when an effect needs a column or section that is missing.
-pub fn predict(machine: &Machine, record: &Record) -> Result<Prediction, EffectError> {
-    let effects = machine
+pub fn predict(model: &Model, record: &Record) -> Result<Prediction, EffectError> {
+    let machine = &model.machine;
+    let effects = model
         .effects
         .iter()
         .map(|term| Ok((term.entry, term.effect(machine, &record.columns)?)))
@@ -167,25 +171,6 @@ pub fn implied(machine: &Machine, record: &Record, sensor: Sensor) -> Vec<f64> {
             slope * now.position_mm + reference * stairs_um + moved
         })
         .collect()
-}
-
-/// Mean slope of the recorder, µm/m, from rationalisation and compensation.
-///
-/// `M·B·λ/(2·S·A) − 1` of the travel; −0.846 µm/m for A 110, B 150 and the wavelength as printed
-/// in document 1. A compensation blocks (+) or inserts (−) one pulse in each cycle.
-#[must_use]
-pub fn implied_um_per_m(machine: &Machine) -> f64 {
-    rationalisation_um_per_m(machine) + dialled_um_per_m(&machine.dividers)
-}
-
-/// What the dividers leave of the travel, µm/m.
-fn rationalisation_um_per_m(machine: &Machine) -> f64 {
-    let dividers = &machine.dividers;
-    let fringes_per_turn =
-        f64::from(machine.grating.lines) * f64::from(dividers.b) / f64::from(dividers.a);
-    let rational_mm = fringes_per_turn * machine.fringe_um() / 1000.0;
-    let lead_mm = machine.workpiece.lead.mm();
-    (rational_mm - lead_mm) / lead_mm * 1e6
 }
 
 /// Zero of each pass, and the recorder's filter.

@@ -1,5 +1,8 @@
 //! Where and when: one instant of a run, or a whole record of samples.
 
+mod refined;
+mod samples;
+
 use std::f64::consts::TAU;
 
 use crate::Machine;
@@ -199,7 +202,7 @@ impl Record {
     /// is −1. `None` when none of time, travel, and angle is there.
     #[must_use]
     pub fn new(machine: &Machine, samples: &Samples) -> Option<Self> {
-        crate::samples::complete(machine, samples)
+        samples::complete(machine, samples)
     }
 
     /// Number of samples.

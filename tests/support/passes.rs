@@ -4,7 +4,7 @@ use std::path::Path;
 
 use helixlock_lab::measurement::{Measurement, Nominal};
 use helixlock_lab::problem::Problem;
-use helixlock_plant::Machine;
+use helixlock_plant::Model;
 use helixlock_traces::{Column, Table};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -65,9 +65,9 @@ impl Passes {
     }
 
     pub(crate) fn problem(self) -> Problem {
-        let machine = Machine::parse(MACHINE, Path::new("machine.toml")).expect("a machine");
+        let machine = Model::parse(MACHINE, Path::new("machine.toml")).expect("a machine");
         let table = Table::new(self.columns);
-        let measurement = Measurement::from_table(&table, &Nominal::from(&machine));
+        let measurement = Measurement::from_table(&table, &Nominal::of(&machine));
         Problem::new(&machine, &measurement.expect("a measurement")).expect("no effects")
     }
 }

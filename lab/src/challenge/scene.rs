@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use helixlock_plant::prediction::{Sensor, observe, predict};
-use helixlock_plant::{Entry, Machine, MachineFile, Record, Samples};
+use helixlock_plant::{Entry, Machine, MachineFile, Model, Record, Samples};
 use helixlock_traces::{Column, Table};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -148,8 +148,8 @@ fn logs(
 /// The data file of a true machine, and how large the hidden part is on its clearest sensor.
 #[expect(clippy::too_many_arguments, reason = "one caller, and each is a thing of its own")]
 pub(super) fn measured(
-    known: &Machine,
-    truth: &Machine,
+    known: &Model,
+    truth: &Model,
     record: &Record,
     recipe: &Recipe,
     extra: &[f64],

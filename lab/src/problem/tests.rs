@@ -7,26 +7,26 @@ use super::*;
 use crate::measurement::Nominal;
 
 /// 12.64 comparisons a second, 13 steps of the motor in each: a swing of 0.158 µm.
-fn machine(more: &str) -> Machine {
+fn machine(more: &str) -> Model {
     machine_with(more, "")
 }
 
-fn machine_with(dividers: &str, rest: &str) -> Machine {
+fn machine_with(dividers: &str, rest: &str) -> Model {
     let text = format!(
         "workpiece.lead = '6 mm'\nspindle.speed = '6 rpm'\ngrating.lines = 13906\n\
          laser.wavelength = '0.63281983 um'\ndividers = {{ a = 110, b = 150, {dividers} }}\n\
          drive = {{ step = '0.0125 um', frequency = '160 Hz' }}\n{rest}"
     );
-    Machine::parse(&text, Path::new("machine.toml")).expect("a machine")
+    Model::parse(&text, Path::new("machine.toml")).expect("a machine")
 }
 
-fn problem(machine: &Machine, columns: &[(&str, Vec<f64>)]) -> Problem {
+fn problem(machine: &Model, columns: &[(&str, Vec<f64>)]) -> Problem {
     let column = |(name, values): &(&str, Vec<f64>)| Column {
         name: (*name).to_owned(),
         values: values.clone(),
     };
     let table = Table::new(columns.iter().map(column).collect());
-    let measurement = Measurement::from_table(&table, &Nominal::from(machine));
+    let measurement = Measurement::from_table(&table, &Nominal::of(&machine));
     Problem::new(machine, &measurement.expect("a measurement")).expect("no columns missing")
 }
 
@@ -34,8 +34,8 @@ fn problem(machine: &Machine, columns: &[(&str, Vec<f64>)]) -> Problem {
 /// read at every second of them, stands still most of the time.
 #[test]
 fn a_counter_that_stands_still_between_readings_hunts_no_less() {
-    let mut machine = machine("");
-    machine.loop_closed = true;
+    let mut model = machine("");
+    model.machine.loop_closed = true;
     let comparisons: Vec<f64> = (0..6000).map(|row| f64::from(row) / 12.64).collect();
     let mut net = 0.0;
     let all = comparisons.iter().map(|time_s| {
@@ -47,7 +47,7 @@ fn a_counter_that_stands_still_between_readings_hunts_no_less() {
     let still = steps.windows(2).filter(|pair| pair[0].to_bits() == pair[1].to_bits()).count();
     assert!(steps.len() < 2 * still, "{still} of {}", steps.len());
     let time_s = comparisons.iter().copied().step_by(2).collect();
-    let hunting_um = problem(&machine, &[("time_s", time_s), ("steps", steps)]).hunting_um;
+    let hunting_um = problem(&model, &[("time_s", time_s), ("steps", steps)]).hunting_um;
     assert!((hunting_um - 0.158).abs() < 0.001, "{hunting_um}");
 }
 

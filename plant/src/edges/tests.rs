@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use super::{Edge, Edges, Source};
-use crate::Machine;
+use crate::Model;
 use crate::motion::{Leg, Pass};
 
 const MACHINE: &str = r#"
@@ -14,8 +14,8 @@ dividers = { a = 110, b = 150 }
 drive = { step = "0.0125 um", frequency = "160 Hz" }
 "#;
 
-fn machine(effects: &str) -> Machine {
-    Machine::parse(&format!("{MACHINE}{effects}"), Path::new("machine.toml")).expect("a machine")
+fn machine(effects: &str) -> Model {
+    Model::parse(&format!("{MACHINE}{effects}"), Path::new("machine.toml")).expect("a machine")
 }
 
 const EFFECTS: &str = r#"

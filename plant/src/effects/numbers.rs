@@ -4,7 +4,7 @@ use super::tests::{delta_um, machine, now};
 use crate::air::edlen;
 use crate::machine::Air;
 use crate::prediction::{Sensor, predict};
-use crate::{CATALOGUE, Instant, Machine, Record, Samples, Term};
+use crate::{CATALOGUE, Instant, Machine, Model, Record, Samples, Term};
 
 /// At 500 mm, 600 s, 6 rpm, forward, on the day of `tests::LOGS`: θ is 83⅓ turns.
 const TABLE: &[(&str, &[f64], f64)] = &[
@@ -125,7 +125,7 @@ fn ramp(machine: &Machine, steps: Option<Vec<f64>>) -> Record {
     Record::new(machine, &samples).expect("times")
 }
 
-fn with(kind: &str, values: &[f64]) -> Machine {
+fn with(kind: &str, values: &[f64]) -> Model {
     let mut machine = machine();
     let term = Term::new(Term::card(kind).expect(kind), values).expect(kind);
     machine.effects.push(term);
@@ -138,7 +138,7 @@ fn the_recorder_lags_behind_a_ramp() {
     let mut machine = with("phase-drift", &[360.0]);
     machine.effects.extend(with("recorder-lag", &[2.0]).effects);
     let shown = predict(&machine, &ramp(&machine, None)).expect("a prediction").error_um;
-    let slope_um_s = 0.1 + crate::prediction::implied_um_per_m(&machine) * 0.6e-3;
+    let slope_um_s = 0.1 + crate::rationalisation::implied_um_per_m(&machine) * 0.6e-3;
     assert!((shown[199] - slope_um_s * 197.0).abs() < 1e-9, "{}", shown[199]);
 }
 

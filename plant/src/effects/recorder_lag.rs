@@ -7,7 +7,7 @@
 //! ```
 //!
 //! A ramp of 0.1 µm/s through τ = 2 s reads 0.2 µm behind. The loop does not go through the recorder,
-//! so it leaves table and counter alone: in a run it is [`crate::Machine::recorder_lags_s`].
+//! so it leaves table and counter alone: in a run it is [`crate::Model::recorder_lags_s`].
 
 use crate::units::S;
 use crate::{Basis, Card, Effect, Entry, Instant, LowPass, Parameter, Record, Search};

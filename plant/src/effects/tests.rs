@@ -6,7 +6,7 @@ use expect_test::expect_file;
 
 use super::{CATALOGUE, guide};
 use crate::{
-    COVARIATES, Columns, Context, Effect, Instant, Machine, Parameter, Role, Smoothness, Term,
+    COVARIATES, Columns, Context, Effect, Instant, Model, Parameter, Role, Smoothness, Term,
 };
 
 const MACHINE: &str = r#"
@@ -20,8 +20,8 @@ dividers = { a = 110, b = 150, range = 2 }
 drive = { step = "0.0125 um", frequency = "160 Hz" }
 "#;
 
-pub(super) fn machine() -> Machine {
-    Machine::parse(MACHINE, Path::new("machine.toml")).expect("a machine")
+pub(super) fn machine() -> Model {
+    Model::parse(MACHINE, Path::new("machine.toml")).expect("a machine")
 }
 
 /// Logs of an ordinary day, in the order of [`COVARIATES`].

@@ -16,7 +16,7 @@
 //! travel is worked out from the file's lead, and the scale is that of B′.
 
 use super::shape::polynomial;
-use crate::prediction::implied_um_per_m;
+use crate::rationalisation::implied_um_per_m;
 use crate::units::{MM, NUMBER};
 use crate::{Basis, Card, Entry, Parameter, Search};
 

@@ -30,7 +30,7 @@ mod metastability;
 mod open;
 mod seen;
 
-use helixlock_plant::Machine;
+use helixlock_plant::Model;
 
 use crate::Error;
 use crate::closed_loop::{Course, Grinder, Options};
@@ -93,17 +93,17 @@ impl Certificate {
 ///
 /// [`Error`] when the device cannot serve the machine.
 pub fn certify(
-    machine: &Machine,
+    model: &Model,
     length_mm: Option<f64>,
     progress: &mut dyn FnMut(u64),
 ) -> Result<Certificate, Error> {
-    let course = Course::new(machine, &Options { length_mm, ..Options::default() })?;
+    let course = Course::new(model, &Options { length_mm, ..Options::default() })?;
     let (settings, clock_hz) = (course.dialled.settings, course.clock_hz());
-    let grinder = Grinder::new(machine, course.length_mm)?;
+    let grinder = Grinder::new(model, course.length_mm)?;
     let open = open::run_open(&settings, grinder, clock_hz, course.duration_s, progress)?;
     let a_pass = course.clocks() / 2;
-    let closed = closed::run_closed(machine, &course, &mut |clocks| progress(a_pass + clocks))?;
-    let lines_per_s = f64::from(machine.grating.lines) * machine.spindle.speed_rpm / 60.0;
+    let closed = closed::run_closed(model, &course, &mut |clocks| progress(a_pass + clocks))?;
+    let lines_per_s = f64::from(model.grating.lines) * model.spindle.speed_rpm / 60.0;
     let provoke = |meeting| {
         let Beat { settings, trains, duration_s } =
             Beat::new(settings, meeting, 1.0 / lines_per_s, clock_hz);
@@ -114,9 +114,9 @@ pub fn certify(
         provoked: [provoke(Meeting::Middle)?, provoke(Meeting::Ends)?],
         closed,
         bound_s: 1.0 / clock_hz,
-        speed_um_per_s: 1000.0 * machine.travel_mm_per_s(),
+        speed_um_per_s: 1000.0 * model.travel_mm_per_s(),
         clock_hz,
-        fringe_hz: 1000.0 * machine.travel_mm_per_s() / machine.fringe_um(),
+        fringe_hz: 1000.0 * model.travel_mm_per_s() / model.fringe_um(),
     })
 }
 
@@ -126,7 +126,7 @@ mod tests {
 
     use super::*;
 
-    fn machine(a: u32, b: u32, range: u32, m: u32, compensation: &str) -> Machine {
+    fn machine(a: u32, b: u32, range: u32, m: u32, compensation: &str) -> Model {
         let text = format!(
             "[workpiece]\nlead = \"6 mm\"\nlength = \"8 mm\"\n[spindle]\nspeed = \"60 rpm\"\n\
              [grating]\nlines = 13906\ndiameter = \"200 mm\"\n\
@@ -136,7 +136,7 @@ mod tests {
              [drive]\nstep = \"0.0125 um\"\nfrequency = \"800 Hz\"\n\
              [[effect]]\nkind = \"screw-progressive\"\nlinear = \"300 um/m\"\n"
         );
-        Machine::parse(&text, Path::new("machine.toml")).unwrap()
+        Model::parse(&text, Path::new("machine.toml")).unwrap()
     }
 
     /// Both ranges, an odd A, and a compensation that acts hundreds of times on the way.

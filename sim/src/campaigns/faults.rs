@@ -14,7 +14,7 @@ mod ring;
 mod tap;
 
 use helixlock_netlist::Netlist;
-use helixlock_plant::Machine;
+use helixlock_plant::Model;
 
 use super::parallel::parallel;
 use crate::Error;
@@ -109,11 +109,11 @@ pub struct Faults {
 ///
 /// [`Error`] when the machine cannot be simulated.
 pub fn flip_everything(
-    machine: &Machine,
+    model: &Model,
     instants: u32,
     progress: &(impl Fn() + Sync),
 ) -> Result<Faults, Error> {
-    let bench = Bench::new(machine)?;
+    let bench = Bench::new(model)?;
     let clocks = bench.instants(instants)?;
     let mut outcomes = Vec::new();
     for clock in &clocks {
@@ -140,7 +140,7 @@ pub fn flip_flops() -> usize {
 
 /// The machine on which flips are tried.
 struct Bench<'a> {
-    machine: &'a Machine,
+    model: &'a Model,
     course: Course,
 }
 
@@ -164,8 +164,8 @@ struct Undisturbed {
 }
 
 impl<'a> Bench<'a> {
-    fn new(machine: &'a Machine) -> Result<Self, Error> {
-        Ok(Self { machine, course: Course::new(machine, &Options::default())? })
+    fn new(model: &'a Model) -> Result<Self, Error> {
+        Ok(Self { model, course: Course::new(model, &Options::default())? })
     }
 
     fn time_s(&self, clock: u64) -> f64 {
@@ -187,7 +187,7 @@ impl<'a> Bench<'a> {
     /// A device that has just begun to correct.
     fn correcting(&self) -> Result<ClosedLoop<Tapped<DeviceEngine>, Grinder>, Error> {
         let course = &self.course;
-        let grinder = Grinder::new(self.machine, course.length_mm)?;
+        let grinder = Grinder::new(self.model, course.length_mm)?;
         let engine = Tapped::new(ready(course)?);
         let clock_hz = course.clock_hz();
         let mut device = ClosedLoop::new(engine, grinder, clock_hz, course.full_scale_um)?;

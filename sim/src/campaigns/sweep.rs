@@ -218,7 +218,7 @@ impl Case {
         for (key, value) in &self.settings {
             file = file.with_setting(key, value)?;
         }
-        Ok(figures(&simulate(&file.machine, options, &mut |_| {})?))
+        Ok(figures(&simulate(&file.model, options, &mut |_| {})?))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use helixlock_plant::edges::Edges;
 use helixlock_plant::motion::Pass;
-use helixlock_plant::{EffectError, Machine};
+use helixlock_plant::{EffectError, Model};
 
 use super::process::{Place, Process};
 
@@ -19,12 +19,12 @@ impl Grinder {
     /// # Errors
     ///
     /// [`EffectError`] when an effect needs a section of the machine file that is missing.
-    pub fn new(machine: &Machine, length_mm: f64) -> Result<Self, EffectError> {
-        let mut pass = Pass::forward(machine);
+    pub fn new(model: &Model, length_mm: f64) -> Result<Self, EffectError> {
+        let mut pass = Pass::forward(model);
         for leg in &mut pass.legs {
             leg.length_mm = length_mm;
         }
-        let edges = Edges::new(machine, &pass)?;
+        let edges = Edges::new(model, &pass)?;
         let zero_um = edges.place(0.0).lead_error_um;
         Ok(Self { edges, zero_um })
     }

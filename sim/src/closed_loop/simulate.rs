@@ -1,7 +1,7 @@
 //! A machine file in, two passes out: without and with the correction.
 
 use helixlock_netlist::Netlist;
-use helixlock_plant::{LowPass, Machine};
+use helixlock_plant::{LowPass, Machine, Model};
 
 use super::grinder::Grinder;
 use super::pass::{Pass, PassPlan, Trace, run_pass};
@@ -153,29 +153,29 @@ impl Course {
 ///
 /// [`Error`] when the device cannot serve the machine, or lines and fringes come too fast for it.
 pub fn simulate(
-    machine: &Machine,
+    model: &Model,
     options: &Options,
     progress: &mut dyn FnMut(u64),
 ) -> Result<Simulation, Error> {
-    let course = Course::new(machine, options)?;
-    let plan = course.plan(machine, false, None);
-    let grinder = Grinder::new(machine, course.length_mm)?;
+    let course = Course::new(model, options)?;
+    let plan = course.plan(model, false, None);
+    let grinder = Grinder::new(model, course.length_mm)?;
     let left_out = grinder.left_out().to_vec();
     let mut open = run_pass(ready(&course)?, grinder, plan, progress)?;
     let done = open.clocks;
     let engine = ready(&course)?;
-    let probe = course.probe(machine, engine.netlist(), options)?;
-    let plan = course.plan(machine, true, probe.as_ref());
-    let grinder = Grinder::new(machine, course.length_mm)?;
+    let probe = course.probe(model, engine.netlist(), options)?;
+    let plan = course.plan(model, true, probe.as_ref());
+    let grinder = Grinder::new(model, course.length_mm)?;
     let mut closed = run_pass(engine, grinder, plan, &mut |now| progress(done + now))?;
-    lag_recorder(machine, &mut open.trace);
-    lag_recorder(machine, &mut closed.trace);
+    lag_recorder(model, &mut open.trace);
+    lag_recorder(model, &mut closed.trace);
     Ok(Simulation { course, open, closed, left_out })
 }
 
 /// Puts the recorder's own lags behind its filter; the loop does not go through them.
-fn lag_recorder(machine: &Machine, trace: &mut Trace) {
-    for lag_s in machine.recorder_lags_s() {
+fn lag_recorder(model: &Model, trace: &mut Trace) {
+    for lag_s in model.recorder_lags_s() {
         let lag = LowPass::new(lag_s);
         trace.filtered_error_um = lag.pass(&trace.time_s, &trace.filtered_error_um);
     }
@@ -208,7 +208,7 @@ mod tests {
     fn a_lagging_recorder_is_behind_the_meter() {
         let text = "output.rotary = true\nspindle.speed = '6 rpm'\n[[effect]]\n\
                     kind = 'recorder-lag'\ntime_constant = '2 s'\n";
-        let machine = Machine::parse(text, Path::new("machine.toml")).unwrap();
+        let machine = Model::parse(text, Path::new("machine.toml")).unwrap();
         let time_s: Vec<f64> = (0..100).map(f64::from).collect();
         let ramp_um: Vec<f64> = time_s.iter().map(|time_s| 0.1 * time_s).collect();
         let mut trace = Trace {

@@ -23,7 +23,7 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use helixlock_plant::Machine;
+use helixlock_plant::Model;
 
 use crate::Error;
 use crate::closed_loop::{
@@ -65,17 +65,17 @@ pub struct BothClosed {
 ///
 /// `progress` is told how many clocks are done.
 pub(super) fn run_closed(
-    machine: &Machine,
+    model: &Model,
     course: &Course,
     progress: &mut dyn FnMut(u64),
 ) -> Result<BothClosed, Error> {
     let clock_hz = course.clock_hz();
-    let new = run_synchronous(machine, course, progress)?;
+    let new = run_synchronous(model, course, progress)?;
     let settings = course.dialled.settings;
     let period = u64::from(settings.step_period);
     let first_step = new.steps.first().map_or(0, |step| step.0);
     let ticks = Ticks { next: first_step % period, period, clock_hz };
-    let grinder = Grinder::new(machine, course.length_mm)?;
+    let grinder = Grinder::new(model, course.length_mm)?;
     let gate_s = GATE_CLOCKS / clock_hz;
     let old = HistoricLoop::new(settings, gate_s, ticks, grinder).run(course.duration_s);
     let comparisons: Vec<_> = new.with_steps().zip(old).collect();
@@ -84,9 +84,9 @@ pub(super) fn run_closed(
     let summary = summary(&comparisons, clock_hz);
     Ok(BothClosed {
         steps_taken: new.steps.len(),
-        largest_um: machine.drive.step_um * steps_as_number(summary.largest_steps),
+        largest_um: model.drive.step_um * steps_as_number(summary.largest_steps),
         bound_steps,
-        bound_um: machine.drive.step_um * steps_as_number(bound_steps),
+        bound_um: model.drive.step_um * steps_as_number(bound_steps),
         ..summary
     })
 }
@@ -127,13 +127,13 @@ impl Synchronous {
 }
 
 fn run_synchronous(
-    machine: &Machine,
+    model: &Model,
     course: &Course,
     progress: &mut dyn FnMut(u64),
 ) -> Result<Synchronous, Error> {
     let clock_hz = course.clock_hz();
     let steps = Rc::new(RefCell::new(Vec::new()));
-    let grinder = Grinder::new(machine, course.length_mm)?;
+    let grinder = Grinder::new(model, course.length_mm)?;
     let noted = Noted { grinder, steps: Rc::clone(&steps), clock_hz };
     let mut engine = device_engine();
     set_wheels(&mut engine, &course.dialled.settings)?;

@@ -173,8 +173,8 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use crate::Motion;
     use crate::motion::{Leg, Pass};
+    use crate::{Model, Motion};
 
     /// 0.6 mm/s.
     const MACHINE: &str = r#"
@@ -193,7 +193,7 @@ drive = { step = "0.0125 um", frequency = "160 Hz" }
     /// Each leg of a motion that turns within the pass, sampled every 1.3 s, and on its turns.
     #[test]
     fn ways_from_samples_are_those_of_the_motion() {
-        let machine = Machine::parse(MACHINE, Path::new("machine.toml")).unwrap();
+        let machine = Model::parse(MACHINE, Path::new("machine.toml")).unwrap();
         let legs = vec![leg(30.0, true), leg(21.0, false), leg(17.3, true), leg(9.1, false)];
         let motion = Motion::new(&machine, &Pass { number: 0, start_mm: 20.0, legs }).unwrap();
         let mut time_s: Vec<f64> = (0..99).map(|row| 1.3 * f64::from(row)).collect();
@@ -220,7 +220,7 @@ drive = { step = "0.0125 um", frequency = "160 Hz" }
     /// A rest at the turn is no way: nothing lies farther apart there than neighbours elsewhere.
     #[test]
     fn a_rest_at_the_turn_is_no_way() {
-        let machine = Machine::parse(MACHINE, Path::new("machine.toml")).unwrap();
+        let machine = Model::parse(MACHINE, Path::new("machine.toml")).unwrap();
         let samples = Samples {
             time_s: Some(vec![0.0, 1.0, 2.0, 62.0, 63.0, 64.0]),
             position_mm: Some(vec![0.0, 0.6, 1.2, 1.2, 0.6, 0.0]),

@@ -4,21 +4,22 @@ use std::path::{Path, PathBuf};
 
 use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value, value};
 
-use super::Machine;
+use super::Model;
 use super::section::Source;
 use helixlock_traces::At;
 
 use crate::error::MachineError;
+use crate::machine::Machine;
 use crate::term::{Formula, Term};
 
-/// A machine together with the text it came from.
+/// A model together with the text it came from.
 ///
-/// Every change is made in the text and read again, so that [`Self::machine`] is always what the
+/// Every change is made in the text and read again, so that [`Self::model`] is always what the
 /// text says.
 #[derive(Clone, Debug)]
 pub struct MachineFile {
     /// What the text says.
-    pub machine: Machine,
+    pub model: Model,
     path: PathBuf,
     document: DocumentMut,
 }
@@ -40,7 +41,7 @@ impl MachineFile {
         Self::parse(text.strip_prefix('\u{feff}').unwrap_or(&text), path)
     }
 
-    /// Reads the text of a machine file; see [`Machine::parse`].
+    /// Reads the text of a machine file; see [`Model::parse`].
     ///
     /// # Errors
     ///
@@ -50,11 +51,11 @@ impl MachineFile {
     }
 
     fn parse_source(source: Source<'_>) -> Result<Self, MachineError> {
-        let machine = Machine::parse_source(source)?;
+        let model = Model::parse_source(source)?;
         let document = source.text.parse().map_err(|error: toml_edit::TomlError| {
             MachineError::Syntax { at: source.at(error.span()), message: error.message().into() }
         })?;
-        Ok(Self { machine, path: source.path.into(), document })
+        Ok(Self { model, path: source.path.into(), document })
     }
 
     /// The text, as it would be written to a file.
@@ -70,7 +71,7 @@ impl MachineFile {
     /// [`MachineError`] when the machine cannot carry the effect.
     pub fn with_effect(&self, term: &Term) -> Result<Self, MachineError> {
         let mut document = self.document.clone();
-        effect_tables(&mut document).push(effect_table(&self.machine, term));
+        effect_tables(&mut document).push(effect_table(&self.model, term));
         self.reread(document)
     }
 
@@ -98,7 +99,7 @@ impl MachineFile {
     ///
     /// [`MachineError::NoSuchEffect`] when there are fewer effects.
     pub fn with_values(&self, index: usize, term: &Term) -> Result<Self, MachineError> {
-        let before = self.machine.effects.get(index).ok_or_else(|| self.no_such_effect(index))?;
+        let before = self.model.effects.get(index).ok_or_else(|| self.no_such_effect(index))?;
         let mut document = self.document.clone();
         let table = effect_tables(&mut document)
             .get_mut(index)
@@ -113,7 +114,7 @@ impl MachineFile {
     ///
     /// [`MachineError::NoSuchEffect`] when there are fewer effects.
     pub fn without_effect(&self, index: usize) -> Result<Self, MachineError> {
-        if self.machine.effects.len() <= index {
+        if self.model.effects.len() <= index {
             return Err(self.no_such_effect(index));
         }
         let mut document = self.document.clone();
@@ -151,15 +152,15 @@ impl MachineFile {
     }
 
     fn reread(&self, document: DocumentMut) -> Result<Self, MachineError> {
-        let machine = Machine::parse(&document.to_string(), &self.path)?;
-        Ok(Self { machine, path: self.path.clone(), document })
+        let model = Model::parse(&document.to_string(), &self.path)?;
+        Ok(Self { model, path: self.path.clone(), document })
     }
 
     fn no_such_effect(&self, index: usize) -> MachineError {
         MachineError::NoSuchEffect {
             path: self.path.clone(),
             index: index + 1,
-            count: self.machine.effects.len(),
+            count: self.model.effects.len(),
         }
     }
 }

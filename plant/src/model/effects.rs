@@ -3,10 +3,10 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::Machine;
 use super::section::Section;
 use crate::custom::Custom;
 use crate::error::{EffectError, MachineError};
+use crate::machine::Machine;
 use crate::measured_curve::MeasuredCurve;
 use crate::term::{Formula, Term};
 use crate::units::{Dimension, NUMBER};

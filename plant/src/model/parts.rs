@@ -1,13 +1,12 @@
 //! The sections of a machine file.
 
 use super::section::Section;
-use super::{
-    Air, Dividers, Drive, Environment, Fpga, Gear, Grating, Laser, Machine, Range, Spindle,
-    Workpiece,
-};
-use crate::dividers::centre_phase;
+use crate::dividers::{Range, centre_phase};
 use crate::error::MachineError;
 use crate::lead::{Lead, LeadUnit};
+use crate::machine::{
+    Air, Dividers, Drive, Environment, Fpga, Gear, Grating, Laser, Machine, Spindle, Workpiece,
+};
 use crate::record::COVARIATES;
 use crate::units::{ARCSEC, DEG, DEG_C, HPA, HZ, MM, N, PCT, PPM_PER_K, RPM, UM, UM_PER_M, Unit};
 use num_rational::Ratio;
@@ -36,7 +35,7 @@ pub(super) fn machine(root: &Section<'_>) -> Result<Machine> {
         "effect",
     ])?;
     let rotary = rotary(root)?;
-    let mut machine = Machine {
+    Ok(Machine {
         title: root.text("title")?.unwrap_or_default().into(),
         rotary,
         workpiece: workpiece(root, rotary)?,
@@ -51,10 +50,7 @@ pub(super) fn machine(root: &Section<'_>) -> Result<Machine> {
         loop_closed: loop_closed(root)?,
         fpga: fpga(root)?,
         environment: environment(root)?,
-        effects: Vec::new(),
-    };
-    machine.effects = super::effects::effects(root, &machine)?;
-    Ok(machine)
+    })
 }
 
 fn rotary(root: &Section<'_>) -> Result<bool> {

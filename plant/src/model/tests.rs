@@ -1,7 +1,7 @@
 use std::path::Path;
 
-use super::{Machine, MachineFile};
-use crate::prediction::implied_um_per_m;
+use super::{MachineFile, Model};
+use crate::rationalisation::implied_um_per_m;
 use crate::{Lead, Term};
 
 pub(crate) const SG7430: &str = r#"# The first example.
@@ -60,12 +60,12 @@ amplitude = "1.5 um"        # half of 3 µm
 phase = "30 deg"
 "#;
 
-fn parse(text: &str) -> Machine {
-    Machine::parse(text, Path::new("machine.toml")).expect("a machine")
+fn parse(text: &str) -> Model {
+    Model::parse(text, Path::new("machine.toml")).expect("a machine")
 }
 
 fn refusal(text: &str) -> String {
-    Machine::parse(text, Path::new("machine.toml")).expect_err("bad input").to_string()
+    Model::parse(text, Path::new("machine.toml")).expect_err("bad input").to_string()
 }
 
 #[test]
@@ -83,7 +83,7 @@ fn the_example_reads() {
 
 #[test]
 fn the_dividers_leave_what_document_1_makes_them_leave() {
-    // facts: the rational N is 0.846 ppm low.
+    // Document 1: the rational N is 0.846 ppm low.
     let slope = implied_um_per_m(&parse(SG7430));
     assert!((slope - -0.846).abs() < 5e-4, "{slope}");
     // Blocking one pulse in 156 000 adds 6.41 µm/m.
@@ -115,11 +115,11 @@ fn writing_back_keeps_comments_and_order() {
          phase = \"-90 deg\"\ngear = \"change gear 1\"\nmesh = true\n"
     );
     assert_eq!(more.text(), expected);
-    let mut wider = more.machine.effects[0].clone();
+    let mut wider = more.model.effects[0].clone();
     wider.values[0] = 1.75;
     let changed = more.with_values(0, &wider).expect("changed");
     assert_eq!(changed.text(), expected.replace("\"1.5 um\"", "\"1.75 um\""));
-    assert_eq!(changed.without_effect(1).expect("removed").machine.effects.len(), 1);
+    assert_eq!(changed.without_effect(1).expect("removed").model.effects.len(), 1);
     let slower = file.with_setting("spindle.speed", "\"3 rpm\"").expect("set");
     assert_eq!(slower.text(), SG7430.replace("\"6 rpm\"", "\"3 rpm\""));
     let phase = file.with_setting("effect.0.phase", "\"45 deg\"").expect("set");
@@ -135,11 +135,11 @@ fn effects_in_a_line_become_tables() {
     let file = MachineFile::parse(&text, Path::new("machine.toml")).expect("a machine");
     let own = "# mine\n[[effect]]\nkind = \"phase-drift\"\nrate = \"1 um/h\"\n";
     let more = file.with_text(own, Path::new("own.toml")).expect("added");
-    assert_eq!(more.machine.effects.len(), 2);
+    assert_eq!(more.model.effects.len(), 2);
     assert!(more.text().contains("\n[[effect]]\nkind = \"screw-periodic\"\n"), "{}", more.text());
     assert!(more.text().ends_with(own));
-    let same = file.with_effect(&more.machine.effects[1]).expect("added");
-    assert_eq!(same.machine.effects[1].values, more.machine.effects[1].values);
+    let same = file.with_effect(&more.model.effects[1]).expect("added");
+    assert_eq!(same.model.effects[1].values, more.model.effects[1].values);
     let wrong = file.with_text(&own.replace("1 um/h", "1 um"), Path::new("own.toml"));
     let message = wrong.expect_err("no drift").to_string();
     assert!(message.starts_with("own.toml:4:8: "), "{message}");
@@ -171,7 +171,7 @@ fn settings_that_have_no_place_are_refused() {
 fn a_section_that_is_not_there_is_made() {
     let file = MachineFile::parse(SG7430, Path::new("machine.toml")).expect("a machine");
     let warm = file.with_setting("environment.air_temperature", "\"22 degC\"").expect("set");
-    assert_eq!(warm.machine.environment.get("air_temperature_c"), Some(22.0));
+    assert_eq!(warm.model.environment.get("air_temperature_c"), Some(22.0));
     let gear = file.with_setting("gear.0.order", "3.5").expect("set");
     assert_eq!(gear.text(), SG7430.replace("order = 2.5", "order = 3.5"));
 }
@@ -237,7 +237,7 @@ mod properties {
             let file = MachineFile::parse(SG7430, Path::new("machine.toml")).unwrap();
             let more = file.with_effect(&term).unwrap();
             prop_assert!(more.text().starts_with(SG7430));
-            let read = &more.machine.effects[1];
+            let read = &more.model.effects[1];
             prop_assert_eq!(read.kind(), card.kind);
             prop_assert_eq!(&read.values, &values);
             let back = more.without_effect(1).unwrap().text();
@@ -250,26 +250,26 @@ mod properties {
             entry in 0_usize..6, closed: bool, slope in -9.0..9.0_f64,
         ) {
             let entry = Entry::ALL[entry];
-            let mut machine = parse(SG7430);
-            (machine.loop_closed, machine.filter_cutoff_hz) = (closed, None);
-            machine.effects.clear();
+            let mut model = parse(SG7430);
+            (model.machine.loop_closed, model.machine.filter_cutoff_hz) = (closed, None);
+            model.effects.clear();
             let samples = Samples { position_mm: Some(vec![5.0, 6.0, 8.0]), ..Samples::default() };
-            let record = Record::new(&machine, &samples).unwrap();
-            let before = predict(&machine, &record).unwrap();
+            let record = Record::new(&model, &samples).unwrap();
+            let before = predict(&model, &record).unwrap();
             let mut term = Term::new(Term::card("phase-drift").unwrap(), &[3600.0 * slope]).unwrap();
             term.entry = entry;
-            let deltas = term.effect(&machine, &record.columns).unwrap().deltas_um(&record);
-            machine.effects.push(term);
-            let after = predict(&machine, &record).unwrap();
+            let deltas = term.effect(&model, &record.columns).unwrap().deltas_um(&record);
+            model.effects.push(term);
+            let after = predict(&model, &record).unwrap();
             for sensor in Sensor::ALL {
                 let shown = after.of(sensor)[2] - before.of(sensor)[2];
-                let expected = gain(&machine, entry, sensor) * (deltas[2] - deltas[0]);
+                let expected = gain(&model, entry, sensor) * (deltas[2] - deltas[0]);
                 prop_assert!((shown - expected).abs() < 1e-9 * expected.abs().max(1.0));
             }
         }
     }
 
-    /// Section 4 of the design, row by row.
+    /// The table of [`crate::prediction`], row by row.
     #[test]
     #[allow(clippy::float_cmp, reason = "the gains are constants, not results")]
     fn the_sign_table() {
@@ -282,7 +282,7 @@ mod properties {
             (Entry::Electronics, [1.0, 0.0, 1.0 / step, 0.0, 1.0]),
             (Entry::Actuator, [1.0, 0.0, 1.0 / step, -1.0, 0.0]),
         ];
-        let mut machine = parse(SG7430);
+        let mut machine = parse(SG7430).machine;
         for (entry, row) in table {
             let mut seen = |closed, sensor| {
                 machine.loop_closed = closed;
