@@ -9,6 +9,7 @@ use std::process::{Command, Output, Stdio};
 
 use expect_test::expect_file;
 use proptest::prelude::*;
+use xtask::same_output::STORIES;
 
 /// Runs `helixlock` with these words in a folder.
 fn helixlock(folder: &Path, words: &[&str]) -> Output {
@@ -245,6 +246,16 @@ fn table() -> impl Strategy<Value = String> {
         let rows = rows.iter().map(|(one, other)| format!("{one},{other}\n"));
         format!("{header}\n{}", rows.collect::<String>())
     })
+}
+
+/// `cargo xtask same-output` would not see what a command without a story does.
+#[test]
+fn every_command_has_a_story_to_compare() {
+    for command in subcommands() {
+        let begin = format!("{command} ");
+        let told = STORIES.lines().any(|line| line == command || line.starts_with(&begin));
+        assert!(told, "`{command}` has no line in xtask/src/same_output/stories.txt");
+    }
 }
 
 proptest! {

@@ -1,3 +1,6 @@
-//! Work on the project itself: proofs of the emitted Verilog; nothing a user needs.
+//! Work on the project itself: proofs of the emitted Verilog, and the output before and after a
+//! change; nothing a user needs.
 
 pub mod prove;
+pub mod same_output;
+mod tools;

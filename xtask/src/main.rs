@@ -4,9 +4,10 @@ use std::io::Write;
 use std::path::Path;
 use std::process::{Command, ExitCode};
 
-use anyhow::{Context, bail};
+use anyhow::Context;
 use clap::Parser;
 use xtask::prove::{Sources, document, rows};
+use xtask::same_output::SameOutput;
 
 /// Work on the project itself
 #[derive(Debug, Parser)]
@@ -22,38 +23,55 @@ enum Task {
         #[arg(long, conflicts_with = "short")]
         write: bool,
     },
+    /// Hold everything the command writes and says against what it did at a commit
+    SameOutput(SameOutput),
 }
 
-fn main() -> anyhow::Result<ExitCode> {
-    match Task::parse() {
+/// Exit status: 0 good, 1 not good, 2 it cannot be told.
+fn main() -> ExitCode {
+    match run(Task::parse(), &mut std::io::stdout().lock()) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::from(1),
+        Err(error) => {
+            // Nothing is left to tell the user if this fails too.
+            let _ = writeln!(std::io::stderr(), "xtask: {error:#}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Whether all is good.
+fn run(task: Task, out: &mut impl Write) -> anyhow::Result<bool> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().context("the repository")?;
+    match task {
         Task::Check => check(),
-        Task::Prove { short, write } => prove(short, write, &mut std::io::stdout().lock()),
+        Task::Prove { short, write } => prove(root, short, write, out),
+        Task::SameOutput(task) => task.run(root, out),
     }
 }
 
-fn check() -> anyhow::Result<ExitCode> {
-    cargo(&["fmt", "--all", "--check"], &[])?;
-    cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"], &[])?;
-    cargo(&["doc", "--no-deps", "--workspace"], &[("RUSTDOCFLAGS", "-D warnings")])?;
-    cargo(&["test", "--workspace"], &[])?;
-    Ok(ExitCode::SUCCESS)
-}
+/// What has to pass, cheapest first: words of cargo.
+const CHECKS: &[&[&str]] = &[
+    &["fmt", "--all", "--check"],
+    &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"],
+    &["doc", "--no-deps", "--workspace"],
+    &["test", "--workspace"],
+];
 
-fn cargo(words: &[&str], environment: &[(&str, &str)]) -> anyhow::Result<()> {
-    let status = Command::new("cargo")
-        .args(words)
-        .envs(environment.iter().copied())
-        .status()
-        .context("`cargo` cannot be started")?;
-    if !status.success() {
-        bail!("`cargo {}` failed", words.join(" "));
+/// Runs the checks up to the first that fails; why it does, cargo says itself.
+fn check() -> anyhow::Result<bool> {
+    for words in CHECKS {
+        let mut cargo = Command::new("cargo");
+        let status = cargo.args(*words).env("RUSTDOCFLAGS", "-D warnings").status();
+        if !status.context("`cargo` cannot be started")?.success() {
+            return Ok(false);
+        }
     }
-    Ok(())
+    Ok(true)
 }
 
 /// Everything that can be said of the emitted Verilog, as a table.
-fn prove(short: bool, write: bool, out: &mut impl Write) -> anyhow::Result<ExitCode> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().context("the repository")?;
+fn prove(root: &Path, short: bool, write: bool, out: &mut impl Write) -> anyhow::Result<bool> {
     let sources = Sources::of(root);
     let witness_folder = root.join("target/witnesses");
     std::fs::create_dir_all(&witness_folder)?;
@@ -62,5 +80,5 @@ fn prove(short: bool, write: bool, out: &mut impl Write) -> anyhow::Result<ExitC
     if write {
         document::write(root, &sources, &table)?;
     }
-    Ok(if good { ExitCode::SUCCESS } else { ExitCode::from(1) })
+    Ok(good)
 }

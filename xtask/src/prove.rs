@@ -9,9 +9,9 @@ pub mod lockstep;
 pub mod mutants;
 pub mod properties;
 pub mod rows;
+mod sources;
 pub mod synthesis;
 pub mod table;
-mod tools;
 pub mod vacuity;
 
-pub use tools::Sources;
+pub use sources::Sources;

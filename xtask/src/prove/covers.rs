@@ -6,7 +6,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::tools::{Sources, write_scratch, yosys};
+use super::sources::Sources;
+use crate::tools::{write_scratch, yosys};
 
 /// Clocks a search goes.
 const LONGEST: u32 = 24;

@@ -7,7 +7,8 @@ use std::path::Path;
 
 use anyhow::{Context, bail};
 
-use super::tools::{Sources, read};
+use super::sources::Sources;
+use crate::tools::read;
 
 /// Where the table begins; the checksum and the end of the comment follow.
 const BEGIN: &str = "<!-- cargo xtask prove --write, of sources ";

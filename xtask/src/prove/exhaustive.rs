@@ -13,8 +13,9 @@ use helixlock_netlist::{Library, Netlist, elaborate};
 use helixlock_sim::{Engine, Interpreter};
 
 use super::lockstep::{Port, bits, declare, names, ports};
+use super::sources::Sources;
 use super::synthesis::blocks;
-use super::tools::{Sources, run, write_scratch};
+use crate::tools::{run, write_scratch};
 
 /// More transitions than this are left to drawn histories, and to the proofs.
 const MOST: u64 = 1 << 22;

@@ -10,7 +10,8 @@ use anyhow::Context;
 use helixlock_netlist::{Library, Netlist, elaborate};
 use helixlock_rtl::BLOCKS;
 
-use super::tools::{Sources, write_scratch, yosys};
+use super::sources::Sources;
+use crate::tools::{write_scratch, yosys};
 
 /// Clocks of reset, as the device's page demands.
 const CLOCKS: u32 = 4;

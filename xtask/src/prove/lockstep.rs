@@ -14,7 +14,8 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::consequence::worth;
-use super::tools::{Sources, run, write_scratch};
+use super::sources::Sources;
+use crate::tools::{run, write_scratch};
 
 /// A drawn history of a block: what goes in and, by the engine, what comes out.
 #[derive(Debug)]

@@ -9,7 +9,8 @@ use anyhow::Context;
 
 use super::lockstep::History;
 use super::properties::{Verdict, prove};
-use super::tools::{Sources, read, write_scratch, yosys};
+use super::sources::Sources;
+use crate::tools::{read, write_scratch, yosys};
 
 /// One wrong line.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -5,7 +5,8 @@
 //! induction with its own SAT solver. The inner registers a proof looks at are wires of the same
 //! name with the attribute `hierconn`.
 
-use super::tools::{Sources, yosys};
+use super::sources::Sources;
+use crate::tools::yosys;
 
 /// Induction depth beyond which a proof is given up.
 const DEEPEST: u32 = 8;

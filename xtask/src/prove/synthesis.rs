@@ -8,7 +8,8 @@ use anyhow::bail;
 use helixlock_netlist::{Library, Netlist, elaborate};
 use helixlock_rtl::{APART, BLOCKS, BlockCard};
 
-use super::tools::{Sources, yosys};
+use super::sources::Sources;
+use crate::tools::yosys;
 
 /// Clocks from power-up in which the pairs are compared: the deepest induction looks no further back.
 const CLOCKS: u32 = 4;

@@ -7,7 +7,7 @@
 use std::path::Path;
 
 use super::covers::reachable;
-use super::tools::Sources;
+use super::sources::Sources;
 
 /// Assertions of a block that nothing reaches, as they are written; none is as it should be.
 ///

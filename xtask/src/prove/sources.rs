@@ -1,9 +1,10 @@
-//! Folders of Verilog, and the tools run on them.
+//! Folders of Verilog.
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
 use anyhow::Context;
+
+use crate::tools::read;
 
 /// A folder of emitted Verilog, one module a file, and one of properties about it.
 #[derive(Clone, Debug)]
@@ -60,29 +61,4 @@ fn stems(folder: &Path, extension: &str) -> anyhow::Result<Vec<String>> {
     }
     names.sort();
     Ok(names)
-}
-
-/// A whole text file.
-pub(crate) fn read(path: &Path) -> anyhow::Result<String> {
-    std::fs::read_to_string(path).with_context(|| path.display().to_string())
-}
-
-/// A scratch file for a tool, in a folder of its own.
-#[expect(clippy::disallowed_methods, reason = "scratch for a tool, thrown away with its folder")]
-pub(crate) fn write_scratch(path: &Path, text: &str) -> anyhow::Result<()> {
-    std::fs::write(path, text).with_context(|| path.display().to_string())
-}
-
-/// Runs yosys on a script, and gives what it logged and whether it was content.
-pub(crate) fn yosys(script: &str) -> anyhow::Result<(bool, String)> {
-    run(Command::new("yosys").args(["-p", script]), "yosys")
-}
-
-/// Runs a tool, and gives what it said and whether it was content.
-pub(crate) fn run(command: &mut Command, package: &str) -> anyhow::Result<(bool, String)> {
-    let Output { status, stdout, stderr } = command
-        .output()
-        .with_context(|| format!("`{package}` cannot be started; it is a Debian package"))?;
-    let said = [stdout, stderr].concat();
-    Ok((status.success(), String::from_utf8_lossy(&said).into_owned()))
 }
