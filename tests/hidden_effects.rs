@@ -15,8 +15,7 @@ fn example(file: &str) -> PathBuf {
 }
 
 fn problem(machine: &Model, table: &Table) -> Problem {
-    let measurement =
-        Measurement::from_table(table, &Nominal::of(machine)).expect("a measurement");
+    let measurement = Measurement::from_table(table, &Nominal::of(machine)).expect("a measurement");
     Problem::new(machine, &measurement).expect("all columns are there")
 }
 

@@ -199,8 +199,7 @@ fn noise(chance: &mut ChaCha8Rng, rows: usize, kept: f64) -> Vec<f64> {
 
 /// Verdict and names, sorted.
 fn answer(machine: &Model, table: &Table) -> (Verdict, Vec<String>) {
-    let measurement =
-        Measurement::from_table(table, &Nominal::of(machine)).expect("a measurement");
+    let measurement = Measurement::from_table(table, &Nominal::of(machine)).expect("a measurement");
     let diagnosis = diagnose(&Problem::new(machine, &measurement).expect("all columns are there"));
     let effects = &diagnosis.rounds.last().expect("there is always a round 0").effects;
     let mut names: Vec<String> = effects.iter().map(|effect| effect.name.clone()).collect();

@@ -1,6 +1,7 @@
-//! Work on the project itself: proofs of the emitted Verilog, and the output before and after a
-//! change; nothing a user needs.
+//! Work on the project itself: proofs of the emitted Verilog, the output before and after a change,
+//! the tools that the checks need; nothing a user needs.
 
 pub mod prove;
 pub mod same_output;
+pub mod setup;
 mod tools;

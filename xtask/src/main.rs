@@ -8,12 +8,17 @@ use anyhow::Context;
 use clap::Parser;
 use xtask::prove::{Sources, document, rows};
 use xtask::same_output::SameOutput;
+use xtask::setup::Tools;
 
 /// Work on the project itself
 #[derive(Debug, Parser)]
 enum Task {
-    /// Format, lints, documentation and all tests, cheapest first
-    Check,
+    /// Install what is missing of tools; then format, lints, documentation and all tests
+    Check {
+        /// Say what is missing and stop
+        #[arg(long)]
+        no_install: bool,
+    },
     /// Proofs of the emitted Verilog, and mutants of it: prints what docs/verification.md holds
     Prove {
         /// One mutant in twenty instead of all
@@ -44,7 +49,7 @@ fn main() -> ExitCode {
 fn run(task: Task, out: &mut impl Write) -> anyhow::Result<bool> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().context("the repository")?;
     match task {
-        Task::Check => check(),
+        Task::Check { no_install } => check(root, no_install, out),
         Task::Prove { short, write } => prove(root, short, write, out),
         Task::SameOutput(task) => task.run(root, out),
     }
@@ -54,16 +59,19 @@ fn run(task: Task, out: &mut impl Write) -> anyhow::Result<bool> {
 const CHECKS: &[&[&str]] = &[
     &["fmt", "--all", "--check"],
     &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"],
-    &["doc", "--no-deps", "--workspace"],
+    &["doc", "--no-deps", "--workspace", "--config", "build.rustdocflags=['-D', 'warnings']"],
     &["test", "--workspace"],
 ];
 
 /// Runs the checks up to the first that fails; why it does, cargo says itself.
-fn check() -> anyhow::Result<bool> {
+fn check(root: &Path, no_install: bool, out: &mut impl Write) -> anyhow::Result<bool> {
+    let tools = Tools::of(root);
+    tools.prepare(!no_install, out)?;
+    let path = tools.path()?;
     for words in CHECKS {
         let mut cargo = Command::new("cargo");
-        let status = cargo.args(*words).env("RUSTDOCFLAGS", "-D warnings").status();
-        if !status.context("`cargo` cannot be started")?.success() {
+        cargo.args(*words).env("PATH", &path);
+        if !cargo.status().context("`cargo` cannot be started")?.success() {
             return Ok(false);
         }
     }
