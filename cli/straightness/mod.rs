@@ -215,8 +215,10 @@ impl StraightnessCommand {
         spacing: Spacing,
     ) -> Result<Evaluation, helixlock_metrology::Error> {
         let combined = readings.combine(spacing)?;
-        let fourier = outcome(separate_by_fourier(&combined, self.accept_lost_harmonics)?)?;
-        let least_squares = outcome(separate_by_least_squares(&combined, self.zeros_matched)?)?;
+        let least_squares = separate_by_least_squares(&combined, self.zeros_matched)?;
+        let fourier = separate_by_fourier(&combined, self.accept_lost_harmonics)?;
+        let fourier = outcome(fourier.with_difference_from(&least_squares))?;
+        let least_squares = outcome(least_squares)?;
         let chosen = match self.method {
             By::Fourier => &fourier.separated,
             By::LeastSquares => &least_squares.separated,

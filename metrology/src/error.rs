@@ -136,6 +136,14 @@ pub enum Error {
         /// The sampling step, mm.
         step_mm: f64,
     },
+    /// Probes so far apart that no two of them touch the same places.
+    #[error("the probes span {found_mm} mm, expected less than the stroke of {stroke_mm} mm")]
+    ProbesBeyondStroke {
+        /// From the first probe to the third, mm.
+        found_mm: f64,
+        /// From the first sample to the last, mm.
+        stroke_mm: f64,
+    },
     /// A correction table or image that is damaged or foreign.
     #[error("table image: {reason}")]
     Image {

@@ -14,6 +14,7 @@
 
 mod chauvenet;
 mod compensation;
+pub mod coverage;
 mod fourier;
 mod least_squares;
 mod plan;

@@ -2,7 +2,8 @@
 //!
 //! Assumes that the bar's form repeats with the stroke. A real bar does not: the first places
 //! the second and third probe touch lie before the stroke, and the method puts there what it
-//! found at its end. `least_squares` does without.
+//! found at its end. `least_squares` does without, and `Separated::with_difference_from` puts what
+//! the two differ by into the uncertainty.
 
 use rustfft::FftPlannerScalar;
 use rustfft::num_complex::Complex;

@@ -9,6 +9,8 @@
 //! minimise  ‖z − A·h‖² + λ·‖D²·h‖²,     λ from   N·ln σ² + ln det(AᵀA + λ·DᵀD) − (n − 2)·ln λ
 //! ```
 //!
+//! Where runs were repeated, σ² is not estimated from the form but known from their scatter, and
+//! the first term is the penalised squares over σ². Roughness of the bar is then not taken for noise.
 //! Source: Wahba 1985, "A comparison of GCV and GML" (the generalised maximum likelihood choice).
 //! The matrix is a band, so the cost grows with the samples, not with their cube. A straight line
 //! is in both null spaces; the first and the last place are held at zero to fix it.
@@ -69,7 +71,7 @@ struct Fit {
     places_um: Vec<f64>,
     /// Minus twice the restricted log likelihood.
     misfit: f64,
-    /// Estimated variance of `z`, µm².
+    /// Variance of `z`, µm²: known from the runs, or estimated.
     variance_um2: f64,
     factor: Factor,
 }
@@ -77,6 +79,12 @@ struct Fit {
 impl System<'_> {
     fn places(&self) -> usize {
         self.z_um.len() + self.combined.spacing.total()
+    }
+
+    /// Variance of a mean `z` by the scatter of the runs, µm².
+    fn variance_of_mean_um2(&self) -> Option<f64> {
+        let sigma_um = self.combined.sigma_um.filter(|sigma_um| 0.0 < *sigma_um)?;
+        Some(sigma_um * sigma_um / number(*self.combined.counts.iter().min()?))
     }
 
     /// Coefficients of one sample's equation, by place.
@@ -105,9 +113,13 @@ impl System<'_> {
         let mut places_um = vec![0.0];
         places_um.extend(factor.solve(&right));
         places_um.push(0.0);
-        let variance_um2 = self.penalised_squares(&places_um, smoothness) / number(samples);
-        let misfit = number(samples) * libm::log(variance_um2) + factor.log_determinant()
-            - number(places - 2) * libm::log(smoothness);
+        let squares_um2 = self.penalised_squares(&places_um, smoothness);
+        let estimated_um2 = squares_um2 / number(samples);
+        let known_um2 = self.variance_of_mean_um2();
+        let variance_um2 = known_um2.unwrap_or(estimated_um2);
+        let estimated_misses = number(samples) * libm::log(estimated_um2);
+        let misses = known_um2.map_or(estimated_misses, |known_um2| squares_um2 / known_um2);
+        let misfit = misses + factor.log_determinant() - number(places - 2) * libm::log(smoothness);
         // Readings without any form or noise fit exactly, with a likelihood beyond all bounds.
         (!misfit.is_nan()).then_some(Fit { places_um, misfit, variance_um2, factor })
     }

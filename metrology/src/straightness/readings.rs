@@ -70,10 +70,16 @@ impl Readings {
     ///
     /// # Errors
     ///
-    /// When runs or probes differ in length, there are fewer than four samples, a reading is
-    /// infinite, or a sample has no complete reading in any run.
+    /// When runs or probes differ in length, there are fewer than four samples, the probes span the
+    /// stroke or more, a reading is infinite, or a sample has no complete reading in any run.
     pub fn combine(&self, spacing: Spacing) -> Result<Combined, Error> {
         self.check()?;
+        let (span, stroke) = (spacing.total(), self.samples() - 1);
+        if stroke <= span {
+            let (found_mm, stroke_mm) =
+                (number(span) * self.step_mm, number(stroke) * self.step_mm);
+            return Err(Error::ProbesBeyondStroke { found_mm, stroke_mm });
+        }
         let mut z = self.z_of_runs(spacing);
         // One spike moves the mean of its whole run, so outliers are sought about the median;
         // what is left is then put on its mean, as equation 11 has it.
@@ -260,6 +266,14 @@ mod tests {
         };
         let repeat = |index| Repeat { probes_um: [0, 1, 2].map(|p| probe(index, p)) };
         Readings { start_mm: 0.0, step_mm: 5.0, repeats: (0..10).map(repeat).collect() }
+    }
+
+    /// No place of the bar would be touched twice.
+    #[test]
+    fn probes_that_span_the_stroke_are_refused() {
+        assert!(readings(0.0).combine(Spacing { first: 7, second: 7 }).is_ok());
+        let error = readings(0.0).combine(Spacing { first: 7, second: 8 }).unwrap_err();
+        assert_eq!(error, Error::ProbesBeyondStroke { found_mm: 75.0, stroke_mm: 75.0 });
     }
 
     #[test]

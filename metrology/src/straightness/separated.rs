@@ -20,6 +20,25 @@ pub struct Separated {
 }
 
 impl Separated {
+    /// The same with the difference from another method in the uncertainty.
+    ///
+    /// What the two methods may differ by although both are right, the difference of their
+    /// variances, is taken off the mean square difference; the rest is what one of them assumes
+    /// wrongly, such as that the bar repeats with the stroke.
+    #[must_use]
+    pub fn with_difference_from(mut self, other: &Self) -> Self {
+        let pairs = self.workpiece_um.iter().zip(&other.workpiece_um);
+        let squares: f64 = pairs.map(|(a, b)| (a - b) * (a - b)).sum();
+        let difference_um2 = squares / number(self.workpiece_um.len());
+        let variance = |each: &Option<Vec<f64>>| each.as_deref().map_or(0.0, mean_square);
+        let expected_um2 = (variance(&other.uncertainty_um) - variance(&self.uncertainty_um)).abs();
+        let excess_um2 = (difference_um2 - expected_um2).max(0.0);
+        for u_um in self.uncertainty_um.iter_mut().flatten() {
+            *u_um = libm::sqrt(*u_um * *u_um + excess_um2);
+        }
+        self
+    }
+
     /// Puts the carriage beside a bar known at all places the three probes touch.
     ///
     /// `touched_um(sample, back)` is h at the place `back` steps behind a sample.
@@ -42,6 +61,10 @@ impl Separated {
             uncertainty_um,
         }
     }
+}
+
+fn mean_square(values: &[f64]) -> f64 {
+    values.iter().map(|value| value * value).sum::<f64>() / number(values.len())
 }
 
 fn place(combined: &Combined, sample: usize) -> f64 {
