@@ -87,7 +87,7 @@ def form(truth, answer, verdict, names):
         whole = all(told(one, answer) for one in asked(truth) if not one["effect"].startswith("outside"))
         return names <= allowed and whole, verdict
     if verdict == "ambiguous":
-        torn = any(set(one["alike"]) - allowed for one in truth["planted"])
+        torn = any(set(one["alike"]) - allowed for one in truth["planted"]) or answer["contenders"] <= allowed
         return bool(torn and allowed & answer["contenders"]), verdict
     return verdict == "unexplained", verdict
 

@@ -149,10 +149,16 @@ def course(rng, t, swing, kind=None):
     return swing * shape
 
 
+# Readings a record of a sensor that is held between them, so that the log can follow what it logs.
+READINGS, INTERVALS_S = 60, (60.0, 30.0, 20.0, 10.0, 5.0, 2.0, 1.0)
+
+
 def log(rng, record, name, true, resolution, noise=0.0, every_s=60.0):
-    """A sensor read every `every_s` s, held until the next reading, rounded to its resolution."""
+    """A sensor read every minute (a short record: more often), held until the next reading, rounded; 0: every row."""
     record.true[name] = true
     if every_s:
+        span = np.ptp(record.t)
+        every_s = next((one for one in INTERVALS_S if one <= span / READINGS), INTERVALS_S[-1])
         ticks = np.floor(record.t / every_s) * every_s
         held = np.interp(ticks, record.t, true)
         jitter = noise * rng.standard_normal(int(ticks.max() / every_s) + 1)

@@ -5,7 +5,7 @@ import numpy as np
 from . import shapes
 
 # Places of shape parameters that are tried: enough that a fit between them gains little.
-BUMPS, WIDTHS, STEPS, TAUS, SPACINGS = 24, 7, 60, 10, 14
+BUMPS, WIDTHS, STEPS, TAUS, SPACINGS, PLAYS = 24, 7, 60, 10, 14, 12
 
 
 def waves(argument):
@@ -15,6 +15,8 @@ def waves(argument):
 def rivals(machine, record, channels):
     """(effect, entry, columns) for every effect and every place of its shape."""
     out = periodic(machine, record) + smooth(machine, record) + logged(machine, record) + sudden(machine, record)
+    if "commanded_um" in record.true:
+        out += actuator(record)
     if "lead_error_um" in channels:
         out += thread(machine, record)
     return out
@@ -67,6 +69,15 @@ def logged(machine, record):
     if "force_n" in true:
         for way in (0.1, 1.0, 5.0):
             out.append(("wind-up", "motion", [shapes.wound_up(record, true["force_n"], way)]))
+    return out
+
+
+def actuator(record):
+    """A lever of another ratio, play of several widths: functions of what the counter commands."""
+    commanded = record.true["commanded_um"]
+    out = [("lever-ratio", "actuator", [commanded])]
+    for width in np.geomspace(0.03, 3, PLAYS):
+        out.append(("corrector-lost-motion", "actuator", [commanded - shapes.play(commanded, width)]))
     return out
 
 

@@ -20,6 +20,7 @@ def looped(rng, loop=None):
     case.loop, case.thin = loop or Loop(), 4
     know_screw(case, rng, um=float(rng.uniform(1.5, 4)))
     know_slope(case, rng)
+    case.record.true["commanded_um"] = machine.step_um * counted(case)
     return case
 
 
@@ -45,7 +46,7 @@ def closed_gear(rng, level):
 def weak_lever(rng, level):
     gain = float(rng.choice([0.9, 0.94, 0.97, 1.03, 1.06]))
     case = looped(rng, Loop(gain=gain))
-    shape = case.machine.step_um * counted(case)
+    shape = case.record.true["commanded_um"]
     return named(case, Planted("lever-ratio", "actuator", shape, level, 1 - gain, fixed=True, shaped={"gain": gain}))
 
 
