@@ -5,9 +5,7 @@
 
 use std::path::Path;
 
-use helixlock_lab::diagnosis::{Diagnosis, Verdict, diagnose};
-use helixlock_lab::measurement::{Measurement, Nominal};
-use helixlock_lab::problem::Problem;
+use helixlock_lab::{Diagnosis, Measurement, Nominal, Problem, Verdict, diagnose};
 use helixlock_plant::Model;
 use helixlock_sim::{Options, simulate};
 use helixlock_traces::{Column, Table};

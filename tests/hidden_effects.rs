@@ -2,11 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use helixlock_lab::challenge::{Outcome, challenge, judge};
-use helixlock_lab::compare::compare;
-use helixlock_lab::diagnosis::{Diagnosis, Verdict, diagnose};
-use helixlock_lab::measurement::{Measurement, Nominal};
-use helixlock_lab::problem::Problem;
+use helixlock_lab::{
+    Diagnosis, Measurement, Nominal, Outcome, Problem, Verdict, challenge, compare, diagnose, judge,
+};
 use helixlock_plant::{MachineFile, Model};
 use helixlock_traces::{Column, Table, read_table};
 

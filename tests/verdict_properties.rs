@@ -4,9 +4,7 @@
 
 use std::path::Path;
 
-use helixlock_lab::diagnosis::{Verdict, diagnose};
-use helixlock_lab::measurement::{Measurement, Nominal};
-use helixlock_lab::problem::Problem;
+use helixlock_lab::{Measurement, Nominal, Problem, Verdict, diagnose};
 use helixlock_plant::prediction::{Sensor, predict};
 use helixlock_plant::{Model, Record, Samples};
 use helixlock_traces::{Column, Table};

@@ -1,7 +1,6 @@
 //! What is left beside noise is seen, and noise is not taken for anything.
 
-use helixlock_lab::compare::compare;
-use helixlock_lab::diagnosis::{Verdict, diagnose};
+use helixlock_lab::{Verdict, compare, diagnose};
 
 use crate::support::passes::{Passes, noise};
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use helixlock_lab::diagnosis::{Diagnosis, Verdict, diagnose};
+use helixlock_lab::{Diagnosis, Verdict, diagnose};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal, StudentT};

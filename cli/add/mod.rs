@@ -6,9 +6,7 @@ use std::process::ExitCode;
 
 use anyhow::{Context, bail};
 use clap::Args;
-use helixlock_lab::adding::{Added, add};
-use helixlock_lab::diagnosis::FittedEffect;
-use helixlock_lab::learn::written;
+use helixlock_lab::{Added, FittedEffect, add, written};
 use helixlock_plant::{MachineFile, Term};
 use serde_json::json;
 

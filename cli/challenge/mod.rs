@@ -8,10 +8,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use helixlock_lab::challenge::{Challenge as Task, Hidden, challenge};
-use helixlock_lab::diagnosis::diagnose;
-use helixlock_lab::measurement::{Measurement, Nominal};
-use helixlock_lab::problem::Problem;
+use helixlock_lab::{
+    Challenge as Task, Hidden, Measurement, Nominal, Problem, challenge, diagnose,
+};
 use helixlock_traces::csv::write_csv;
 use serde_json::{Value, json};
 

@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 use std::io::Write;
 
-use helixlock_lab::challenge::{Challenge, Hidden, Outcome, judge};
-use helixlock_lab::diagnosis::{Diagnosis, Verdict};
+use helixlock_lab::{Challenge, Diagnosis, Hidden, Outcome, Verdict, judge};
 use helixlock_plant::Term;
 use serde_json::{Value, json};
 

@@ -7,9 +7,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use helixlock_lab::compare::{Comparison, compare};
-use helixlock_lab::lines::NamedLine;
-use helixlock_lab::measurement::{Measurement, sensor_column};
+use helixlock_lab::{Comparison, Measurement, NamedLine, compare, sensor_column};
 use serde_json::{Value, json};
 
 use crate::shared::diagnosis_json;

@@ -1,8 +1,6 @@
 //! Report of `helixlock compare`: the residual, its spectrum, and where it fails.
 
-use helixlock_lab::compare::{Comparison, SensorResidual};
-use helixlock_lab::measurement::sensor_column;
-use helixlock_lab::problem::Problem;
+use helixlock_lab::{Comparison, Problem, SensorResidual, sensor_column};
 use helixlock_report::{Colour, Figure, Page, Part, Series, Style, Table};
 
 use crate::shared::residual_picture::{panel, points, x_axis};

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use helixlock_lab::diagnosis::diagnose;
+use helixlock_lab::diagnose;
 
 use crate::shared::diagnosis_json;
 use crate::shared::diagnosis_text::print;

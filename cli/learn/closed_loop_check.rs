@@ -2,9 +2,7 @@
 
 use std::io::Write;
 
-use helixlock_lab::final_check::{FinalCheck, final_check};
-use helixlock_lab::measurement::sensor_column;
-use helixlock_lab::problem::Problem;
+use helixlock_lab::{FinalCheck, Problem, final_check, sensor_column};
 use helixlock_plant::Model;
 use serde_json::{Value, json};
 

@@ -11,9 +11,7 @@ use std::process::ExitCode;
 
 use anyhow::{Context, bail};
 use clap::Args;
-use helixlock_lab::diagnosis::{Diagnosis, diagnose};
-use helixlock_lab::learn::{Ledger, fingerprint, ledger, written};
-use helixlock_lab::problem::Problem;
+use helixlock_lab::{Diagnosis, Ledger, Problem, diagnose, fingerprint, ledger, written};
 use helixlock_plant::MachineFile;
 use helixlock_report::Page;
 use serde_json::Value;

@@ -1,7 +1,6 @@
 //! Report of `helixlock learn`: the verdict, the error falling, before and after, what to do next.
 
-use helixlock_lab::diagnosis::{Diagnosis, FittedEffect, Verdict};
-use helixlock_lab::problem::Problem;
+use helixlock_lab::{Diagnosis, FittedEffect, Problem, Verdict};
 use helixlock_report::{Page, Part, Table};
 
 use super::closed_loop_check::Checked;
@@ -70,7 +69,7 @@ fn sentence(diagnosis: &Diagnosis, unit: &str) -> String {
 /// An effect with its first parameters.
 fn described(effect: &FittedEffect) -> String {
     const MOST: usize = 2;
-    let value = |parameter: &helixlock_lab::diagnosis::Parameter| {
+    let value = |parameter: &helixlock_lab::FittedParameter| {
         let stderr = parameter.stderr.map_or(String::new(), |stderr| format!(" ± {stderr:.3}"));
         format!("{} {:.3}{stderr}", parameter.key, parameter.value)
     };

@@ -1,11 +1,6 @@
 //! Pictures of `helixlock learn`: the error falling, the model on the data, before and after.
 
-use helixlock_lab::amplitude_spectrum::amplitude_spectrum;
-use helixlock_lab::analysis::State;
-use helixlock_lab::diagnosis::{Diagnosis, Round};
-use helixlock_lab::lines::lines;
-use helixlock_lab::measurement::sensor_column;
-use helixlock_lab::problem::Problem;
+use helixlock_lab::{Diagnosis, Problem, Round, amplitude_spectrum, lines_left, sensor_column};
 use helixlock_report::{Axis, Colour, Figure, Label, Panel, Part, Series, Style};
 
 use super::closed_loop_check::Checked;
@@ -69,7 +64,7 @@ pub(crate) fn falling(rounds: &[Left], unit: &str) -> Part {
 /// Measured and model, residual before and after, spectrum before and after, of one sensor.
 pub(crate) fn before_and_after(problem: &Problem, diagnosis: &Diagnosis, sensor: usize) -> Part {
     let unit = problem.measurement.unit();
-    let after = &diagnosis.state.fit.left;
+    let after = &diagnosis.left;
     let model = |left: &[f64]| -> Vec<f64> {
         problem.observed.iter().zip(left).map(|(observed, left)| observed - left).collect()
     };
@@ -118,14 +113,13 @@ fn spectra(problem: &Problem, diagnosis: &Diagnosis, sensor: usize) -> Panel {
     };
     let series = vec![
         spectrum("before", Colour::Orange, &diagnosis.before),
-        spectrum("after", Colour::Blue, &diagnosis.state.fit.left),
+        spectrum("after", Colour::Blue, &diagnosis.left),
     ];
     let unit = format!("amplitude in {}", problem.measurement.unit());
     let mut panel =
         panel("Order spectrum of the residual", "cycles a spindle turn".into(), &unit, series);
-    let bare = State::bare(problem);
     let rotary = problem.model.rotary;
-    panel.labels = spectrum::labels(&lines(problem, &bare.columns, &bare.fit), sensor, rotary);
+    panel.labels = spectrum::labels(&lines_left(problem), sensor, rotary);
     panel.x = spectrum::axis(rotary);
     panel
 }

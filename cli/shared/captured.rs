@@ -4,7 +4,7 @@ use std::path::Path;
 
 use anyhow::{anyhow, bail};
 use clap::Args;
-use helixlock_lab::pulse_trains::{PulseTrains, Steps};
+use helixlock_lab::{PulseTrains, Steps};
 use helixlock_plant::Model;
 use helixlock_traces::{Capture, CapturedSignal, read_capture};
 

@@ -1,9 +1,9 @@
 //! The keys of `diagnose --json` and `learn --json`; they do not change.
 
-use helixlock_lab::diagnosis::{Diagnosis, FittedEffect, Parameter, Ranked, Round};
-use helixlock_lab::learn::{Entry, Ledger};
-use helixlock_lab::measurement::Measurement;
-use helixlock_lab::probes::Structure;
+use helixlock_lab::{
+    Diagnosis, FittedEffect, FittedParameter, Ledger, LedgerEntry, Measurement, Ranked, Round,
+    Structure,
+};
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
@@ -49,7 +49,7 @@ pub(crate) fn round(round: &Round) -> Value {
 
 /// The ledger: every round with the machine file after it, so that each can be gone back to.
 pub(crate) fn ledger(ledger: &Ledger, diagnosis: &Diagnosis, data: &Path) -> Value {
-    let entry = |entry: &Entry| {
+    let entry = |entry: &LedgerEntry| {
         let mut value = round(&entry.round);
         value["rms_before_um"] = json!(entry.rms_before_um);
         value["holdout_rms_before_um"] = json!(entry.holdout_rms_before_um);
@@ -72,7 +72,7 @@ fn effects(effects: &[FittedEffect]) -> Value {
 }
 
 /// Parameters by their keys, each with its value and standard error.
-pub(crate) fn parameters(parameters: &[Parameter]) -> Value {
+pub(crate) fn parameters(parameters: &[FittedParameter]) -> Value {
     let mut map = Map::new();
     for parameter in parameters {
         let mut entry = json!({ "value": parameter.value, "stderr": parameter.stderr });

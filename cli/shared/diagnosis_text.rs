@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use helixlock_lab::diagnosis::{Diagnosis, FittedEffect};
+use helixlock_lab::{Diagnosis, FittedEffect};
 
 use crate::shared::words::with_p;
 

@@ -4,8 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
 use clap::Args;
-use helixlock_lab::measurement::{Measurement, Nominal};
-use helixlock_lab::problem::Problem;
+use helixlock_lab::{Measurement, Nominal, Problem};
 use helixlock_plant::{MachineFile, Model};
 use helixlock_traces::read_table;
 

@@ -1,6 +1,6 @@
 //! Residuals drawn over travel or time.
 
-use helixlock_lab::problem::Problem;
+use helixlock_lab::Problem;
 use helixlock_report::{Axis, Panel, Series};
 
 /// A panel of the usual height.

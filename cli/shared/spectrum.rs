@@ -1,6 +1,6 @@
 //! Names and axes of order spectra.
 
-use helixlock_lab::lines::NamedLine;
+use helixlock_lab::NamedLine;
 use helixlock_report::{Axis, Label};
 
 /// Most lines that are named in a picture; the table has all.

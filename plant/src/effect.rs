@@ -207,6 +207,12 @@ impl Parameter {
     pub fn is_nonlinear(&self) -> bool {
         self.role == Role::Nonlinear
     }
+
+    /// True for a frequency in time, which a spectrum finds better than a grid.
+    #[must_use]
+    pub fn is_frequency(&self) -> bool {
+        self.unit.suffix() == "hz" && self.search != Search::Fixed
+    }
 }
 
 /// What an effect is worked out for.

@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use helixlock_lab::measurement::{Measurement, Nominal};
-use helixlock_lab::problem::Problem;
+use helixlock_lab::{Measurement, Nominal, Problem};
 use helixlock_plant::Model;
 use helixlock_traces::{Column, Table};
 use rand::SeedableRng;

@@ -6,7 +6,7 @@ use helixlock_plant::Record;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-use crate::measurement::spread;
+use crate::numerics::spread;
 
 /// A shape of table motion, of size about 1, with its name.
 pub(super) fn shape(record: &Record, chance: &mut ChaCha8Rng) -> (&'static str, Vec<f64>) {

@@ -4,7 +4,7 @@ use helixlock_plant::{Machine, Record, Role, Search, Term};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-use crate::measurement::spread;
+use crate::numerics::spread;
 
 /// An effect with the experiment that shows it.
 #[derive(Debug, Clone, Copy)]

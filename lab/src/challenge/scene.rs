@@ -10,10 +10,9 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
+use super::error::ChallengeError;
 use super::recipe::Recipe;
-use super::{ChallengeError, column};
-use crate::count;
-use crate::fit::rms_about_means;
+use crate::numerics::{count, rms_about_means};
 
 /// Leads with dividers that hold them (document 1: B/A = S·5/22).
 const LEADS: [(&str, u32, u32); 3] = [("6 mm", 110, 150), ("5 mm", 110, 125), ("10 mm", 66, 150)];
@@ -208,4 +207,9 @@ fn shuffle(columns: &mut [Column], chance: &mut ChaCha8Rng) {
     for last in (1..columns.len()).rev() {
         columns.swap(last, chance.random_range(0..=last));
     }
+}
+
+/// A column of a table.
+fn column(name: &str, values: Vec<f64>) -> Column {
+    Column { name: name.to_owned(), values }
 }

@@ -3,7 +3,7 @@
 use helixlock_traces::Table;
 
 use super::Nominal;
-use crate::error::LabError;
+use super::error::LabError;
 
 /// Coordinates of the rows of a table, in the order of the file; NaN where unknown.
 #[derive(Debug, Clone)]
@@ -41,7 +41,7 @@ pub(crate) fn complete(table: &Table, nominal: &Nominal) -> Result<Coordinates, 
         _ => {
             return Err(LabError::NoCoordinate {
                 path: table.path.display().to_string(),
-                found: super::names(table),
+                found: super::samples::names(table),
             });
         }
     };

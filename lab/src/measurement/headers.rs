@@ -125,7 +125,7 @@ pub(super) fn is_known(name: &str) -> bool {
 }
 
 fn is_ours(name: &str) -> bool {
-    helixlock_plant::COVARIATES.contains(&name) || super::NOT_COVARIATES.contains(&name)
+    helixlock_plant::COVARIATES.contains(&name) || super::samples::NOT_COVARIATES.contains(&name)
 }
 
 /// Our name for a column, with factor and offset.

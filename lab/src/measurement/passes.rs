@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use helixlock_traces::Table;
 
 use super::coordinates::Coordinates;
+use crate::numerics::{count, median, spread};
 
 /// Rows of the table in pass and time order, with what follows from that order.
 #[derive(Debug)]
@@ -95,15 +96,15 @@ fn by_jumps(
         .map(|pair| coordinates.angle_rev[pair[1]] - coordinates.angle_rev[pair[0]])
         .collect();
     let mut sizes: Vec<f64> = moves.iter().map(|m| m.abs()).collect();
-    let usual = crate::noise_fit::median(&mut sizes);
-    let range = super::spread(&rows.iter().map(|&r| coordinates.angle_rev[r]).collect::<Vec<_>>());
+    let usual = median(&mut sizes);
+    let range = spread(&rows.iter().map(|&r| coordinates.angle_rev[r]).collect::<Vec<_>>());
     let far = (50.0 * usual).max(0.2 * range);
     let jumps = moves.iter().filter(|m| far < m.abs()).count();
     let shuffled = rows.len() < 20 * jumps;
     let mut groups = vec![(1.0, vec![rows[0]])];
     for (pair, step) in rows.windows(2).zip(&moves) {
         if coordinates.placed && !shuffled && far < step.abs() {
-            groups.push((crate::count(groups.len() + 1), Vec::new()));
+            groups.push((count(groups.len() + 1), Vec::new()));
         }
         let last = groups.len() - 1;
         groups[last].1.push(pair[1]);
@@ -185,7 +186,7 @@ fn speed(table: &Table, coordinates: &Coordinates, members: &[usize]) -> Vec<f64
         })
         .filter(|rpm| rpm.is_finite() && 0.0 < *rpm)
         .collect();
-    let usual = crate::noise_fit::median(&mut measured);
+    let usual = median(&mut measured);
     let given = table.column("speed_rpm");
     let told = |row: usize| given.map(|column| column[row]).filter(|rpm| rpm.is_finite());
     members.iter().map(|&row| told(row).unwrap_or(usual)).collect()
@@ -215,9 +216,9 @@ fn bridge(values: &mut [f64], overall: f64) {
     values[last + 1..].fill(high);
     for pair in known.windows(2) {
         let (a, b) = (values[pair[0]], values[pair[1]]);
-        let width = crate::count(pair[1] - pair[0]);
+        let width = count(pair[1] - pair[0]);
         for (step, value) in values[pair[0]..pair[1]].iter_mut().enumerate().skip(1) {
-            *value = a + (b - a) * crate::count(step) / width;
+            *value = a + (b - a) * count(step) / width;
         }
     }
 }

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use helixlock_traces::Table;
 
-use crate::error::LabError;
+use super::error::LabError;
 
 /// What a sensor can read at all, its unit taken at its word.
 struct Limits {

@@ -124,7 +124,7 @@ fn curve(points: &[[f64; 2]], slopes: &[f64], at: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::count;
+    use crate::numerics::count;
 
     fn rms(a: &[f64], b: &[f64]) -> f64 {
         let square: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();

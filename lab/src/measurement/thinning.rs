@@ -7,22 +7,22 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::Measurement;
+use crate::numerics::count;
 
 /// Samples on each side of a reversal that stay single: there play and wind-up change quickly.
 const AROUND_REVERSALS: usize = 8;
 
 /// Mean of each group of values.
 #[must_use]
-pub fn means(values: &[f64], groups: &[Range<usize>]) -> Vec<f64> {
-    let mean =
-        |rows: &Range<usize>| values[rows.clone()].iter().sum::<f64>() / crate::count(rows.len());
+pub(crate) fn means(values: &[f64], groups: &[Range<usize>]) -> Vec<f64> {
+    let mean = |rows: &Range<usize>| values[rows.clone()].iter().sum::<f64>() / count(rows.len());
     groups.iter().map(mean).collect()
 }
 
 impl Measurement {
     /// Means of groups of neighbours.
     #[must_use]
-    pub fn averaged(&self, groups: &[Range<usize>]) -> Self {
+    pub(crate) fn averaged(&self, groups: &[Range<usize>]) -> Self {
         let mean = |values: &[f64]| means(values, groups);
         let observations: BTreeMap<_, _> = self
             .observations
@@ -46,7 +46,7 @@ impl Measurement {
 
     /// One sample of each group of `every` neighbours, drawn by a fixed seed, as a group of one.
     #[must_use]
-    pub fn picks(&self, every: usize) -> Vec<Range<usize>> {
+    pub(crate) fn picks(&self, every: usize) -> Vec<Range<usize>> {
         let mut chance = ChaCha8Rng::seed_from_u64(0);
         let drawn = self.groups(every).into_iter().map(|group| chance.random_range(group));
         drawn.map(|row| row..row + 1).collect()
@@ -54,7 +54,7 @@ impl Measurement {
 
     /// Groups of `together` neighbours, never across passes or reversals.
     #[must_use]
-    pub fn groups(&self, together: usize) -> Vec<Range<usize>> {
+    pub(crate) fn groups(&self, together: usize) -> Vec<Range<usize>> {
         let single = self.near_reversals(together);
         let mut groups: Vec<Range<usize>> = Vec::new();
         for row in 0..self.len() {
@@ -91,5 +91,5 @@ impl Measurement {
 /// Mean of the cells that are there; NaN of none.
 fn present(values: &[f64]) -> f64 {
     let there: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
-    if there.is_empty() { f64::NAN } else { there.iter().sum::<f64>() / crate::count(there.len()) }
+    if there.is_empty() { f64::NAN } else { there.iter().sum::<f64>() / count(there.len()) }
 }

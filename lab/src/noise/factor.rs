@@ -3,6 +3,7 @@
 use std::array::from_fn;
 
 use super::Noise;
+use crate::numerics::count;
 
 /// Change of a gain from one row to the next below which it has settled.
 const SETTLED: f64 = 1e-12;
@@ -217,7 +218,7 @@ impl<const L: usize> Pivots<L> {
 
     pub(super) fn times_often(&mut self, pivots: &Lanes<L>, times: usize) {
         for (logarithm, pivot) in self.logarithm.iter_mut().zip(pivots) {
-            *logarithm += crate::count(times) * libm::log(*pivot);
+            *logarithm += count(times) * libm::log(*pivot);
         }
     }
 

@@ -4,8 +4,8 @@ use std::array::from_fn;
 use std::ops::Range;
 
 use super::factor::{Factor, Lanes, Pivots};
-use super::{Noise, PARTS};
-use crate::layout::Layout;
+use super::kernel::{Noise, PARTS};
+use super::layout::Layout;
 
 /// Noises whose likelihood is worked out side by side, in vector registers.
 const LANES: usize = 6;
@@ -15,7 +15,7 @@ const LANES: usize = 6;
 ///
 /// The same numbers as from a [`super::Whitener`].
 #[must_use]
-pub fn squares_and_log_determinants(
+pub(crate) fn squares_and_log_determinants(
     layout: &Layout,
     noises: &[Noise],
     column: &[f64],

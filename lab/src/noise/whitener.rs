@@ -3,12 +3,13 @@
 use std::ops::Range;
 
 use super::factor::{Factor, Pivots};
-use super::{Noise, PARTS};
-use crate::layout::{Block, Layout};
+use super::kernel::{Noise, PARTS};
+use super::layout::{Block, Layout};
+use crate::numerics::least_squares::dot;
 
 /// The factorised covariance of all rows: makes columns white and frees them of pass offsets.
 #[derive(Debug, Clone)]
-pub struct Whitener {
+pub(crate) struct Whitener {
     blocks: Vec<Part>,
     steps: Vec<Step>,
     ones: Vec<f64>,
@@ -40,7 +41,7 @@ const TILE: usize = 32;
 impl Whitener {
     /// Factorises the covariance; `noises` holds one model a sensor.
     #[must_use]
-    pub fn new(layout: &Layout, noises: &[Noise]) -> Self {
+    pub(crate) fn new(layout: &Layout, noises: &[Noise]) -> Self {
         let mut whitener = Self {
             blocks: Vec::with_capacity(layout.blocks.len()),
             steps: Vec::with_capacity(layout.len()),
@@ -62,19 +63,19 @@ impl Whitener {
 
     /// Log determinant of the covariance, with that of the offsets (restricted likelihood).
     #[must_use]
-    pub fn log_determinant(&self) -> f64 {
+    pub(crate) fn log_determinant(&self) -> f64 {
         self.log_determinant
     }
 
     /// Number of offsets projected out: one a block.
     #[must_use]
-    pub fn offsets(&self) -> usize {
+    pub(crate) fn offsets(&self) -> usize {
         self.blocks.len()
     }
 
     /// The column with unit, uncorrelated noise and without the part a pass offset explains.
     #[must_use]
-    pub fn whiten(&self, column: &[f64]) -> Vec<f64> {
+    pub(crate) fn whiten(&self, column: &[f64]) -> Vec<f64> {
         let mut white = self.whiten_only(column);
         self.clear_of_offsets(&mut white);
         white
@@ -82,7 +83,7 @@ impl Whitener {
 
     /// Several columns as [`Self::whiten`] does them one by one, at a fraction of the time.
     #[must_use]
-    pub fn whiten_all(&self, columns: &[&[f64]]) -> Vec<Vec<f64>> {
+    pub(crate) fn whiten_all(&self, columns: &[&[f64]]) -> Vec<Vec<f64>> {
         let mut white = Vec::with_capacity(columns.len());
         let (full, rest) = columns.as_chunks::<LANES>();
         white.extend(full.iter().flat_map(|lanes| self.filtered(lanes)));
@@ -99,7 +100,7 @@ impl Whitener {
 
     /// The column with unit, uncorrelated noise; offsets stay in it.
     #[must_use]
-    pub fn whiten_only(&self, column: &[f64]) -> Vec<f64> {
+    pub(crate) fn whiten_only(&self, column: &[f64]) -> Vec<f64> {
         let [white] = self.filtered(&[column]);
         white
     }
@@ -107,7 +108,7 @@ impl Whitener {
     /// Inverse covariance times the residual that `white` was made of: correlating it with any
     /// column gives the column's whitened product, without whitening the column.
     #[must_use]
-    pub fn unwhiten(&self, white: &[f64]) -> Vec<f64> {
+    pub(crate) fn unwhiten(&self, white: &[f64]) -> Vec<f64> {
         let mut weighted = vec![0.0; white.len()];
         for block in &self.blocks {
             let mut adjoint = [0.0; PARTS];
@@ -183,7 +184,7 @@ impl Whitener {
         for block in &self.blocks {
             let ones = &self.ones[block.rows.clone()];
             let part = &mut white[block.rows.clone()];
-            let along = crate::least_squares::dot(ones, part);
+            let along = dot(ones, part);
             for (value, one) in part.iter_mut().zip(ones) {
                 *value -= along * one;
             }
@@ -217,7 +218,7 @@ impl Whitener {
     fn normalise_ones(&mut self) {
         for block in &self.blocks {
             let ones = &mut self.ones[block.rows.clone()];
-            let square = crate::least_squares::dot(ones, ones);
+            let square = dot(ones, ones);
             let length = square.max(f64::MIN_POSITIVE).sqrt();
             self.log_determinant += 2.0 * libm::log(length);
             for one in ones {

@@ -1,0 +1,16 @@
+//! What a user is told: compared, diagnosed, one effect added, a machine file written, an
+//! experiment proposed, and the learned machine run clock by clock.
+
+mod adding;
+mod compare;
+mod diagnosis;
+mod experiment;
+mod final_check;
+mod learn;
+
+pub use adding::{Added, add};
+pub use compare::{Comparison, PassSize, SensorResidual, compare};
+pub use diagnosis::{Diagnosis, FittedEffect, FittedParameter, Ranked, Round, Verdict, diagnose};
+pub use experiment::Advice;
+pub use final_check::{FinalCheck, SensorCheck, final_check};
+pub use learn::{Ledger, LedgerEntry, fingerprint, ledger, written};

@@ -1,0 +1,68 @@
+//! One effect chosen by the user, fitted together with those the machine file has.
+
+use helixlock_plant::{EffectError, Term};
+
+use super::diagnosis::{FittedEffect, effects};
+use crate::hypotheses::{candidate, try_candidate};
+use crate::model::{Columns, Component, Problem, Stage, State, holdout_rms, noises_of};
+use crate::noise::{Noise, rms};
+
+/// What a chosen effect does to the error.
+#[derive(Debug, Clone)]
+pub struct Added {
+    /// Effects with their fitted parameters: those refitted first, the new one last.
+    pub effects: Vec<FittedEffect>,
+    /// Root mean square before and after, µm (arcsec), on the data seen.
+    pub rms_um: [f64; 2],
+    /// The same on held-out data.
+    pub holdout_rms_um: [f64; 2],
+    /// Evidence for the effect: twice the log likelihood ratio.
+    pub gain: f64,
+}
+
+/// Fits an effect to a problem, its nonlinear parameters found anew, all coefficients jointly.
+///
+/// `beside` are effects whose coefficients give way too; the problem's machine must lack them.
+/// `None` when the effect has no influence on these data at all.
+///
+/// # Errors
+///
+/// [`EffectError`] when a column of data or a section of the machine file is missing.
+pub fn add(problem: &Problem, beside: &[Term], term: &Term) -> Result<Option<Added>, EffectError> {
+    problem.design(term)?;
+    let before = State::bare(problem);
+    let others: Vec<Component> = beside.iter().cloned().map(Component::new).collect();
+    let columns = Columns::of(problem, &others)?;
+    let base = State::of(problem, others.clone(), &before.fit.noises).unwrap_or(before);
+    let Some(first) = found(problem, &columns, &base.fit.noises, term) else {
+        return Ok(None);
+    };
+    // The noise that is left tells better where the nonlinear parameters lie.
+    let once = joined(problem, &others, first);
+    let again = once.as_ref().and_then(|once| found(problem, &columns, &once.fit.noises, term));
+    let state = again.and_then(|again| joined(problem, &others, again)).or(once);
+    Ok(state.map(|state| Added {
+        effects: effects(problem, &state),
+        rms_um: [rms(&problem.layout, &base.fit.left), rms(&problem.layout, &state.fit.left)],
+        holdout_rms_um: [
+            holdout_rms(problem, &base.columns, &base.fit.noises),
+            holdout_rms(problem, &state.columns, &state.fit.noises),
+        ],
+        gain: 2.0 * (state.fit.log_likelihood - base.fit.log_likelihood),
+    }))
+}
+
+fn found(problem: &Problem, columns: &Columns, noises: &[Noise], term: &Term) -> Option<Component> {
+    let stage = Stage::new(problem, columns, noises);
+    let candidate = candidate(&stage, term.clone())?;
+    try_candidate(&stage, &candidate).map(|trial| trial.component)
+}
+
+fn joined(problem: &Problem, others: &[Component], component: Component) -> Option<State> {
+    let mut all = others.to_vec();
+    all.push(component);
+    let noises = vec![Noise::white(); problem.sensors.len()];
+    let rough = State::of(problem, all.clone(), &noises)?;
+    let noises = noises_of(problem, &rough.fit.left);
+    State::of(problem, all, &noises)
+}

@@ -1,0 +1,159 @@
+//! Where a model and a measurement part: size, noise, and every coordinate it could follow.
+
+use helixlock_plant::prediction::Sensor;
+
+use crate::hypotheses::{SIGNIFICANCE, Structure, all_structures};
+use crate::model::{Problem, State};
+use crate::noise::{Layout, Noise, Whitener, rms};
+use crate::numerics::least_squares::dot;
+use crate::numerics::{count, median, spread};
+use crate::spectrum::{NamedLine, amplitude_spectrum, lines};
+
+/// Size of a residual in one pass.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PassSize {
+    /// Name of the pass in the file.
+    pub pass: f64,
+    /// Samples.
+    pub samples: usize,
+    /// Root mean square about the pass's own zero.
+    pub rms_um: f64,
+    /// Peak to peak.
+    pub peak_to_peak_um: f64,
+}
+
+/// One sensor's residual.
+#[derive(Debug, Clone)]
+pub struct SensorResidual {
+    /// The sensor.
+    pub sensor: Sensor,
+    /// Samples.
+    pub samples: usize,
+    /// Samples' worth of independent information about a mean.
+    pub effective_samples: f64,
+    /// Root mean square about the zero of each pass.
+    pub rms_um: f64,
+    /// Largest peak to peak of a pass.
+    pub peak_to_peak_um: f64,
+    /// Size in each pass.
+    pub passes: Vec<PassSize>,
+    /// The noise that fits best the samples looked at.
+    pub noise: Noise,
+    /// Interval of the samples looked at, s, which the noise's correlation lengths count.
+    pub interval_s: f64,
+    /// Samples looked at: all, or means of neighbours where there are very many.
+    pub looked_at: usize,
+    /// Outliers that were weighed down.
+    pub outliers: usize,
+    /// Order and amplitude over the spindle angle.
+    pub spectrum: Vec<[f64; 2]>,
+}
+
+/// A comparison of a model with a measurement.
+#[derive(Debug, Clone)]
+pub struct Comparison {
+    /// One entry a sensor.
+    pub sensors: Vec<SensorResidual>,
+    /// Everything that was looked along, clearest first; chances count all looks.
+    pub along: Vec<Structure>,
+    /// Lines over the spindle angle, named where the machine file knows them.
+    pub lines: Vec<NamedLine>,
+    /// Chance that the residual is noise alone: that of its clearest structure.
+    pub noise_p_value: f64,
+    /// True when nothing but noise is left.
+    pub noise_only: bool,
+    /// The residual, row by row.
+    pub residual: Vec<f64>,
+}
+
+/// Rows beyond which structure is looked for in means of neighbouring samples.
+const MOST_ROWS: usize = 30_000;
+
+/// Compares a model with a measurement.
+///
+/// Sizes are those of all samples; noise and structure are looked for in at most some ten
+/// thousand, means of neighbours where there are more.
+#[must_use]
+pub fn compare(problem: &Problem) -> Comparison {
+    let thinned = problem.thinned(MOST_ROWS);
+    let small = thinned.as_ref().unwrap_or(problem);
+    let state = State::bare(small);
+    let along = all_structures(small, &state.columns, &state.fit);
+    let noise_p_value = along.first().map_or(1.0, |first| first.p_value);
+    let residual = problem.residual();
+    let sensors = (0..problem.sensors.len())
+        .map(|sensor| sensor_residual(problem, (small, &state), &residual, sensor))
+        .collect();
+    Comparison {
+        sensors,
+        lines: lines(small, &state.columns, &state.fit),
+        noise_only: SIGNIFICANCE < noise_p_value,
+        noise_p_value,
+        along,
+        residual,
+    }
+}
+
+fn sensor_residual(
+    problem: &Problem,
+    (small, state): (&Problem, &State),
+    residual: &[f64],
+    sensor: usize,
+) -> SensorResidual {
+    let blocks = || problem.layout.blocks.iter().filter(|block| block.sensor == sensor);
+    let passes: Vec<PassSize> = blocks()
+        .map(|block| {
+            let part = &residual[block.rows.clone()];
+            let samples = part.len();
+            let mean = part.iter().sum::<f64>() / count(samples);
+            let square: f64 = part.iter().map(|value| (value - mean) * (value - mean)).sum();
+            PassSize {
+                pass: problem.measurement.pass_names[block.pass],
+                samples,
+                rms_um: (square / count(samples)).sqrt(),
+                peak_to_peak_um: spread(part),
+            }
+        })
+        .collect();
+    let samples: usize = passes.iter().map(|pass| pass.samples).sum();
+    let (layout, rows) = small.of_sensor(sensor);
+    let left: Vec<f64> = rows.iter().map(|&row| state.fit.left[row]).collect();
+    let square: f64 =
+        passes.iter().map(|pass| pass.rms_um * pass.rms_um * count(pass.samples)).sum();
+    let rms_um = (square / count(samples.max(1))).sqrt();
+    let smaller = (rms_um / rms(&layout, &left).max(f64::MIN_POSITIVE)).powi(2);
+    SensorResidual {
+        sensor: problem.sensors[sensor],
+        samples,
+        effective_samples: smaller * effective_samples(&layout, &state.fit.noises[sensor]),
+        rms_um,
+        peak_to_peak_um: passes.iter().map(|pass| pass.peak_to_peak_um).fold(0.0, f64::max),
+        passes,
+        noise: state.fit.noises[sensor].clone(),
+        interval_s: interval_s(small),
+        looked_at: rows.len(),
+        outliers: blocks()
+            .flat_map(|block| block.rows.clone())
+            .filter(|&row| 1.0 < problem.layout.inflation[row])
+            .count(),
+        spectrum: amplitude_spectrum(problem, residual, sensor),
+    }
+}
+
+/// Variance of a sample over the variance of the best mean: `σ²·1ᵀK⁻¹1`.
+fn effective_samples(layout: &Layout, noise: &Noise) -> f64 {
+    let whitener = Whitener::new(layout, std::slice::from_ref(noise));
+    let ones = whitener.whiten_only(&vec![1.0; layout.len()]);
+    noise.variance() * dot(&ones, &ones)
+}
+
+fn interval_s(problem: &Problem) -> f64 {
+    let mut intervals: Vec<f64> = problem
+        .record
+        .time_s
+        .windows(2)
+        .map(|pair| pair[1] - pair[0])
+        .filter(|interval| 0.0 < *interval)
+        .collect();
+    median(&mut intervals)
+}

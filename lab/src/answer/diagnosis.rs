@@ -1,0 +1,363 @@
+//! The answer: what is missing in a model, how sure that is, and what would make it surer.
+
+use rayon::prelude::*;
+
+use super::experiment::{self, Advice};
+use crate::hypotheses::{SIGNIFICANCE, Structure, better_shape, structures};
+use crate::model::{
+    Component, JointCovariance, Judged, Problem, State, holdout_rms, joint_covariance,
+};
+use crate::noise::rms;
+use crate::numerics::least_squares::covariance_rows;
+use crate::search::{Found, Step, polished, pruned, rivals, search};
+
+/// What can be said about a model and a measurement.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// Effects were found, and what they leave is noise.
+    Explained,
+    /// Two or more effects explain the data alike.
+    Ambiguous,
+    /// Structure is left that no effect accounts for.
+    Unexplained,
+    /// The model leaves nothing but noise.
+    NothingMissing,
+}
+
+impl Verdict {
+    /// As results spell it.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Explained => "explained",
+            Self::Ambiguous => "ambiguous",
+            Self::Unexplained => "unexplained",
+            Self::NothingMissing => "nothing-missing",
+        }
+    }
+}
+
+/// A fitted parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FittedParameter {
+    /// Name with unit.
+    pub key: String,
+    /// Value in that unit.
+    pub value: f64,
+    /// Standard error under the noise model; `None` for numbers that were chosen from a list.
+    pub stderr: Option<f64>,
+    /// Why the value should not be trusted as it is, if so.
+    pub warning: Option<&'static str>,
+}
+
+/// An effect with its fitted parameters.
+#[derive(Debug, Clone)]
+pub struct FittedEffect {
+    /// Name of the effect.
+    pub name: String,
+    /// The effect with its values, ready for a machine file.
+    pub term: helixlock_plant::Term,
+    /// Its parameters.
+    pub parameters: Vec<FittedParameter>,
+}
+
+/// One round of the search.
+#[derive(Debug, Clone)]
+pub struct Round {
+    /// From 0, the model as it was.
+    pub round: usize,
+    /// Effect added.
+    pub added: Option<String>,
+    /// Effects that became superfluous by it.
+    pub dropped: Vec<String>,
+    /// Root mean square of the residual about the zero of each pass.
+    pub rms_um: f64,
+    /// The same on held-out data.
+    pub holdout_rms_um: f64,
+    /// Chance of the added effect in noise.
+    pub p_value: Option<f64>,
+    /// The model after the round: every added effect with its parameters.
+    pub effects: Vec<FittedEffect>,
+    /// Effects tried next and not taken, with the reason.
+    pub rejected: Vec<(String, String)>,
+}
+
+/// An effect that was tried.
+#[derive(Debug, Clone)]
+pub struct Ranked {
+    /// Name of the effect.
+    pub name: String,
+    /// True when it is part of the final model.
+    pub accepted: bool,
+    /// Root mean square left when it alone is added.
+    pub rms_um: f64,
+    /// The same on held-out data.
+    pub holdout_rms_um: f64,
+    /// Chance in noise, corrected for the number tried.
+    pub p_value: f64,
+    /// Evidence against the best one, in units of twice the log likelihood; 0 is best.
+    pub behind: f64,
+    /// Names the data cannot tell from it.
+    pub confounded_with: Vec<String>,
+    /// Experiment that would tell.
+    pub separate_by: Option<String>,
+}
+
+/// The whole answer.
+#[derive(Debug, Clone)]
+pub struct Diagnosis {
+    /// The verdict.
+    pub verdict: Verdict,
+    /// Size of what the final model leaves as noise, µm (arcsec).
+    pub noise_um: f64,
+    /// Rounds of the search, the first without any effect.
+    pub rounds: Vec<Round>,
+    /// Effects tried, those of the final model first.
+    pub candidates: Vec<Ranked>,
+    /// What the final model leaves that is not noise.
+    pub residual: Vec<Structure>,
+    /// Experiments that would separate, best first.
+    pub experiments: Vec<Advice>,
+    /// What the final model leaves, row by row.
+    pub left: Vec<f64>,
+    /// The residual of the file's model, for pictures.
+    pub before: Vec<f64>,
+}
+
+/// Rows beyond which the search works on means of neighbouring samples.
+const MOST_ROWS: usize = 3000;
+
+/// Diagnoses a problem.
+///
+/// The search works on at most a few thousand rows, means of neighbours where there are more;
+/// every figure that is reported is fitted to all rows.
+#[must_use]
+pub fn diagnose(problem: &Problem) -> Diagnosis {
+    let mut small = problem.thinned(MOST_ROWS).unwrap_or_else(|| problem.clone());
+    let mut steps = search(&mut small);
+    let (problem, mut states) = on_all_rows(problem, &small, &steps);
+    if let Some(last) = states.pop() {
+        states.push(polished(&problem, last));
+    }
+    if let Some((step, state)) = pruned_again(&problem, &small, &states[states.len() - 1]) {
+        steps.push(step);
+        states.push(state);
+    }
+    let last = &steps[steps.len() - 1].state;
+    let found = rivals(&small, last, &steps[0].tried);
+    let mut residual = structures(&small, &last.columns, &last.fit);
+    residual.extend(better_shape(&small, last));
+    let experiments = experiment::advice(&small, last, &found);
+    let state = states[states.len() - 1].clone();
+    Diagnosis {
+        verdict: verdict(&state, &found, &residual),
+        noise_um: rms(&problem.layout, &state.fit.left),
+        rounds: rounds(&problem, &steps, &states),
+        candidates: ranked(&state, &found, &steps[0].tried, &experiments),
+        residual,
+        experiments,
+        left: state.fit.left,
+        before: problem.residual(),
+    }
+}
+
+/// Every state of a search fitted to all rows, outliers marked as the last one leaves them.
+fn on_all_rows(problem: &Problem, small: &Problem, steps: &[Step]) -> (Problem, Vec<State>) {
+    if small.rows.len() == problem.rows.len() {
+        return (small.clone(), steps.iter().map(|step| step.state.clone()).collect());
+    }
+    let mut whole = problem.clone();
+    let of = |whole: &Problem, state: &State| state.on(whole).unwrap_or_else(|| State::bare(whole));
+    let last = of(&whole, &steps[steps.len() - 1].state);
+    whole.mark_outliers(&last.fit.left);
+    let states = steps.par_iter().map(|step| of(&whole, &step.state)).collect();
+    (whole, states)
+}
+
+/// One more step without the effects that all rows show to be superfluous, if there are any.
+fn pruned_again(problem: &Problem, small: &Problem, last: &State) -> Option<(Step, State)> {
+    let (state, dropped) = pruned(problem, last.clone());
+    if dropped.is_empty() {
+        return None;
+    }
+    let thin = state.on(small)?;
+    Some((Step { state: thin, tried: Vec::new(), added: None, dropped }, state))
+}
+
+fn verdict(state: &State, found: &[Found], residual: &[Structure]) -> Verdict {
+    if !residual.is_empty() {
+        return Verdict::Unexplained;
+    }
+    if state.components.is_empty() {
+        return Verdict::NothingMissing;
+    }
+    if found.iter().any(|found| !found.confused.is_empty()) {
+        return Verdict::Ambiguous;
+    }
+    Verdict::Explained
+}
+
+fn rounds(problem: &Problem, steps: &[Step], states: &[State]) -> Vec<Round> {
+    let mut rounds = Vec::with_capacity(steps.len());
+    for (number, step) in steps.iter().enumerate() {
+        let state = &states[number];
+        let chosen = steps.get(number + 1).and_then(|next| next.added.clone());
+        let before = number.checked_sub(1).map(|last| &steps[last].tried);
+        let own = before.and_then(|tried| {
+            tried.iter().find(|judged| Some(&judged.component.term.name) == step.added.as_ref())
+        });
+        rounds.push(Round {
+            round: number,
+            added: step.added.clone(),
+            dropped: step.dropped.iter().map(|one| one.name.clone()).collect(),
+            rms_um: rms(&problem.layout, &state.fit.left),
+            holdout_rms_um: holdout_rms(problem, &state.columns, &state.fit.noises),
+            p_value: own.map(|judged| judged.p_value),
+            effects: effects(problem, state),
+            rejected: rejected(step, chosen.as_deref()),
+        });
+    }
+    rounds
+}
+
+fn rejected(step: &Step, chosen: Option<&str>) -> Vec<(String, String)> {
+    let tried = &step.tried;
+    let dropped = step.dropped.iter().map(|one| (one.name.clone(), one.reason.clone()));
+    let best = tried.iter().find(|judged| Some(judged.component.term.name.as_str()) == chosen);
+    let refused = tried
+        .iter()
+        .filter(|judged| Some(judged.component.term.name.as_str()) != chosen)
+        .map(|judged| {
+            let reason = match best {
+                Some(best) => format!(
+                    "explains less than {}: evidence {:.1} behind",
+                    best.component.term.name,
+                    best.evidence - judged.evidence
+                ),
+                None if judged.p_value < SIGNIFICANCE => {
+                    "outside its plausible range, too small to matter, or worse on held-out data"
+                        .to_owned()
+                }
+                None => format!("not beyond chance: p = {:.2e}", judged.p_value),
+            };
+            (judged.component.term.name.clone(), reason)
+        });
+    dropped.chain(refused).collect()
+}
+
+/// Every component of a state with its parameters.
+#[must_use]
+pub(crate) fn effects(problem: &Problem, state: &State) -> Vec<FittedEffect> {
+    let covariance = joint_covariance(problem, state);
+    (0..state.components.len()).map(|index| fitted(state, &covariance, index)).collect()
+}
+
+fn fitted(state: &State, covariance: &JointCovariance, index: usize) -> FittedEffect {
+    let component = &state.components[index];
+    let (used, from) = state.coefficients(index);
+    let linear = covariance_rows(&covariance.linear, from, component.width());
+    let term = component.valued(used);
+    let mut parameters = Vec::new();
+    for estimate in component.estimates(used, &linear) {
+        let what = &component.term.parameters[estimate.parameter];
+        let stderr = libm::hypot(estimate.stderr, systematic(&component.term) * estimate.value);
+        let warning = warning(estimate.value, stderr, &what.range);
+        parameters.push(FittedParameter {
+            key: what.key(),
+            value: estimate.value,
+            stderr: Some(stderr),
+            warning,
+        });
+    }
+    for (place, &parameter) in component.term.nonlinear_indices().iter().enumerate() {
+        let what = &component.term.parameters[parameter];
+        let stderr = covariance.nonlinear[index][place];
+        let value = component.term.values[parameter];
+        if term.kind() == "wrong-setting" && value == 0.0 {
+            continue;
+        }
+        let value = if setting_counts(&term, what) { value.round() } else { value };
+        let warning = stderr.and_then(|stderr| warning_at_bound(value, stderr, &what.range));
+        parameters.push(FittedParameter { key: what.key(), value, stderr, warning });
+    }
+    FittedEffect { name: component.term.name.clone(), term, parameters }
+}
+
+/// Relative uncertainty of the known physics a parameter multiplies: the air's sensitivities are
+/// good to a percent and a half over a day's weather.
+fn systematic(term: &helixlock_plant::Term) -> f64 {
+    if term.kind() == "dead-path" { 0.015 } else { 0.0 }
+}
+
+/// True for a setting that is a whole number: every one but the lead.
+fn setting_counts(term: &helixlock_plant::Term, what: &helixlock_plant::Parameter) -> bool {
+    term.kind() == "wrong-setting" && what.name != "lead"
+}
+
+fn warning(value: f64, stderr: f64, range: &std::ops::RangeInclusive<f64>) -> Option<&'static str> {
+    if value.abs() < 2.0 * stderr {
+        return Some("useless: not two standard errors from zero");
+    }
+    warning_at_bound(value, stderr, range)
+}
+
+fn warning_at_bound(
+    value: f64,
+    stderr: f64,
+    range: &std::ops::RangeInclusive<f64>,
+) -> Option<&'static str> {
+    let (low, high) = (*range.start(), *range.end());
+    let open = low < high;
+    (open && (value <= low + 0.01 * stderr || high - 0.01 * stderr <= value))
+        .then_some("at the bound of its plausible range")
+}
+
+fn ranked(state: &State, found: &[Found], first: &[Judged], experiments: &[Advice]) -> Vec<Ranked> {
+    let best = first.iter().map(|judged| judged.evidence).fold(f64::NEG_INFINITY, f64::max);
+    let mut all: Vec<Ranked> = Vec::new();
+    for found in found {
+        let name = &state.components[found.index].term.name;
+        let own = found.tried.iter().find(|judged| judged.component.term.name == *name);
+        let Some(own) = own.or_else(|| first.iter().find(|j| j.component.term.name == *name))
+        else {
+            continue;
+        };
+        let mut one = of_judged(own, own.evidence, true);
+        one.confounded_with.clone_from(&found.confused);
+        one.separate_by = (!found.confused.is_empty())
+            .then(|| experiment::for_pair(experiments, name, &state.components[found.index]));
+        all.push(one);
+    }
+    for judged in first {
+        if all.iter().all(|known| known.name != judged.component.term.name) {
+            let mut one = of_judged(judged, best, false);
+            mirror(&mut one, state, found, experiments);
+            all.push(one);
+        }
+    }
+    all
+}
+
+/// Confusion is mutual: a rival names the effect it is confused with.
+fn mirror(one: &mut Ranked, state: &State, found: &[Found], experiments: &[Advice]) {
+    for found in found.iter().filter(|found| found.confused.contains(&one.name)) {
+        let component: &Component = &state.components[found.index];
+        one.confounded_with.push(component.term.name.clone());
+        one.confounded_with
+            .extend(found.confused.iter().filter(|name| **name != one.name).cloned());
+        one.separate_by = Some(experiment::for_pair(experiments, &one.name, component));
+    }
+}
+
+fn of_judged(judged: &Judged, best: f64, accepted: bool) -> Ranked {
+    Ranked {
+        name: judged.component.term.name.clone(),
+        accepted,
+        rms_um: judged.rms_um,
+        holdout_rms_um: judged.holdout_rms_um,
+        p_value: judged.p_value,
+        behind: (best - judged.evidence).max(0.0),
+        confounded_with: Vec::new(),
+        separate_by: None,
+    }
+}

@@ -1,0 +1,111 @@
+//! From a diagnosis to a better machine file, and the book that is kept of it.
+
+use helixlock_plant::{MachineError, MachineFile, Term};
+
+use super::diagnosis::{Diagnosis, FittedEffect, Round};
+
+/// A machine file with the effects of a round written into it, comments and order kept.
+///
+/// A wrong setting is put right instead of being modelled.
+///
+/// # Errors
+///
+/// [`MachineError`] when the machine cannot carry an effect.
+pub fn written(file: &MachineFile, effects: &[FittedEffect]) -> Result<MachineFile, MachineError> {
+    let mut file = file.clone();
+    for effect in effects {
+        file = match corrected_setting(&effect.term) {
+            Some((key, value)) => file.with_setting(key, &value)?,
+            None => file.with_effect(&effect.term)?,
+        };
+    }
+    Ok(file)
+}
+
+/// Key and TOML value of the setting that an effect says is wrong.
+#[must_use]
+pub(crate) fn corrected_setting(term: &Term) -> Option<(&'static str, String)> {
+    if term.kind() != "wrong-setting" {
+        return None;
+    }
+    let with_values = term.parameters.iter().zip(&term.values);
+    with_values.filter(|(_, value)| **value != 0.0).find_map(|(parameter, value)| {
+        match parameter.name.as_ref() {
+            "a" => Some(("dividers.a", format!("{value:.0}"))),
+            "b" => Some(("dividers.b", format!("{value:.0}"))),
+            "lines" => Some(("grating.lines", format!("{value:.0}"))),
+            "lead" => Some(("workpiece.lead", format!("\"{value} mm\""))),
+            _ => None,
+        }
+    })
+}
+
+/// One entry of the ledger: what was known after a round, enough to go back to it.
+#[derive(Debug, Clone)]
+pub struct LedgerEntry {
+    /// The round.
+    pub round: Round,
+    /// The machine file after it, as text.
+    pub machine: String,
+    /// Root mean square before the round, µm (arcsec).
+    pub rms_before_um: f64,
+    /// Held-out root mean square before the round.
+    pub holdout_rms_before_um: f64,
+}
+
+/// Everything a search did to a machine file.
+#[derive(Debug, Clone)]
+pub struct Ledger {
+    /// Fingerprint of the data, so that a ledger is not taken for that of another file.
+    pub data_hash: String,
+    /// Rounds, the first with the machine file as it was.
+    pub entries: Vec<LedgerEntry>,
+}
+
+/// The book of a diagnosis.
+///
+/// # Errors
+///
+/// [`MachineError`] when the machine cannot carry an effect.
+pub fn ledger(
+    file: &MachineFile,
+    diagnosis: &Diagnosis,
+    data: &[u8],
+) -> Result<Ledger, MachineError> {
+    let mut entries: Vec<LedgerEntry> = Vec::new();
+    for round in &diagnosis.rounds {
+        let before = entries.last().map_or((round.rms_um, round.holdout_rms_um), |last| {
+            (last.round.rms_um, last.round.holdout_rms_um)
+        });
+        entries.push(LedgerEntry {
+            round: round.clone(),
+            machine: written(file, &round.effects)?.text(),
+            rms_before_um: before.0,
+            holdout_rms_before_um: before.1,
+        });
+    }
+    Ok(Ledger { data_hash: fingerprint(data), entries })
+}
+
+/// 64-bit FNV-1a of some bytes, in hexadecimal: tells files apart, proves nothing.
+#[must_use]
+pub fn fingerprint(bytes: &[u8]) -> String {
+    let mut hash: u64 = 0xcbf2_9ce4_8422_2325;
+    for byte in bytes {
+        hash = (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
+    }
+    format!("fnv1a64:{hash:016x}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fingerprints_are_the_published_ones() {
+        // Test vectors of the FNV authors' draft, 64-bit FNV-1a.
+        assert_eq!(fingerprint(b""), "fnv1a64:cbf29ce484222325");
+        assert_eq!(fingerprint(b"a"), "fnv1a64:af63dc4c8601ec8c");
+        assert_eq!(fingerprint(b"foobar"), "fnv1a64:85944171f73967e8");
+    }
+}

@@ -1,0 +1,22 @@
+//! What could be in a residual: effects and where to look for them, wrong settings, plain shapes,
+//! and structure that is nobody's; each tried, with its chance in noise.
+
+mod calibration;
+mod candidates;
+mod grid;
+mod jumps;
+mod plain_shapes;
+mod probes;
+mod repeatability;
+mod setting_trial;
+mod settings;
+mod tails;
+mod trial;
+
+pub(crate) use candidates::{candidate, candidates, turn_scan};
+pub(crate) use plain_shapes::better_shape;
+pub use probes::Structure;
+pub(crate) use probes::{SIGNIFICANCE, above_hunting, all_structures, matters, structures};
+pub(crate) use setting_trial::setting_trials;
+pub(crate) use tails::chance_with_tails;
+pub(crate) use trial::{Trial, gain_at, try_candidate};

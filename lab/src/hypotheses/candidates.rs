@@ -1,0 +1,314 @@
+//! Which effects can be tried on a measurement, and where their nonlinear parameters may lie.
+
+use helixlock_plant::{CATALOGUE, Entry, Formula, Parameter, Record, Search, Term};
+
+use crate::model::{Component, Problem, Stage};
+use crate::numerics::{count, median, spread};
+use crate::spectrum::{Scan, gear_orders, strongest_first};
+
+/// An effect that may be missing.
+#[derive(Debug, Clone)]
+pub(crate) struct Candidate {
+    /// The effect at its defaults.
+    pub(crate) term: Term,
+    /// Nonlinear values worth trying; one empty list when there are none.
+    pub(crate) grid: Vec<Vec<f64>>,
+    /// Per nonlinear parameter: distance of grid values, 0 when only grid values count.
+    pub(crate) steps: Vec<f64>,
+    /// Independent places the grid looks at: what a maximum over it must pay.
+    pub(crate) looks: f64,
+}
+
+/// Grid values of a plain parameter.
+const PLAIN: usize = 24;
+/// Places along the travel.
+const PLACES: usize = 48;
+/// Instants along the record.
+const INSTANTS: usize = 96;
+/// Most grid points of an effect.
+const MOST: usize = 3000;
+
+/// Every effect of the catalogue that the sensors could see and whose logs are there.
+///
+/// The user's own effects of [`Problem::extra`] take part like any other. `found` are the effects
+/// the search has added so far.
+#[must_use]
+pub(crate) fn candidates(stage: &Stage<'_>, found: &[Component]) -> Vec<Candidate> {
+    let problem = stage.problem;
+    CATALOGUE
+        .iter()
+        .filter(|card| card.candidate && !card.random && problem.sees(card.entry))
+        .filter(|card| card.entry != Entry::Actuator || corrector_moves(problem))
+        .map(|card| in_unit_of(problem, Term::candidate(card)))
+        .chain(problem.extra.iter().cloned())
+        .filter(|term| logged(problem, term))
+        .filter_map(|term| candidate(stage, term))
+        .map(|candidate| with_overtones(candidate, stage.problem, found))
+        .collect()
+}
+
+/// Highest overtone of a gear that is looked for: a worm shows five.
+const OVERTONES: u16 = 5;
+
+/// Adds the overtones of gears that the model has already: without its fundamental, a line at
+/// twice a gear's order is nobody's.
+fn with_overtones(mut candidate: Candidate, problem: &Problem, found: &[Component]) -> Candidate {
+    if candidate.term.kind() != "gear-error" {
+        return candidate;
+    }
+    let orders = gear_orders(&problem.model);
+    let known = problem.model.effects.iter().chain(found.iter().map(|one| &one.term));
+    let known = known.filter(|term| term.kind() == "gear-error").flat_map(Term::nonlinear);
+    let overtones = known
+        .filter(|order| orders.contains(order))
+        .flat_map(|order| (2..=OVERTONES).map(move |times| f64::from(times) * order))
+        .filter(|order| !orders.contains(order));
+    candidate.grid.extend(overtones.map(|order| vec![order]));
+    candidate.looks = count(candidate.grid.len());
+    candidate
+}
+
+/// Parameters in µm are in seconds of arc on a rotary chain.
+fn in_unit_of(problem: &Problem, mut term: Term) -> Term {
+    for what in term.parameters.iter_mut().filter(|_| problem.model.rotary) {
+        what.unit = what.unit.on_rotary_chain();
+    }
+    term
+}
+
+/// An effect with its grid; `None` when there is no place to look for it.
+#[must_use]
+pub(crate) fn candidate(stage: &Stage<'_>, term: Term) -> Option<Candidate> {
+    if matches!(term.formula, Formula::Custom(_)) {
+        return Some(near_its_values(term));
+    }
+    let axes: Vec<Vec<f64>> = term
+        .parameters
+        .iter()
+        .filter(|parameter| parameter.is_nonlinear())
+        .map(|parameter| axis(stage, parameter))
+        .collect();
+    if axes.iter().any(Vec::is_empty) {
+        return None;
+    }
+    let steps = term
+        .parameters
+        .iter()
+        .filter(|parameter| parameter.is_nonlinear())
+        .zip(&axes)
+        .map(|(parameter, axis)| {
+            if parameter.is_frequency() {
+                0.3 / spread(&stage.problem.record.time_s).max(f64::MIN_POSITIVE)
+            } else {
+                step(parameter, axis)
+            }
+        })
+        .collect();
+    let grid = product(&thinned(axes));
+    let mut looks = count(grid.len());
+    if term.parameters.iter().any(|what| what.search == Search::Time) {
+        // Beside the grid, every sudden change is looked at.
+        let gaps = between_samples(&stage.problem.record.time_s).len();
+        looks *= (count(gaps) / count(INSTANTS)).max(1.0);
+    }
+    if term.parameters.iter().any(Parameter::is_frequency) {
+        let times = row_times(stage.problem);
+        looks *= time_scan(stage, &times, 0.0, f64::INFINITY).looks() / 16.0;
+    }
+    let candidate = Candidate { term, grid, steps, looks };
+    stage.problem.design(&candidate.at(0)).is_ok().then_some(candidate)
+}
+
+/// A user's own effect is looked for near the values the user gave.
+fn near_its_values(term: Term) -> Candidate {
+    let values = term.nonlinear();
+    let steps = values.iter().map(|value| if *value == 0.0 { 0.01 } else { 0.01 * value.abs() });
+    Candidate { steps: steps.collect(), grid: vec![values], looks: 1.0, term }
+}
+
+impl Candidate {
+    /// The effect at a grid point.
+    #[must_use]
+    pub(crate) fn at(&self, point: usize) -> Term {
+        self.term.with_nonlinear(&self.grid[point])
+    }
+}
+
+/// True when the corrector takes steps: in a closed loop, or by hand and logged.
+fn corrector_moves(problem: &Problem) -> bool {
+    problem.model.loop_closed || problem.measurement.covariates.contains_key("steps")
+}
+
+/// True when the covariates an effect needs are logged and not constant.
+fn logged(problem: &Problem, term: &Term) -> bool {
+    term.needs().iter().all(|name| problem.measurement.covariates.contains_key(*name))
+}
+
+fn axis(stage: &Stage<'_>, parameter: &Parameter) -> Vec<f64> {
+    let record = &stage.problem.record;
+    let (low, high) = (*parameter.range.start(), *parameter.range.end());
+    match parameter.search {
+        _ if parameter.is_frequency() => frequencies(stage, low, high),
+        Search::Linear => evenly(low, high, PLAIN),
+        Search::Logarithmic => logarithmic(stage.problem, parameter),
+        Search::Whole => whole(low, high),
+        Search::Position => inside(&record.position_mm, PLACES),
+        Search::Time => evenly_among(&between_samples(&record.time_s), INSTANTS),
+        Search::GearOrder => gear_orders(&stage.problem.model),
+        Search::Fixed => vec![parameter.default.unwrap_or(low)],
+    }
+}
+
+fn evenly(low: f64, high: f64, points: usize) -> Vec<f64> {
+    (0..points).map(|i| low + (high - low) * (count(i) + 0.5) / count(points)).collect()
+}
+
+/// Values that the record can tell apart: times between two samples and twice its length, widths
+/// from a two-hundredth of the travel on.
+fn logarithmic(problem: &Problem, parameter: &Parameter) -> Vec<f64> {
+    let (mut low, mut high) = (*parameter.range.start(), *parameter.range.end());
+    let told = match parameter.unit.suffix().as_str() {
+        "s" => Some((interval_s(&problem.record), spread(&problem.record.time_s))),
+        "mm" => {
+            let travel_mm = spread(&problem.record.position_mm);
+            Some((travel_mm / 200.0, travel_mm))
+        }
+        _ => None,
+    };
+    if let Some((least, whole)) = told.filter(|(_, whole)| 0.0 < *whole) {
+        low = low.max(least);
+        high = high.min(whole * 2.0).max(low);
+    }
+    let (from, to) = (libm::log(low.max(1e-12)), libm::log(high.max(1e-12)));
+    evenly(from, to, PLAIN).into_iter().map(libm::exp).collect()
+}
+
+/// Median time between two samples of a pass.
+fn interval_s(record: &Record) -> f64 {
+    let pairs = (1..record.len()).filter(|&row| record.pass[row] == record.pass[row - 1]);
+    let mut intervals: Vec<f64> =
+        pairs.map(|row| (record.time_s[row] - record.time_s[row - 1]).abs()).collect();
+    median(&mut intervals)
+}
+
+fn whole(low: f64, high: f64) -> Vec<f64> {
+    let mut values = Vec::new();
+    let mut value = low.ceil();
+    while value <= high && values.len() < 64 {
+        if value != 0.0 {
+            values.push(value);
+        }
+        value += 1.0;
+    }
+    values
+}
+
+fn inside(values: &[f64], points: usize) -> Vec<f64> {
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    if spread(values) <= 0.0 { Vec::new() } else { evenly(low, low + spread(values), points) }
+}
+
+/// Some of the gaps between samples, evenly over the samples, so that pauses cost nothing.
+#[must_use]
+pub(crate) fn evenly_among(gaps: &[f64], most: usize) -> Vec<f64> {
+    let points = most.min(gaps.len());
+    (0..points).map(|i| gaps[(2 * i + 1) * gaps.len() / (2 * points)]).collect()
+}
+
+/// The gaps between samples on either side of a place, so many each.
+#[must_use]
+pub(crate) fn around(gaps: &[f64], place: f64, reach: usize) -> &[f64] {
+    let near = gaps.partition_point(|gap| *gap < place);
+    &gaps[near.saturating_sub(reach)..(near + reach).min(gaps.len())]
+}
+
+/// Every instant halfway between two samples, in order.
+#[must_use]
+pub(crate) fn between_samples(time_s: &[f64]) -> Vec<f64> {
+    let mut sorted = time_s.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.dedup();
+    sorted.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect()
+}
+
+/// Distinct frequencies of the strongest lines in time.
+fn frequencies(stage: &Stage<'_>, low: f64, high: f64) -> Vec<f64> {
+    const MOST: usize = 16;
+    let times = row_times(stage.problem);
+    let scan = time_scan(stage, &times, low, high);
+    let resolution = scan.resolution();
+    let mut peaks: Vec<f64> = Vec::new();
+    for point in strongest_first(scan.spectrum(&stage.target[..times.len()])) {
+        let apart = |known: &f64| resolution < (known - point.frequency).abs();
+        if peaks.iter().all(apart) {
+            peaks.push(point.frequency);
+        }
+        if peaks.len() == MOST {
+            break;
+        }
+    }
+    peaks
+}
+
+fn row_times(problem: &Problem) -> Vec<f64> {
+    problem.rows.iter().map(|row| problem.record.time_s[row.sample]).collect()
+}
+
+fn time_scan<'a>(stage: &'a Stage<'_>, times: &'a [f64], low: f64, high: f64) -> Scan<'a> {
+    Scan {
+        layout: &stage.problem.layout,
+        noises: &stage.noises,
+        turns: times,
+        whitener: &stage.whitener,
+        lowest: low.max(1.5 / spread(times).max(f64::MIN_POSITIVE)),
+        highest: high.min(stage.problem.highest_hz),
+    }
+}
+
+/// A scan of all rows over the spindle angle.
+#[must_use]
+pub(crate) fn turn_scan<'a>(stage: &'a Stage<'_>, turns: &'a [f64]) -> Scan<'a> {
+    Scan {
+        layout: &stage.problem.layout,
+        noises: &stage.noises,
+        turns,
+        whitener: &stage.whitener,
+        lowest: 1.5 / spread(turns).max(f64::MIN_POSITIVE),
+        highest: stage.problem.highest_order,
+    }
+}
+
+fn step(parameter: &Parameter, axis: &[f64]) -> f64 {
+    match parameter.search {
+        Search::Whole | Search::GearOrder | Search::Fixed | Search::Time => 0.0,
+        _ if axis.len() < 2 => 0.0,
+        Search::Logarithmic => 0.3 * axis[0],
+        _ => (axis[1] - axis[0]).abs(),
+    }
+}
+
+/// Drops every second value of the longest axis until the product is small enough.
+fn thinned(mut axes: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    while MOST < axes.iter().map(Vec::len).product() {
+        let Some(longest) = axes.iter_mut().max_by_key(|axis| axis.len()) else { break };
+        let mut keep = false;
+        longest.retain(|_| {
+            keep = !keep;
+            keep
+        });
+    }
+    axes
+}
+
+fn product(axes: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let mut points = vec![Vec::new()];
+    for axis in axes {
+        points = points
+            .iter()
+            .flat_map(|point: &Vec<f64>| {
+                axis.iter().map(|value| [point.as_slice(), &[*value]].concat())
+            })
+            .collect();
+    }
+    points
+}

@@ -1,0 +1,79 @@
+//! Jumps in a residual: changes from sample to sample that no slow noise makes.
+
+use super::tails::chance_beyond;
+use crate::model::{Fit, Problem};
+use crate::noise::Whitener;
+use crate::numerics::median;
+
+/// A whitened sample beyond this many deviations is a jump.
+const DEVIATIONS: f64 = 5.0;
+
+/// Usual size of the jumps, µm (arcsec), and the chance of so many in noise.
+///
+/// Outliers are weighed down already, and they come back with the next sample; a jump stays.
+/// `None` when there are fewer than two, which a slip or a knock explains.
+#[must_use]
+pub(crate) fn jumps(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
+    let white = Whitener::new(&problem.layout, &fit.noises).whiten(&fit.left);
+    let mut sizes = Vec::new();
+    for block in &problem.layout.blocks {
+        for row in block.rows.clone().skip(1) {
+            if DEVIATIONS < white[row].abs() {
+                sizes.push((fit.left[row] - fit.left[row - 1]).abs());
+            }
+        }
+    }
+    if sizes.len() < 2 {
+        return None;
+    }
+    let p_value = chance_beyond(&white, DEVIATIONS, sizes.len());
+    Some((median(&mut sizes), p_value))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hypotheses::probes::SIGNIFICANCE;
+    use crate::numerics::count;
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::{Distribution, StandardNormal, StudentT};
+
+    /// Samples beyond the limit, and their chance.
+    fn judged(values: &[f64]) -> Option<f64> {
+        let jumps = values.iter().filter(|value| DEVIATIONS < value.abs()).count();
+        (1 < jumps).then(|| chance_beyond(values, DEVIATIONS, jumps))
+    }
+
+    /// Heavy tails are no jumps: fewer than one in a hundred records of them is taken for some.
+    #[test]
+    fn tails_are_no_jumps() {
+        for tail in [2.5, 3.0, 4.0, 6.0] {
+            let law = StudentT::new(tail).unwrap();
+            let found = (0..300).filter(|&seed| {
+                let mut noise = ChaCha8Rng::seed_from_u64(seed);
+                let values: Vec<f64> = (0..500).map(|_| law.sample(&mut noise)).collect();
+                let square: f64 = values.iter().map(|value| value * value).sum();
+                let scale = (square / count(values.len())).sqrt();
+                let white: Vec<f64> = values.iter().map(|value| value / scale).collect();
+                judged(&white).is_some_and(|chance| chance < SIGNIFICANCE)
+            });
+            assert!(found.count() <= 3, "{tail} degrees of freedom");
+        }
+    }
+
+    /// Among 500 samples of Gaussian noise, twelve jumps are beyond doubt.
+    #[test]
+    fn jumps_in_gaussian_noise_are_found() {
+        for seed in 0..20 {
+            let mut noise = ChaCha8Rng::seed_from_u64(seed);
+            let mut white: Vec<f64> = (0..500).map(|_| StandardNormal.sample(&mut noise)).collect();
+            assert_eq!(judged(&white), None);
+            for place in (0..12).map(|i| 20 + 40 * i) {
+                white[place] = 6.5;
+            }
+            let chance = judged(&white).unwrap();
+            assert!(chance < SIGNIFICANCE / 12.0, "{chance}");
+        }
+    }
+}

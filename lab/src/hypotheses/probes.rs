@@ -1,0 +1,401 @@
+//! Structure that no effect needs to explain: what a residual must not show if it is noise.
+//!
+//! Each probe is a set of columns that belong to no effect. Its likelihood against the model, the
+//! noise fitted anew on both sides, says whether something is left, and its shape says what.
+
+use super::calibration;
+use super::jumps::jumps;
+use super::repeatability::repeatability;
+use super::tails::chance_with_tails;
+use crate::model::{Columns, Fit, Problem, Row, Stage, settle};
+use crate::noise::rms;
+use crate::numerics::{chi_squared_tail, count, spread};
+use crate::spectrum::{Line, LineSearch};
+
+/// What is left, in the words of a person.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Structure {
+    /// The coordinate or covariate along which it shows.
+    pub along: String,
+    /// Its shape in words.
+    pub shape: String,
+    /// Root mean square of it, µm (arcsec).
+    pub rms_um: f64,
+    /// Chance of as much in noise, with all probes counted.
+    pub p_value: f64,
+    /// Where it is, when it has a place: order, mm or s.
+    pub at: Option<f64>,
+    /// Standard error of the place.
+    pub at_stderr: Option<f64>,
+    /// The line, when it is one.
+    pub line: Option<Line>,
+}
+
+impl Structure {
+    /// Structure along a coordinate that stands at no particular place of it.
+    fn without_place(along: &str, shape: &str, rms_um: f64, p_value: f64) -> Self {
+        let (along, shape) = (along.to_owned(), shape.to_owned());
+        Self { along, shape, rms_um, p_value, at: None, at_stderr: None, line: None }
+    }
+}
+
+/// Probes beside those of logged columns.
+const PROBES: f64 = 12.0;
+
+/// Number of probes, for they are counted together: every logged column is one more.
+fn probes(problem: &Problem) -> f64 {
+    PROBES + count(problem.measurement.covariates.len())
+}
+
+/// A chance smaller than this is structure.
+pub(crate) const SIGNIFICANCE: f64 = 1e-4;
+
+/// Structure weaker than this share of the noise is left alone: it changes no figure.
+const SHARE_OF_NOISE: f64 = 0.25;
+
+/// Share of the noise and chance of a line that is small but beyond doubt.
+const CLEAR: (f64, f64) = (0.08, 1e-12);
+
+/// Share of the error before any effect below which nothing is looked for: no formula of the
+/// catalogue is better than that.
+const SHARE_OF_ERROR: f64 = 1e-3;
+
+/// True for something beyond chance and large enough to change a figure.
+#[must_use]
+pub(crate) fn matters(size_um: f64, noise_um: f64, p_value: f64) -> bool {
+    p_value < SIGNIFICANCE && SHARE_OF_NOISE * noise_um < size_um
+}
+
+/// True for something larger than what a hunting loop, whose steps are not known, may show.
+///
+/// A swing of ±u from comparison to comparison is a sawtooth of what the loop follows: u/√3 in
+/// all, as a line at any frequency, and u/√12 of it slow.
+#[must_use]
+pub(crate) fn above_hunting(problem: &Problem, size_um: f64) -> bool {
+    problem.hunting_um / f64::sqrt(12.0) <= size_um
+}
+
+/// True for a line so clear that no flaw of a noise model or of a smooth formula makes it.
+fn clear_line(structure: &Structure, noise_um: f64) -> bool {
+    structure.line.is_some() && structure.p_value < CLEAR.1 && CLEAR.0 * noise_um < structure.rms_um
+}
+
+/// Everything a fit leaves that is not noise, clearest first.
+#[must_use]
+pub(crate) fn structures(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
+    let noise = rms(&problem.layout, &fit.left);
+    let exact = SHARE_OF_ERROR * rms(&problem.layout, &problem.residual());
+    let mut found = all_structures(problem, model, fit);
+    found.retain(|s| matters(s.rms_um, noise, s.p_value) || clear_line(s, noise));
+    found.retain(|s| exact < s.rms_um);
+    // What is no effect may be any of its lines.
+    found.retain(|s| above_hunting(problem, 0.5 * s.rms_um));
+    found
+}
+
+/// Everything that was looked for, found or not, clearest first.
+#[must_use]
+pub(crate) fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
+    let mut all = smooth(problem, model, fit);
+    all.extend(cyclic_shapes(problem, model, fit));
+    all.extend(repeats(problem, fit));
+    all.extend(jumping(problem, fit));
+    all.extend(lines(problem, fit));
+    all.extend(step(problem, model, fit));
+    all.extend(covariates(problem, model, fit));
+    all.sort_by(|a, b| a.p_value.total_cmp(&b.p_value).then(b.rms_um.total_cmp(&a.rms_um)));
+    all
+}
+
+/// Change inside a pass, against a column's size, that is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// True unless the zero of each pass stands for all there is of a column: a speed, a direction, or
+/// a harmonic that samples at whole parts of a turn always meet at the same angle.
+fn varies_inside_a_pass(problem: &Problem, column: &[f64]) -> bool {
+    let size = column.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    let mut blocks = problem.layout.blocks.iter();
+    blocks.any(|block| ROUNDING * size < spread(&column[block.rows.clone()]))
+}
+
+/// Structure explained by free columns: its size and chance.
+fn probe(problem: &Problem, model: &Columns, fit: &Fit, raw: &[Vec<f64>]) -> (f64, f64) {
+    let varying = raw.iter().filter(|column| varies_inside_a_pass(problem, column));
+    let raw: &[Vec<f64>] = &varying.cloned().collect::<Vec<_>>();
+    if raw.is_empty() {
+        return (0.0, 1.0);
+    }
+    let width = count(raw.len());
+    let wider = settle(problem, &model.and(&Columns::free(raw.to_vec())), &fit.noises);
+    let gain = 2.0 * (wider.log_likelihood - fit.log_likelihood);
+    let before = rms(&problem.layout, &fit.left);
+    let after = rms(&problem.layout, &wider.left);
+    let size = (before * before - after * after).max(0.0).sqrt();
+    let mut p_value = (probes(problem) * chi_squared_tail(gain, width)).min(1.0);
+    if MANY <= raw.len() && matters(size, before, p_value) {
+        p_value = (probes(problem) * calibration::chance(problem, model, fit, raw, gain)).min(1.0);
+    }
+    (size, p_value)
+}
+
+/// Columns from which on χ² is too optimistic and the chance is found by trying noise.
+const MANY: usize = 6;
+
+/// Variance by which a shape of many columns must exceed what it leaves.
+const FAR_ABOVE: f64 = 2.25;
+
+/// True for a shape that stands far above the rest: many columns also follow slow noise.
+fn far_above(rms_um: f64, noise_um: f64) -> bool {
+    FAR_ABOVE * (noise_um * noise_um - rms_um * rms_um) <= rms_um * rms_um
+}
+
+fn smooth(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
+    let record = &problem.record;
+    let noise = rms(&problem.layout, &fit.left);
+    let passes = record.passes().len();
+    let position = &record.position_mm;
+    let mut axes =
+        vec![("position", position, 6), ("position", position, 24), ("position", position, 64)];
+    if problem.model.rotary || 1 < passes {
+        axes.push(("time", &record.time_s, 6));
+    }
+    let mut found = Vec::new();
+    for (along, values, order) in axes {
+        if spread(values) <= 0.0 || problem.rows.len() < 6 * order {
+            continue;
+        }
+        let raw = stacked(problem, &chebyshev(values, order));
+        let (rms_um, mut p_value) = probe(problem, model, fit, &raw);
+        if 30 < order && !far_above(rms_um, noise) {
+            p_value = 1.0;
+        }
+        let shape = match order {
+            0..10 => "smooth curve",
+            10..30 => "local bump or wave",
+            _ => "wave whose length changes, or several bumps",
+        };
+        found.push(Structure::without_place(along, shape, rms_um, p_value));
+    }
+    found.extend(smooth_in_passes(problem, model, fit));
+    found
+}
+
+/// Columns of all passes together that their own smooth curves may have.
+const COLUMNS_OF_PASSES: usize = 48;
+
+/// A smooth curve over the travel that is another one in every pass.
+fn smooth_in_passes(problem: &Problem, model: &Columns, fit: &Fit) -> Option<Structure> {
+    let passes = problem.record.passes();
+    let order = (COLUMNS_OF_PASSES / passes.len().max(1)).min(8);
+    let few = problem.rows.len() < 6 * order * passes.len();
+    if passes.len() < 2 || order < 3 || few {
+        return None;
+    }
+    let mut raw = Vec::new();
+    for rows in passes {
+        for curve in chebyshev(&problem.record.position_mm[rows.clone()], order) {
+            let mut whole = vec![0.0; problem.record.len()];
+            whole[rows.clone()].copy_from_slice(&curve);
+            raw.push(whole);
+        }
+    }
+    let (rms_um, chance) = probe(problem, model, fit, &stacked(problem, &raw));
+    let p_value = if far_above(rms_um, rms(&problem.layout, &fit.left)) { chance } else { 1.0 };
+    let shape = "smooth curve, another in each pass";
+    Some(Structure::without_place("position", shape, rms_um, p_value))
+}
+
+/// Anything at all that comes back at the same place in another pass.
+fn repeats(problem: &Problem, fit: &Fit) -> Option<Structure> {
+    let (correlation, chance) = repeatability(problem, fit)?;
+    let rms_um = rms(&problem.layout, &fit.left) * correlation.max(0.0).sqrt();
+    let p_value = (probes(problem) * chance).min(1.0);
+    Some(Structure::without_place("position", "repeats from pass to pass", rms_um, p_value))
+}
+
+/// Swings of a loop that a jump must exceed to be none of them, with the noise of two samples.
+const LOOP_JUMP: f64 = 3.0;
+
+/// Several jumps, wherever they are.
+fn jumping(problem: &Problem, fit: &Fit) -> Option<Structure> {
+    let (rms_um, chance) = jumps(problem, fit)?;
+    if rms_um < LOOP_JUMP * problem.hunting_um {
+        return None;
+    }
+    let p_value = (probes(problem) * chance).min(1.0);
+    Some(Structure::without_place("time", "several jumps", rms_um, p_value))
+}
+
+/// A shape that comes back with every turn of the spindle or of the machine's screw.
+fn cyclic_shapes(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
+    let turns: Vec<f64> = problem.record.turns().collect();
+    let mut axes = vec![("spindle angle", 1.0)];
+    if let Some(screw) = problem.model.lead_screw.as_ref().filter(|_| !problem.model.rotary) {
+        axes.push(("machine screw angle", problem.model.workpiece.lead.mm() / screw.mm()));
+    }
+    let enough = |order: &f64| 2.0 < order * spread(&turns);
+    axes.into_iter()
+        .filter(|(_, order)| enough(order))
+        .map(|(along, order)| {
+            let (rms_um, p_value) =
+                probe(problem, model, fit, &stacked(problem, &turning(&turns, order)));
+            Structure::without_place(along, "shape that repeats each turn", rms_um, p_value)
+        })
+        .collect()
+}
+
+/// Sines and cosines of the first four harmonics.
+fn turning(turns: &[f64], order: f64) -> Vec<Vec<f64>> {
+    (1..=4)
+        .flat_map(|harmonic| {
+            let angle = |turn: &f64| std::f64::consts::TAU * order * f64::from(harmonic) * turn;
+            let sine = turns.iter().map(|turn| libm::sin(angle(turn))).collect();
+            let cosine = turns.iter().map(|turn| libm::cos(angle(turn))).collect();
+            [sine, cosine]
+        })
+        .collect()
+}
+
+/// Sensor by sensor its own columns: a probe assumes nothing of entries.
+fn stacked(problem: &Problem, samples: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let mut raw = Vec::new();
+    for sensor in &problem.sensors {
+        for values in samples {
+            let of_row = |row: &Row| {
+                if row.sensor == *sensor { values[row.sample] } else { 0.0 }
+            };
+            raw.push(problem.rows.iter().map(of_row).collect());
+        }
+    }
+    raw
+}
+
+/// Chebyshev polynomials 1 … order over the range of a coordinate.
+fn chebyshev(values: &[f64], order: usize) -> Vec<Vec<f64>> {
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let range = spread(values);
+    let scaled: Vec<f64> = values.iter().map(|v| 2.0 * (v - low) / range - 1.0).collect();
+    let mut all = vec![vec![1.0; values.len()], scaled.clone()];
+    for degree in 2..=order {
+        let next = (0..values.len())
+            .map(|i| 2.0 * scaled[i] * all[degree - 1][i] - all[degree - 2][i])
+            .collect();
+        all.push(next);
+    }
+    all.remove(0);
+    all
+}
+
+/// Lines over the spindle angle and over time, sensor by sensor.
+fn lines(problem: &Problem, fit: &Fit) -> Vec<Structure> {
+    let mut found = Vec::new();
+    for (sensor, _) in problem.sensors.iter().enumerate() {
+        for (along, coordinate, highest) in cyclic(problem) {
+            let search = LineSearch { problem, fit, sensor, coordinate: &coordinate, highest };
+            let Some(line) = search.strongest() else { continue };
+            let shape = format!("sinusoid of amplitude {:.3}", line.amplitude);
+            found.push(Structure {
+                along: along.to_owned(),
+                shape,
+                rms_um: line.amplitude / std::f64::consts::SQRT_2,
+                p_value: (probes(problem) * line.p_value).min(1.0),
+                at: Some(line.frequency),
+                at_stderr: Some(line.frequency_stderr),
+                line: Some(line),
+            });
+        }
+    }
+    found
+}
+
+/// Name, values and highest frequency of every coordinate that lines are looked for in.
+fn cyclic(problem: &Problem) -> Vec<(&'static str, Vec<f64>, f64)> {
+    let mut axes = vec![("spindle order", problem.record.turns().collect(), problem.highest_order)];
+    if 1 < problem.record.passes().len() && problem.measurement.timed {
+        axes.push(("frequency in time", problem.record.time_s.clone(), problem.highest_hz));
+    }
+    axes
+}
+
+/// The best step over the travel, at the same place in every pass, and over time.
+fn step(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
+    let axes = [("position", &problem.record.position_mm), ("time", &problem.record.time_s)];
+    let mut found = Vec::new();
+    for (along, values) in axes {
+        let places = quantiles(values, 200);
+        let stage = Stage::new(problem, model, &fit.noises);
+        let columns = |place: &f64| Columns::free(stacked(problem, &[above(values, *place)]));
+        let gains = |some: &[f64]| {
+            let columns: Vec<Columns> = some.iter().map(columns).collect();
+            stage.gains(&columns.iter().collect::<Vec<_>>())
+        };
+        let gains = places.chunks(16).flat_map(gains).map(|gain| gain.gain);
+        let best = places.iter().zip(gains).max_by(|a, b| a.1.total_cmp(&b.1));
+        let Some((&place, _)) = best else { continue };
+        let raw = stacked(problem, &[above(values, place)]);
+        let (rms_um, p_value) = probe(problem, model, fit, &raw);
+        let mut p_value = (p_value * count(places.len())).min(1.0);
+        if matters(rms_um, rms(&problem.layout, &fit.left), p_value) {
+            p_value = p_value.max(step_with_tails(problem, model, fit, raw, places.len()));
+        }
+        found.push(Structure {
+            along: along.to_owned(),
+            shape: "step".to_owned(),
+            rms_um,
+            p_value,
+            at: Some(place),
+            at_stderr: None,
+            line: None,
+        });
+    }
+    found
+}
+
+/// Chance of a step when the noise may have tails.
+fn step_with_tails(
+    problem: &Problem,
+    model: &Columns,
+    fit: &Fit,
+    raw: Vec<Vec<f64>>,
+    places: usize,
+) -> f64 {
+    let (width, looks) = (count(raw.len()), probes(problem) * count(places));
+    let wider = settle(problem, &model.and(&Columns::free(raw)), &fit.noises);
+    let of_gain = |gain| looks * chi_squared_tail(gain, width);
+    chance_with_tails(problem, [fit, &wider], of_gain).min(1.0)
+}
+
+fn above(values: &[f64], place: f64) -> Vec<f64> {
+    values.iter().map(|value| f64::from(u8::from(place < *value))).collect()
+}
+
+fn quantiles(values: &[f64], points: usize) -> Vec<f64> {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.dedup();
+    let points = points.min(sorted.len().saturating_sub(1));
+    (1..points)
+        .map(|i| {
+            let place = i * (sorted.len() - 1) / points;
+            0.5 * (sorted[place] + sorted[place + 1])
+        })
+        .collect()
+}
+
+/// A straight relation to every logged covariate, to direction and to speed.
+fn covariates(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
+    let measured = &problem.measurement;
+    let mut columns: Vec<(&str, &Vec<f64>)> =
+        measured.covariates.iter().map(|(name, values)| (name.as_str(), values)).collect();
+    columns.push(("direction", &measured.direction));
+    columns.push(("speed_rpm", &measured.speed_rpm));
+    columns
+        .into_iter()
+        .filter(|(_, values)| 0.0 < spread(values))
+        .map(|(name, values)| {
+            let (rms_um, p_value) =
+                probe(problem, model, fit, &stacked(problem, std::slice::from_ref(values)));
+            Structure::without_place(name, "straight relation", rms_um, p_value)
+        })
+        .collect()
+}

@@ -1,0 +1,120 @@
+//! Whether a residual comes back at the same place in another pass, whatever its shape.
+
+use statrs::distribution::{ContinuousCDF, Normal};
+
+use crate::model::{Fit, Problem};
+use crate::noise::Whitener;
+use crate::numerics::count;
+use crate::numerics::least_squares::dot;
+
+/// Mean correlation of neighbouring passes, and its chance in independent noise.
+///
+/// Passes are compared two by two on the whitened residual, the second interpolated to the places
+/// of the first. The standard error of a correlation allows for what autocorrelation is left in
+/// both (Bartlett 1946). `None` without two passes over the same travel.
+#[must_use]
+pub(crate) fn repeatability(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
+    let whitener = Whitener::new(&problem.layout, &fit.noises);
+    let white = whitener.whiten(&fit.left);
+    let (mut score, mut correlations, mut pairs) = (0.0, 0.0, 0.0);
+    for sensor in 0..problem.sensors.len() {
+        let passes: Vec<Vec<(f64, f64)>> = problem
+            .layout
+            .blocks
+            .iter()
+            .filter(|block| block.sensor == sensor)
+            .filter_map(|block| along_travel(problem, &white, block.rows.clone()))
+            .collect();
+        for pair in passes.chunks_exact(2) {
+            let Some((correlation, deviation)) = correlation(&pair[0], &pair[1]) else { continue };
+            score += correlation / deviation;
+            correlations += correlation;
+            pairs += 1.0;
+        }
+    }
+    if pairs == 0.0 {
+        return None;
+    }
+    let normal = Normal::standard();
+    Some((correlations / pairs, normal.sf(score / f64::sqrt(pairs))))
+}
+
+/// `(place, residual)` sorted by place; `None` for a pass that turns back or stands.
+fn along_travel(
+    problem: &Problem,
+    white: &[f64],
+    rows: std::ops::Range<usize>,
+) -> Option<Vec<(f64, f64)>> {
+    let place = |row: usize| problem.record.spindle_rad[problem.rows[row].sample];
+    let mut points: Vec<(f64, f64)> = rows.clone().map(|row| (place(row), white[row])).collect();
+    let forward = place(rows.start) < place(rows.end - 1);
+    let one_way = points.windows(2).all(|pair| {
+        let step = pair[1].0 - pair[0].0;
+        if forward { 0.0 <= step } else { step <= 0.0 }
+    });
+    if !forward {
+        points.reverse();
+    }
+    (one_way && 32 <= points.len()).then_some(points)
+}
+
+/// Correlation over the common travel, and its standard deviation in independent noise.
+fn correlation(a: &[(f64, f64)], b: &[(f64, f64)]) -> Option<(f64, f64)> {
+    let (mut first, mut second) = (Vec::new(), Vec::new());
+    let mut next = 0;
+    for &(place, value) in a {
+        while next < b.len() && b[next].0 < place {
+            next += 1;
+        }
+        if next == 0 || next == b.len() {
+            continue;
+        }
+        let ((x0, y0), (x1, y1)) = (b[next - 1], b[next]);
+        let share = if x1 > x0 { (place - x0) / (x1 - x0) } else { 0.0 };
+        first.push(value);
+        second.push(y0 + share * (y1 - y0));
+    }
+    if first.len() < 32 {
+        return None;
+    }
+    centre(&mut first);
+    centre(&mut second);
+    let size = (dot(&first, &first) * dot(&second, &second)).sqrt();
+    if size <= 0.0 {
+        return None;
+    }
+    let samples = count(first.len());
+    let (left, right) = (autocorrelations(&first), autocorrelations(&second));
+    let bartlett = 1.0 + 2.0 * left.iter().zip(&right).map(|(l, r)| l * r).sum::<f64>();
+    Some((dot(&first, &second) / size, (bartlett.max(0.5) / samples).sqrt()))
+}
+
+fn centre(values: &mut [f64]) {
+    let mean = values.iter().sum::<f64>() / count(values.len());
+    for value in values.iter_mut() {
+        *value -= mean;
+    }
+}
+
+/// Autocorrelations at lags 1 … a tenth of the series.
+fn autocorrelations(values: &[f64]) -> Vec<f64> {
+    let power = dot(values, values).max(f64::MIN_POSITIVE);
+    let lags = (values.len() / 10).clamp(1, 100);
+    (1..=lags).map(|lag| dot(&values[lag..], &values[..values.len() - lag]) / power).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_shape_that_repeats_is_found_at_other_places_too() {
+        let shape = |x: f64| libm::sin(0.3 * x * x);
+        let a: Vec<_> =
+            (0..400).map(|i| (0.05 * f64::from(i), shape(0.05 * f64::from(i)))).collect();
+        let b: Vec<_> =
+            (0..400).map(|i| 1.0 + 0.047 * f64::from(i)).map(|x| (x, shape(x))).collect();
+        let (correlation, deviation) = correlation(&a, &b).unwrap();
+        assert!(0.9 < correlation && deviation < 0.2, "{correlation} {deviation}");
+    }
+}

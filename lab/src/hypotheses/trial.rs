@@ -1,0 +1,304 @@
+//! One effect tried on what a model leaves: its best place, its columns, its likelihood.
+
+use helixlock_plant::Search;
+use rayon::prelude::*;
+
+use super::candidates::{Candidate, around, between_samples};
+use super::grid::{on_grid, usable};
+use crate::model::{Columns, Component, Gain, Stage};
+use crate::numerics::simplex::minimise;
+use crate::numerics::{count, simplex, spread};
+
+/// A candidate at its best under a stage's noise.
+#[derive(Debug, Clone)]
+pub(crate) struct Trial {
+    /// The effect with its nonlinear values and the columns that pay for themselves.
+    pub(crate) component: Component,
+    /// Whitened square it takes away.
+    pub(crate) gain: f64,
+    /// Independent places that were looked at.
+    pub(crate) looks: f64,
+    /// Coefficients of the columns in use.
+    pub(crate) coefficients: Vec<f64>,
+}
+
+impl Trial {
+    /// Free numbers of the effect, linear and nonlinear.
+    #[must_use]
+    pub(crate) fn freedom(&self) -> f64 {
+        count(self.component.width().max(1))
+    }
+}
+
+/// Relative difference of coefficients below which two trials leave the same noise.
+const ALIKE: f64 = 0.01;
+
+impl Trial {
+    /// True when another trial has the same columns and hardly other coefficients: what a fit
+    /// begins with is then the same, and so is where it ends.
+    #[must_use]
+    pub(crate) fn leaves_as_much_as(&self, other: &Self) -> bool {
+        let (own, others) = (&self.component, &other.component);
+        let alike = |(a, b): (&f64, &f64)| (a - b).abs() <= ALIKE * a.abs().max(b.abs());
+        own.term.nonlinear() == others.term.nonlinear()
+            && own.kept == others.kept
+            && own.whole == others.whole
+            && self.coefficients.len() == other.coefficients.len()
+            && self.coefficients.iter().zip(&other.coefficients).all(alike)
+    }
+}
+
+/// The best of one candidate; `None` when it explains nothing.
+#[must_use]
+pub(crate) fn try_candidate(stage: &Stage<'_>, candidate: &Candidate) -> Option<Trial> {
+    let mut gains = gains_of(stage, &on_grid(stage.problem, candidate));
+    let sudden = sudden_places(stage, candidate);
+    let columns: Vec<Option<Columns>> =
+        sudden.par_iter().map(|place| columns_at(stage, candidate, place)).collect();
+    gains.extend(gains_of(stage, &columns));
+    let grid = [candidate.grid.as_slice(), &sudden].concat();
+    let starts = starts(&grid, &gains);
+    let refined = starts.into_iter().map(|point| refined(stage, candidate, &grid[point]));
+    let term = refined.max_by(|a, b| a.1.total_cmp(&b.1))?.0;
+    let component = reduced(stage, Component::new(term));
+    let (component, choices) = counted(stage, component)?;
+    let best = gain_at(stage, &component)?;
+    let coefficients = best.fit.coefficients;
+    Some(Trial { component, gain: best.gain, looks: candidate.looks * choices, coefficients })
+}
+
+/// Sudden changes that an effect of one moment is tried at.
+const SUDDEN: usize = 16;
+
+/// Instants of the most sudden changes, for effects of one moment.
+///
+/// Slow noise takes back a step that is tried a few samples too early or too late, so that it
+/// shows at its own instant only, which a grid may miss.
+fn sudden_places(stage: &Stage<'_>, candidate: &Candidate) -> Vec<Vec<f64>> {
+    let terms = candidate.term.nonlinear_indices();
+    let of_time = |&index: &usize| candidate.term.parameters[index].search == Search::Time;
+    let (Some(axis), Some(first)) = (terms.iter().position(of_time), candidate.grid.first()) else {
+        return Vec::new();
+    };
+    let (rows, time_s) = (&stage.problem.rows, &stage.problem.record.time_s);
+    let mut later: Vec<usize> = (1..rows.len())
+        .filter(|&row| time_s[rows[row - 1].sample] < time_s[rows[row].sample])
+        .collect();
+    let size = |row: usize| stage.target[row].abs();
+    later.sort_by(|&a, &b| size(b).total_cmp(&size(a)));
+    later.truncate(SUDDEN);
+    let before = |row: usize| 0.5 * (time_s[rows[row - 1].sample] + time_s[rows[row].sample]);
+    let at = |row: usize| {
+        let mut place = first.clone();
+        place[axis] = before(row);
+        place
+    };
+    later.into_iter().map(at).collect()
+}
+
+/// Columns of a candidate at some nonlinear values; `None` where they say nothing.
+fn columns_at(stage: &Stage<'_>, candidate: &Candidate, place: &[f64]) -> Option<Columns> {
+    usable(stage.problem, &Component::new(candidate.term.with_nonlinear(place)))
+}
+
+/// Columns whose gains are worked out together.
+const TOGETHER: usize = 16;
+
+/// Gains of many columns; nothing is gained by those that say nothing.
+fn gains_of(stage: &Stage<'_>, all: &[Option<Columns>]) -> Vec<f64> {
+    let of = |some: &[Option<Columns>]| {
+        let usable: Vec<&Columns> = some.iter().flatten().collect();
+        let mut gains = stage.gains(&usable).into_iter().map(|gain| gain.gain);
+        let gain = |columns: &Option<Columns>| {
+            columns.as_ref().and_then(|_| gains.next()).unwrap_or_default()
+        };
+        some.iter().map(gain).collect::<Vec<f64>>()
+    };
+    all.par_chunks(TOGETHER).flat_map_iter(of).collect()
+}
+
+/// Share of the best gain of a grid from which a place may lead further up than the best.
+const HOPEFUL: f64 = 0.5;
+
+/// Places of a grid where it is worth looking further: the three best, without those next to a
+/// better one, which lead to the same top.
+fn starts(grid: &[Vec<f64>], gains: &[f64]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..gains.len()).filter(|&point| 0.0 < gains[point]).collect();
+    order.sort_by(|&a, &b| gains[b].total_cmp(&gains[a]));
+    order.truncate(3);
+    let best = order.first().map_or(0.0, |&point| gains[point]);
+    order.retain(|&point| HOPEFUL * best < gains[point]);
+    let axes: Vec<Vec<f64>> = (0..grid.first().map_or(0, Vec::len))
+        .map(|axis| {
+            let mut values: Vec<f64> = grid.iter().map(|point| point[axis]).collect();
+            values.sort_by(f64::total_cmp);
+            values.dedup();
+            values
+        })
+        .collect();
+    let rank = |axis: usize, value: f64| axes[axis].partition_point(|known| *known < value);
+    let next_to = |a: usize, b: usize| {
+        let pairs = grid[a].iter().zip(&grid[b]).enumerate();
+        pairs.into_iter().all(|(axis, (a, b))| rank(axis, *a).abs_diff(rank(axis, *b)) <= 1)
+    };
+    let mut starts: Vec<usize> = Vec::new();
+    for point in order {
+        if !starts.iter().any(|&better| next_to(better, point)) {
+            starts.push(point);
+        }
+    }
+    starts
+}
+
+/// Largest step that a count is looked for, µm; it sets what a whole number must pay.
+const LARGEST_STEP_UM: f64 = 5.0;
+
+/// Holds counts at the whole number nearest to their fit; `None` when they are none.
+///
+/// Also the number of whole numbers that were open, against the freedom of one coefficient.
+fn counted(stage: &Stage<'_>, component: Component) -> Option<(Component, f64)> {
+    let mut held = component;
+    let mut choices = 1.0;
+    for column in held.counts() {
+        let free = gain_at(stage, &held)?.fit;
+        let value = free.coefficients[column];
+        let stderr = free.covariance[(column, column)].max(0.0).sqrt();
+        let whole = value.round();
+        let near = 4.0 * stderr + 0.02;
+        if whole == 0.0 || (stage.is_noise(&free) && near < (value - whole).abs()) {
+            return None;
+        }
+        held.whole[column] = Some(whole);
+        let raw = Columns::of(stage.problem, std::slice::from_ref(&held)).ok()?.raw;
+        let unit_um = spread(raw.get(column)?).max(1e-6);
+        // The Bayesian price of one coefficient is √n; a whole number costs its alternatives.
+        let rows = count(stage.problem.rows.len()).max(3.0);
+        choices *= (2.0 * LARGEST_STEP_UM / unit_um).max(1.0) / rows.sqrt();
+    }
+    Some((held, choices))
+}
+
+/// Gain of a component under the stage's noise; `None` when its columns cannot be made.
+#[must_use]
+pub(crate) fn gain_at(stage: &Stage<'_>, component: &Component) -> Option<Gain> {
+    usable(stage.problem, component).map(|columns| stage.gain(&columns))
+}
+
+/// Nonlinear values improved from a grid point, within their ranges.
+fn refined(
+    stage: &Stage<'_>,
+    candidate: &Candidate,
+    place: &[f64],
+) -> (helixlock_plant::Term, f64) {
+    let start = &sharpened(stage, candidate, place);
+    let free: Vec<usize> = (0..start.len()).filter(|&i| candidate.steps[i] != 0.0).collect();
+    let ranges: Vec<(f64, f64)> = candidate
+        .term
+        .nonlinear_indices()
+        .iter()
+        .map(|&i| &candidate.term.parameters[i].range)
+        .map(|range| (*range.start(), *range.end()))
+        .collect();
+    let place = |moved: &[f64]| {
+        let mut values = start.clone();
+        for (&i, shift) in free.iter().zip(moved) {
+            values[i] =
+                start[i] + shift * candidate.steps[i].min(step_of(start[i], candidate.steps[i]));
+            if ranges[i].0 < ranges[i].1 {
+                values[i] = values[i].clamp(ranges[i].0, ranges[i].1);
+            }
+        }
+        candidate.term.with_nonlinear(&values)
+    };
+    let loss = |moved: &[f64]| {
+        gain_at(stage, &Component::new(place(moved))).map_or(f64::INFINITY, |gain| -gain.gain)
+    };
+    let search = simplex::Search { evaluations: 40 * free.len(), tolerance: 1e-3 };
+    let (moved, loss) = minimise(loss, &vec![0.0; free.len()], &vec![0.6; free.len()], search);
+    (place(&moved), -loss)
+}
+
+/// Instants moved to the best gap between two samples near a grid point.
+fn sharpened(stage: &Stage<'_>, candidate: &Candidate, start: &[f64]) -> Vec<f64> {
+    let mut best = start.to_vec();
+    for (place, &index) in candidate.term.nonlinear_indices().iter().enumerate() {
+        if candidate.term.parameters[index].search != Search::Time {
+            continue;
+        }
+        let gaps = between_samples(&stage.problem.record.time_s);
+        let reach = gaps.len() / 96 + 2;
+        let nearby = around(&gaps, best[place], reach);
+        let columns = |gap: &f64| {
+            let mut values = best.clone();
+            values[place] = *gap;
+            columns_at(stage, candidate, &values)
+        };
+        let columns: Vec<Option<Columns>> = nearby.par_iter().map(columns).collect();
+        let gains = gains_of(stage, &columns);
+        if let Some(top) = nearby.iter().zip(gains).max_by(|a, b| a.1.total_cmp(&b.1)) {
+            best[place] = *top.0;
+        }
+    }
+    best
+}
+
+/// A step no larger than the value itself where values are spread logarithmically.
+fn step_of(value: f64, step: f64) -> f64 {
+    if value == 0.0 { step } else { step.min(value.abs()) }
+}
+
+/// Leaves out columns that do not pay by the Bayesian information criterion, weakest first.
+#[must_use]
+pub(crate) fn reduced(stage: &Stage<'_>, component: Component) -> Component {
+    let mut best = component;
+    let atoms = best.atoms();
+    if atoms.len() < 2 {
+        return best;
+    }
+    let price = stage.problem.price_of_a_number();
+    let score = |component: &Component| {
+        gain_at(stage, component)
+            .map_or(f64::NEG_INFINITY, |gain| gain.gain - price * count(component.width()))
+    };
+    let mut now = score(&best);
+    loop {
+        let smaller = atoms
+            .iter()
+            .filter(|atom| best.kept[atom[0]])
+            .map(|atom| without(&best, atom))
+            .filter(|component| 0 < component.width())
+            .map(|component| (score(&component), component))
+            .max_by(|a, b| a.0.total_cmp(&b.0));
+        match smaller {
+            Some((score, component)) if now < score => (now, best) = (score, component),
+            _ => return best,
+        }
+    }
+}
+
+fn without(component: &Component, atom: &[usize]) -> Component {
+    let mut smaller = component.clone();
+    for &column in atom {
+        smaller.kept[column] = false;
+    }
+    smaller
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_search_goes_on_from_tops_that_are_apart() {
+        let grid: Vec<Vec<f64>> =
+            (0..20).map(|i| vec![count(i % 5), libm::exp(count(i / 5))]).collect();
+        let mut gains = vec![1.0; 20];
+        // A top with a neighbour across a corner, and another top two places on.
+        (gains[6], gains[12], gains[8]) = (50.0, 40.0, 30.0);
+        assert_eq!(starts(&grid, &gains), [6, 8]);
+        gains[8] = 20.0;
+        assert_eq!(starts(&grid, &gains), [6]);
+        assert!(starts(&grid, &[0.0; 20]).is_empty());
+        assert_eq!(starts(&[vec![]], &[3.0]), [0]);
+    }
+}

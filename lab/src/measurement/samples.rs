@@ -1,0 +1,316 @@
+//! Measured samples in order: coordinates, sensors and covariates, pass by pass.
+
+use std::collections::BTreeMap;
+
+use helixlock_plant::Machine;
+use helixlock_plant::prediction::Sensor;
+use helixlock_traces::{Table, TextColumn};
+
+use super::error::LabError;
+use super::{coordinates, headers, passes, plausible};
+use crate::numerics::spread;
+
+/// What the machine file says that a data file may leave out.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nominal {
+    /// Travel of one spindle turn, mm; arbitrary when rotary.
+    pub lead_mm: f64,
+    /// Spindle speed, rpm.
+    pub speed_rpm: f64,
+    /// Table travel of one counted step, µm.
+    pub step_um: f64,
+    /// True for chains without a workpiece, measured in arcsec.
+    pub rotary: bool,
+    /// True when the corrector works, so that a counter without a recorder is a sensor.
+    pub closed: bool,
+}
+
+impl Nominal {
+    /// What a machine file says of it.
+    #[must_use]
+    pub fn of(machine: &Machine) -> Self {
+        Self {
+            lead_mm: machine.workpiece.lead.mm(),
+            speed_rpm: machine.spindle.speed_rpm,
+            step_um: machine.drive.step_um,
+            rotary: machine.rotary,
+            closed: machine.loop_closed,
+        }
+    }
+}
+
+/// Column of the data file that a sensor fills.
+#[must_use]
+pub fn sensor_column(sensor: Sensor, rotary: bool) -> &'static str {
+    match sensor {
+        Sensor::Recorder if rotary => "error_arcsec",
+        Sensor::Recorder => "error_um",
+        Sensor::Counter => "steps",
+        Sensor::Thread => "lead_error_um",
+    }
+}
+
+/// Samples sorted by pass and, within a pass, by time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measurement {
+    /// True when the unit is arcsec instead of µm.
+    pub rotary: bool,
+    /// Time, s, from the start of the record.
+    pub time_s: Vec<f64>,
+    /// Travel, mm; for rotary chains the angle of the output in degrees is not travel and this is 0.
+    pub position_mm: Vec<f64>,
+    /// Spindle angle in turns, growing with position.
+    pub angle_rev: Vec<f64>,
+    /// Spindle speed, rpm.
+    pub speed_rpm: Vec<f64>,
+    /// +1 forward, −1 reverse.
+    pub direction: Vec<f64>,
+    /// Index of the pass, from 0.
+    pub pass: Vec<usize>,
+    /// Names of the passes as in the file.
+    pub pass_names: Vec<f64>,
+    /// Per sensor one value a sample, NaN where the cell is missing; the counter in µm.
+    pub observations: BTreeMap<Sensor, Vec<f64>>,
+    /// Logged covariates, known and unknown; gaps are bridged from their neighbours.
+    pub covariates: BTreeMap<String, Vec<f64>>,
+    /// True when time was measured, not worked out from travel and speed.
+    pub timed: bool,
+    /// What a user should know about how the file was read.
+    pub notes: Vec<String>,
+}
+
+/// Columns that are coordinates or sensors; every other one is a covariate.
+pub(super) const NOT_COVARIATES: [&str; 10] = [
+    "time_s",
+    "position_mm",
+    "angle_rev",
+    "speed_rpm",
+    "direction",
+    "pass",
+    "error_um",
+    "error_arcsec",
+    "steps",
+    "lead_error_um",
+];
+
+/// True for the columns by which a simulated trace shows the recorder before its filter, and the
+/// same machine with the loop the other way: they are sensors, but not of this run.
+fn is_of_another_run(name: &str) -> bool {
+    let rest = name.strip_prefix("open_").or_else(|| name.strip_prefix("closed_"));
+    let rest = rest.unwrap_or("");
+    name == "raw_error_um" || rest == "raw_error_um" || NOT_COVARIATES.contains(&rest)
+}
+
+/// Fewest samples that say anything about noise.
+const FEWEST: usize = 16;
+
+impl Measurement {
+    /// Orders and completes the samples of a table.
+    ///
+    /// Columns such as `Position [m]` are converted where name and unit leave no doubt. Rows without
+    /// a coordinate or without any observation are left out and counted in `notes`.
+    ///
+    /// # Errors
+    ///
+    /// A missing observation or coordinate, an observation of the other kind of machine, a reading
+    /// that its sensor cannot show, or fewer than 16 usable samples.
+    pub fn from_table(table: &Table, nominal: &Nominal) -> Result<Self, LabError> {
+        let mut notes = left_out(table)?;
+        let mut measurement = match headers::understood(table) {
+            Some((understood, more)) => {
+                notes.extend(more);
+                Self::from_named(&understood, nominal)?
+            }
+            None => Self::from_named(table, nominal)?,
+        };
+        notes.append(&mut measurement.notes);
+        Ok(Self { notes, ..measurement })
+    }
+
+    /// As [`Self::from_table`], for columns that have our names.
+    fn from_named(table: &Table, nominal: &Nominal) -> Result<Self, LabError> {
+        let path = table.path.display().to_string();
+        check_kind(table, nominal, &path)?;
+        plausible::check(table)?;
+        let observed = observed_columns(table, nominal);
+        if observed.is_empty() {
+            return Err(LabError::NoObservation {
+                path,
+                found: names(table),
+                expected: if nominal.rotary {
+                    "`error_arcsec`"
+                } else {
+                    "`error_um`, `lead_error_um`, `steps`"
+                },
+            });
+        }
+        let coordinates = coordinates::complete(table, nominal)?;
+        let keep = |row: &usize| {
+            coordinates.usable(*row) && observed.iter().any(|(_, values)| values[*row].is_finite())
+        };
+        let rows: Vec<usize> = (0..table.rows()).filter(keep).collect();
+        if rows.len() < FEWEST {
+            return Err(LabError::TooFew { path, found: rows.len(), expected: FEWEST });
+        }
+        let mut notes = coordinates.notes.clone();
+        let dropped = table.rows() - rows.len();
+        if 0 < dropped {
+            notes.push(format!(
+                "{dropped} rows without a coordinate or an observation are left out"
+            ));
+        }
+        let passes = passes::split(table, &coordinates, &rows, &mut notes);
+        Ok(assemble(table, nominal, &coordinates, passes, notes).without_treads())
+    }
+
+    /// Number of samples.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.time_s.len()
+    }
+
+    /// True when there is no sample; `from_table` never gives that.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.time_s.is_empty()
+    }
+
+    /// Unit of the observations.
+    #[must_use]
+    pub fn unit(&self) -> &'static str {
+        if self.rotary { "arcsec" } else { "µm" }
+    }
+
+    /// The same as files spell it.
+    #[must_use]
+    pub fn unit_word(&self) -> &'static str {
+        if self.rotary { "arcsec" } else { "um" }
+    }
+
+    /// True when `name` is logged and takes more than one value.
+    #[must_use]
+    pub(crate) fn varies(&self, name: &str) -> bool {
+        self.covariates.get(name).is_some_and(|values| spread(values) > 0.0)
+    }
+}
+
+/// A note on every column of words; refuses those that should hold numbers.
+fn left_out(table: &Table) -> Result<Vec<String>, LabError> {
+    let note = |text: &TextColumn| {
+        if headers::is_known(&text.name) {
+            return Err(text.refused().into());
+        }
+        let TextColumn { name, first, .. } = text;
+        Ok(format!("column `{name}` holds words, the first `{first}`, and is left out"))
+    };
+    table.text.iter().map(note).collect()
+}
+
+fn check_kind(table: &Table, nominal: &Nominal, path: &str) -> Result<(), LabError> {
+    let other = |found, expected, hint| {
+        Err(LabError::OtherKind { path: path.to_owned(), found, expected, hint })
+    };
+    let has = |name| table.column(name).is_some();
+    if nominal.rotary && !has("error_arcsec") && has("error_um") {
+        return other("error_um", "`error_arcsec`", "the machine file says `rotary = true`");
+    }
+    if !nominal.rotary && has("error_arcsec") && !has("error_um") {
+        return other(
+            "error_arcsec",
+            "`error_um`",
+            "a rotary chain needs `[output]` with `rotary = true` in the machine file",
+        );
+    }
+    Ok(())
+}
+
+fn observed_columns<'a>(table: &'a Table, nominal: &Nominal) -> Vec<(Sensor, &'a [f64])> {
+    let sees = |sensor: &Sensor| match sensor {
+        Sensor::Recorder => true,
+        Sensor::Counter => nominal.closed && !nominal.rotary && !steps_are_moves(table, nominal),
+        Sensor::Thread => !nominal.rotary,
+    };
+    let sensors = Sensor::ALL.into_iter().filter(sees);
+    sensors
+        .filter_map(|s| table.column(sensor_column(s, nominal.rotary)).map(|c| (s, c)))
+        .filter(|(_, values)| values.iter().any(|value| value.is_finite()))
+        .collect()
+}
+
+/// True when the steps are known moves of the table: a cause, not an observation.
+///
+/// Those of an open loop were made by hand. In a closed loop the recorder says what they have left
+/// of the error; recorder and steps together are the open loop's error without the hunting.
+fn steps_are_moves(table: &Table, nominal: &Nominal) -> bool {
+    let filled = |name| table.column(name).is_some_and(|c| c.iter().any(|v| v.is_finite()));
+    !nominal.closed || filled(sensor_column(Sensor::Recorder, nominal.rotary))
+}
+
+pub(super) fn names(table: &Table) -> String {
+    let empty = |values: &[f64]| !values.iter().any(|value| value.is_finite());
+    let columns = table.columns.iter().map(|column| {
+        let note = if empty(&column.values) { " (empty)" } else { "" };
+        format!("`{}`{note}", column.name)
+    });
+    columns.collect::<Vec<_>>().join(", ")
+}
+
+fn assemble(
+    table: &Table,
+    nominal: &Nominal,
+    coordinates: &coordinates::Coordinates,
+    passes: passes::Passes,
+    mut notes: Vec<String>,
+) -> Measurement {
+    let rows = &passes.rows;
+    let pick = |values: &[f64]| -> Vec<f64> { rows.iter().map(|&row| values[row]).collect() };
+    let mut observations = BTreeMap::new();
+    for (sensor, values) in observed_columns(table, nominal) {
+        let factor = if sensor == Sensor::Counter { nominal.step_um } else { 1.0 };
+        observations.insert(sensor, pick(values).iter().map(|value| value * factor).collect());
+    }
+    let covariates = covariates(table, nominal, &passes, &mut notes);
+    if nominal.closed && covariates.contains_key("steps") {
+        notes.push("the steps are known and taken off: the error is that without them".to_owned());
+    }
+    Measurement {
+        rotary: nominal.rotary,
+        time_s: pick(&coordinates.time_s),
+        position_mm: pick(&coordinates.position_mm),
+        angle_rev: pick(&coordinates.angle_rev),
+        speed_rpm: passes.speed_rpm,
+        direction: passes.direction,
+        pass: passes.pass,
+        pass_names: passes.names,
+        observations,
+        covariates,
+        timed: coordinates.timed,
+        notes,
+    }
+}
+
+fn covariates(
+    table: &Table,
+    nominal: &Nominal,
+    passes: &passes::Passes,
+    notes: &mut Vec<String>,
+) -> BTreeMap<String, Vec<f64>> {
+    let mut known = BTreeMap::new();
+    let covariate = |name: &str| {
+        let own =
+            !NOT_COVARIATES.contains(&name) || (name == "steps" && steps_are_moves(table, nominal));
+        own && !is_of_another_run(name)
+    };
+    for column in table.columns.iter().filter(|column| covariate(&column.name)) {
+        let values: Vec<f64> = passes.rows.iter().map(|&row| column.values[row]).collect();
+        if !values.iter().any(|value| value.is_finite()) {
+            notes.push(format!("column `{}` is empty and left out", column.name));
+            continue;
+        }
+        if !helixlock_plant::COVARIATES.contains(&column.name.as_str()) {
+            notes.push(format!("column `{}` is not known and kept as a covariate", column.name));
+        }
+        known.insert(column.name.clone(), passes::bridged(&values, &passes.pass));
+    }
+    known
+}

@@ -1,0 +1,27 @@
+//! A machine, a measurement and some effects as one least-squares problem with correlated noise.
+//!
+//! A problem stacks all sensors; a component gives it columns; a fit settles coefficients and
+//! noise; a state is a model so far. Held-out data and standard errors say what it is worth.
+
+mod columns;
+mod component;
+mod designs;
+mod finer;
+mod fit;
+mod holdout;
+mod judged;
+mod problem;
+mod stage;
+mod state;
+mod uncertainty;
+
+pub(crate) use columns::Columns;
+pub(crate) use component::Component;
+pub(crate) use designs::GridColumns;
+pub(crate) use fit::{Fit, noises_of, settle, with_noise};
+pub(crate) use holdout::{helps_unseen, holdout_rms};
+pub(crate) use judged::Judged;
+pub use problem::{Problem, Row};
+pub(crate) use stage::{Gain, Stage};
+pub(crate) use state::{State, pattern};
+pub(crate) use uncertainty::{JointCovariance, joint_covariance, slopes};

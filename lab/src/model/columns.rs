@@ -1,0 +1,98 @@
+//! Columns of one least-squares fit, with what is known of their coefficients beforehand.
+
+use rayon::prelude::*;
+
+use crate::noise::Whitener;
+
+/// Columns of all components, stacked for one least-squares fit.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Columns {
+    /// Row by row.
+    pub(crate) raw: Vec<Vec<f64>>,
+    /// Prior mean and standard deviation, where physics fixes a coefficient.
+    pub(crate) priors: Vec<Option<(f64, f64)>>,
+    /// What to take off the target first.
+    pub(crate) fixed: Option<Vec<f64>>,
+}
+
+/// Columns whitened at once, so that two threads share what a fit has.
+const TOGETHER: usize = 8;
+
+impl Columns {
+    /// Free columns that belong to no effect.
+    #[must_use]
+    pub(crate) fn free(raw: Vec<Vec<f64>>) -> Self {
+        let priors = vec![None; raw.len()];
+        Self { raw, priors, fixed: None }
+    }
+
+    /// These columns followed by others.
+    #[must_use]
+    pub(crate) fn and(&self, more: &Self) -> Self {
+        let mut both = self.clone();
+        both.raw.extend(more.raw.iter().cloned());
+        both.priors.extend(more.priors.iter().copied());
+        both.take_off(more.fixed.clone());
+        both
+    }
+
+    pub(crate) fn take_off(&mut self, fixed: Option<Vec<f64>>) {
+        match (&mut self.fixed, fixed) {
+            (Some(sum), Some(more)) => sum.iter_mut().zip(more).for_each(|(a, b)| *a += b),
+            (slot @ None, more) => *slot = more,
+            (Some(_), None) => {}
+        }
+    }
+
+    /// Whitened with one more row a prior, so that plain least squares obeys it.
+    #[must_use]
+    pub(crate) fn whitened(&self, whitener: &Whitener) -> Vec<Vec<f64>> {
+        let together = |part: &[&[f64]]| whitener.whiten_all(part);
+        let mut white: Vec<Vec<f64>> =
+            self.views().par_chunks(TOGETHER).flat_map_iter(together).collect();
+        self.hold_to_priors(&mut white);
+        white
+    }
+
+    /// The columns as slices.
+    #[must_use]
+    pub(crate) fn views(&self) -> Vec<&[f64]> {
+        self.raw.iter().map(Vec::as_slice).collect()
+    }
+
+    /// Lengthens whitened columns by one row a prior.
+    pub(crate) fn hold_to_priors(&self, white: &mut [Vec<f64>]) {
+        for (index, prior) in self.priors.iter().enumerate() {
+            let Some((_, deviation)) = prior else { continue };
+            for (other, column) in white.iter_mut().enumerate() {
+                column.push(if other == index { 1.0 / deviation } else { 0.0 });
+            }
+        }
+    }
+
+    /// The whitened target with the rows of the priors.
+    #[must_use]
+    pub(crate) fn target(&self, whitener: &Whitener, residual: &[f64]) -> Vec<f64> {
+        let mut white = match &self.fixed {
+            None => whitener.whiten(residual),
+            Some(fixed) => {
+                let left: Vec<f64> = residual.iter().zip(fixed).map(|(r, f)| r - f).collect();
+                whitener.whiten(&left)
+            }
+        };
+        white.extend(self.priors.iter().flatten().map(|(mean, deviation)| mean / deviation));
+        white
+    }
+
+    /// What is left of a residual when the columns weigh so much.
+    #[must_use]
+    pub(crate) fn left(&self, residual: &[f64], coefficients: &[f64]) -> Vec<f64> {
+        let mut left = residual.to_vec();
+        let weighted = self.raw.iter().map(Vec::as_slice).zip(coefficients.iter().copied());
+        let fixed = self.fixed.iter().map(|fixed| (fixed.as_slice(), 1.0));
+        for (column, weight) in weighted.chain(fixed) {
+            left.iter_mut().zip(column).for_each(|(value, part)| *value -= weight * part);
+        }
+        left
+    }
+}

@@ -1,0 +1,177 @@
+//! An effect inside a fit: which of its columns are in use, and what they weigh.
+
+use helixlock_plant::{EffectError, Estimate, Role, Term};
+
+use super::columns::Columns;
+use super::problem::{Design, Problem};
+use crate::noise::rms;
+
+/// An effect with the columns a fit may use.
+#[derive(Debug, Clone)]
+pub(crate) struct Component {
+    /// The effect, at its present nonlinear values.
+    pub(crate) term: Term,
+    /// Per column of its basis: true when in use.
+    pub(crate) kept: Vec<bool>,
+    /// Per column of its basis: the whole number it was found to be, for counts.
+    pub(crate) whole: Vec<Option<f64>>,
+}
+
+/// Mean and standard deviation of each coefficient that physics or counting fixes.
+pub(crate) type Priors = Vec<Option<(f64, f64)>>;
+
+/// Standard deviation that holds a count at its whole number.
+const WHOLE_STDERR: f64 = 1e-4;
+
+impl Columns {
+    /// Columns of some components.
+    ///
+    /// # Errors
+    ///
+    /// [`EffectError`] when a column of data or a section of the machine file is missing.
+    pub(crate) fn of(problem: &Problem, components: &[Component]) -> Result<Self, EffectError> {
+        let mut all = Self::default();
+        for component in components {
+            let (design, priors) = component.design(problem)?;
+            all.raw.extend(design.columns);
+            all.priors.extend(priors);
+            all.take_off(design.fixed);
+        }
+        Ok(all)
+    }
+}
+
+impl Component {
+    /// All columns in use.
+    #[must_use]
+    pub(crate) fn new(term: Term) -> Self {
+        let width = term.priors().len();
+        Self { term, kept: vec![true; width], whole: vec![None; width] }
+    }
+
+    /// Columns that stand or fall together: a sine with its cosine, any other alone.
+    #[must_use]
+    pub(crate) fn atoms(&self) -> Vec<Vec<usize>> {
+        let mut atoms = Vec::new();
+        let mut column = 0;
+        for parameter in &self.term.parameters {
+            let width = match parameter.role {
+                Role::Amplitude => 2,
+                Role::Linear | Role::Squared | Role::Known { .. } => 1,
+                Role::Phase | Role::Nonlinear => 0,
+            };
+            if 0 < width {
+                atoms.push((column..column + width).collect());
+                column += width;
+            }
+        }
+        atoms
+    }
+
+    /// Columns whose coefficient counts something and must be whole.
+    #[must_use]
+    pub(crate) fn counts(&self) -> Vec<usize> {
+        let atoms = self.atoms();
+        let linear = self.term.parameters.iter().filter(|what| {
+            matches!(what.role, Role::Amplitude | Role::Linear | Role::Squared | Role::Known { .. })
+        });
+        let counting =
+            |what: &helixlock_plant::Parameter| what.role == Role::Linear && what.name == "count";
+        linear.zip(atoms).filter(|(what, _)| counting(what)).map(|(_, atom)| atom[0]).collect()
+    }
+
+    /// Number of columns in use.
+    #[must_use]
+    pub(crate) fn width(&self) -> usize {
+        self.kept.iter().filter(|kept| **kept).count()
+    }
+
+    /// Columns in use with their priors, and the part that does not scale.
+    ///
+    /// # Errors
+    ///
+    /// [`EffectError`] when a column or a section of the machine file is missing.
+    pub(crate) fn design(&self, problem: &Problem) -> Result<(Design, Priors), EffectError> {
+        let Design { columns, fixed } = problem.design(&self.term)?;
+        let held = self.term.priors().into_iter().zip(&self.whole);
+        let priors = held.map(|(prior, whole)| whole.map(|w| (w, WHOLE_STDERR)).or(prior));
+        let pairs = columns.into_iter().zip(priors).zip(&self.kept);
+        let (columns, priors) = pairs.filter(|(_, kept)| **kept).map(|(pair, _)| pair).unzip();
+        Ok((Design { columns, fixed }, priors))
+    }
+
+    /// Coefficients of the whole basis from those in use; the others are 0.
+    #[must_use]
+    pub(crate) fn spread(&self, used: &[f64]) -> Vec<f64> {
+        let mut used = used.iter();
+        let value = |kept: &bool| if *kept { used.next().copied().unwrap_or(0.0) } else { 0.0 };
+        self.kept.iter().map(value).collect()
+    }
+
+    /// The effect at some coefficients of the columns in use, row by row in µm (arcsec); `None`
+    /// when it cannot be worked out.
+    #[must_use]
+    pub(crate) fn shown_um(&self, problem: &Problem, used: &[f64]) -> Option<Vec<f64>> {
+        let columns = Columns::of(problem, std::slice::from_ref(self)).ok()?;
+        let missing = columns.left(&vec![0.0; problem.rows.len()], used);
+        Some(missing.into_iter().map(|value| -value).collect())
+    }
+
+    /// Root mean square of that about the zero of each pass, µm (arcsec); 0 when it cannot be
+    /// worked out.
+    #[must_use]
+    pub(crate) fn size_um(&self, problem: &Problem, used: &[f64]) -> f64 {
+        self.shown_um(problem, used).map_or(0.0, |shown| rms(&problem.layout, &shown))
+    }
+
+    /// The same with another value of one nonlinear parameter.
+    #[must_use]
+    pub(crate) fn with_value(&self, place: usize, value: f64) -> Self {
+        let mut values = self.term.nonlinear();
+        values[place] = value;
+        Self { term: self.term.with_nonlinear(&values), ..self.clone() }
+    }
+
+    /// The term with the values that belong to these coefficients of the columns in use.
+    #[must_use]
+    pub(crate) fn valued(&self, used: &[f64]) -> Term {
+        self.term.with_coefficients(&self.spread(used))
+    }
+
+    /// Linear parameters in use with standard errors; `covariance` covers the columns in use.
+    #[must_use]
+    pub(crate) fn estimates(&self, used: &[f64], covariance: &[Vec<f64>]) -> Vec<Estimate> {
+        let width = self.kept.len();
+        let places: Vec<usize> = (0..width).filter(|&i| self.kept[i]).collect();
+        let mut whole = vec![vec![0.0; width]; width];
+        for (i, &row) in places.iter().enumerate() {
+            for (j, &column) in places.iter().enumerate() {
+                whole[row][column] = covariance[i][j];
+            }
+        }
+        let estimates = self.term.estimates(&self.spread(used), &whole);
+        estimates.into_iter().filter(|estimate| self.uses(estimate.parameter)).collect()
+    }
+
+    /// True when a parameter belongs to a column in use.
+    #[must_use]
+    pub(crate) fn uses(&self, parameter: usize) -> bool {
+        let mut column = 0;
+        for (index, what) in self.term.parameters.iter().enumerate() {
+            let width = match what.role {
+                Role::Amplitude => 2,
+                Role::Linear | Role::Squared | Role::Known { .. } => 1,
+                Role::Phase if index == parameter => {
+                    return self.kept.get(column - 1) == Some(&true);
+                }
+                Role::Nonlinear if index == parameter => return true,
+                Role::Phase | Role::Nonlinear => 0,
+            };
+            if index == parameter {
+                return self.kept.get(column) == Some(&true);
+            }
+            column += width;
+        }
+        false
+    }
+}

@@ -1,0 +1,43 @@
+//! Columns of effects at the places of their grids: worked out once, tried under many noises.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::columns::Columns;
+
+/// Columns at every place of a grid; `None` where they say nothing.
+pub(crate) type GridColumns = Arc<Vec<Option<Columns>>>;
+
+/// What is known of the effects of the catalogue; clones of a problem share it.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Designs {
+    known: Arc<Mutex<BTreeMap<&'static str, Known>>>,
+}
+
+#[derive(Debug)]
+struct Known {
+    grid: Vec<Vec<f64>>,
+    columns: GridColumns,
+}
+
+impl Designs {
+    /// Columns at every place of a grid of an effect, from memory if they are there.
+    #[must_use]
+    pub(crate) fn of(
+        &self,
+        kind: &'static str,
+        grid: &[Vec<f64>],
+        make: impl FnOnce() -> GridColumns,
+    ) -> GridColumns {
+        let known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = known.get(kind).filter(|known| known.grid == grid) {
+            return Arc::clone(&known.columns);
+        }
+        // Nobody waits for a lock while columns are made: the work is shared with other threads.
+        drop(known);
+        let columns = make();
+        let fresh = Known { grid: grid.to_vec(), columns: Arc::clone(&columns) };
+        self.known.lock().unwrap_or_else(PoisonError::into_inner).insert(kind, fresh);
+        columns
+    }
+}

@@ -1,0 +1,149 @@
+//! The samples behind those of a measurement, for what these do not stand for.
+
+use std::ops::Range;
+
+use helixlock_plant::prediction::Prediction;
+use helixlock_plant::{Machine, Record};
+
+use crate::measurement::means;
+
+/// A record, those of its samples that were measured, and the groups of these that were averaged,
+/// or chosen as groups of one.
+///
+/// Samples farther apart than comparisons have others in between: a lag works on every one.
+///
+/// A formula of the mean is not the mean of a formula: a jump in the error, as the meter's dead
+/// zone makes it, is smeared in one and lost in the other. And the error counts from the first
+/// sample of each pass, which may not be among those chosen.
+#[derive(Debug, Clone)]
+pub(crate) struct Finer {
+    /// All samples.
+    pub(crate) record: Record,
+    /// Which of them were measured, if others are in between.
+    pub(crate) measured: Option<Vec<usize>>,
+    /// Which measured ones make up each mean.
+    pub(crate) groups: Vec<Range<usize>>,
+}
+
+impl Finer {
+    /// A record with samples in between at every comparison; `None` if it has them, or none are
+    /// to be had.
+    #[must_use]
+    pub(crate) fn between(machine: &Machine, record: &Record) -> Option<Self> {
+        if machine.rotary {
+            return None;
+        }
+        let (record, measured) = record.refined(machine.turns_a_comparison())?;
+        let groups = (0..measured.len()).map(|row| row..row + 1).collect();
+        Some(Self { record, measured: Some(measured), groups })
+    }
+
+    /// True when the groups are the measured samples themselves, with others in between.
+    #[must_use]
+    pub(crate) fn is_between(&self) -> bool {
+        self.measured.as_ref().is_some_and(|measured| measured.len() == self.groups.len())
+    }
+
+    /// Means of values that belong to all samples.
+    #[must_use]
+    pub(crate) fn means(&self, values: &[f64]) -> Vec<f64> {
+        let Some(measured) = &self.measured else { return means(values, &self.groups) };
+        let measured: Vec<f64> = measured.iter().map(|&sample| values[sample]).collect();
+        means(&measured, &self.groups)
+    }
+
+    /// Means of a prediction for all samples.
+    #[must_use]
+    pub(crate) fn mean_of(&self, whole: &Prediction) -> Prediction {
+        Prediction {
+            error_um: self.means(&whole.error_um),
+            steps: self.means(&whole.steps),
+            lead_error_um: self.means(&whole.lead_error_um),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use crate::measurement::{Measurement, Nominal};
+    use crate::model::problem::Problem;
+    use crate::numerics::count;
+    use helixlock_plant::Model;
+    use helixlock_traces::{Column, Table};
+
+    const MACHINE: &str = r#"
+[workpiece]
+lead = "6 mm"
+[spindle]
+speed = "6 rpm"
+[lead_screw]
+lead = "12 mm"
+[grating]
+lines = 13906
+[laser]
+wavelength = "0.63281983 um"
+[dividers]
+a = 110
+b = 150
+[drive]
+step = "0.0125 um"
+frequency = "160 Hz"
+[[effect]]
+kind = "screw-periodic"
+amplitude = "1.5 um"
+phase = "40 deg"
+[[effect]]
+kind = "meter-dead-zone"
+width = "0.8 um"
+"#;
+
+    /// Two passes over 90 mm with the initial phases 0 and 3.
+    fn problem() -> Problem {
+        let machine = Model::parse(MACHINE, Path::new("machine.toml")).expect("a machine");
+        let column = |name: &str, value: &dyn Fn(u32, u32) -> f64| {
+            let samples = (0..2_u32).flat_map(|pass| (0..900_u32).map(move |row| (pass, row)));
+            Column { name: name.into(), values: samples.map(|(p, r)| value(p, r)).collect() }
+        };
+        let table = Table::new(vec![
+            column("pass", &|pass, _| f64::from(pass + 1)),
+            column("position_mm", &|_, row| 0.1 * f64::from(row)),
+            column("initial_phase", &|pass, _| f64::from(3 * pass)),
+            column("error_um", &|_, _| 0.0),
+        ]);
+        let measurement = Measurement::from_table(&table, &Nominal::of(&machine));
+        Problem::new(&machine, &measurement.expect("a measurement")).expect("all columns")
+    }
+
+    #[test]
+    fn a_thinned_record_predicts_what_all_samples_show() {
+        let whole = problem();
+        let measurement = &whole.measurement;
+        for groups in [measurement.groups(4), measurement.picks(7)] {
+            let small = whole.averaged(groups.clone()).expect("all columns");
+            let expected: Vec<f64> = groups
+                .iter()
+                .map(|rows| whole.predicted[rows.clone()].iter().sum::<f64>() / count(rows.len()))
+                .collect();
+            assert_eq!(small.predicted, expected);
+        }
+    }
+
+    #[test]
+    fn columns_of_an_effect_of_the_error_are_means_of_all_samples() {
+        let whole = problem();
+        let dead_zone = &whole.model.effects[1];
+        let all = whole.design(dead_zone).expect("a column").fixed.expect("it does not scale");
+        let groups = whole.measurement.picks(7);
+        let small = whole.averaged(groups.clone()).expect("all columns");
+        let thin = small.design(dead_zone).expect("a column").fixed.expect("it does not scale");
+        // A pass counts from its first sample: of the whole record there, of those chosen here.
+        for rows in small.record.passes() {
+            let zero = thin[rows.start] - all[groups[rows.start].start];
+            for row in rows {
+                assert!((thin[row] - all[groups[row].start] - zero).abs() < 1e-12);
+            }
+        }
+    }
+}

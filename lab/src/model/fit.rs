@@ -1,0 +1,87 @@
+//! Effects and noise fitted together to all sensors.
+//!
+//! For given nonlinear values the effects are linear, so generalised least squares gives their
+//! best coefficients; the noise follows from what is left; both are repeated until they agree.
+//! That is the maximum of the joint likelihood (profiled over the coefficients, as in variable
+//! projection: Golub and Pereyra 1973).
+
+use super::columns::Columns;
+use super::problem::Problem;
+use crate::noise::{Layout, Noise, Whitener, fit_noise};
+use crate::numerics::least_squares;
+use crate::numerics::least_squares::LinearFit;
+
+/// A fitted model.
+#[derive(Debug, Clone)]
+pub(crate) struct Fit {
+    /// Coefficients of the stacked columns.
+    pub(crate) linear: LinearFit,
+    /// Noise of each sensor.
+    pub(crate) noises: Vec<Noise>,
+    /// Log likelihood of data and priors, without constants that all models share.
+    pub(crate) log_likelihood: f64,
+    /// What the model leaves, offsets of passes still in it.
+    pub(crate) left: Vec<f64>,
+}
+
+/// Rounds of coefficients and noise; the likelihood hardly moves after the third.
+const ROUNDS: usize = 4;
+
+/// Fits columns and noise to the residual of a problem, beginning with some noise.
+#[must_use]
+pub(crate) fn settle(problem: &Problem, columns: &Columns, start: &[Noise]) -> Fit {
+    let residual = problem.residual();
+    let mut fit = with_noise(&problem.layout, columns, &residual, start);
+    for _ in 0..ROUNDS {
+        let noises = adjusted_noises(problem, &fit.left, &fit.noises);
+        let next = with_noise(&problem.layout, columns, &residual, &noises);
+        let gained = next.log_likelihood - fit.log_likelihood;
+        if 0.0 < gained {
+            fit = next;
+        }
+        if gained < 0.05 || columns.raw.is_empty() {
+            break;
+        }
+    }
+    fit
+}
+
+/// Fits columns under known noise.
+#[must_use]
+pub(crate) fn with_noise(
+    layout: &Layout,
+    columns: &Columns,
+    residual: &[f64],
+    noises: &[Noise],
+) -> Fit {
+    let whitener = Whitener::new(layout, noises);
+    let white = columns.whitened(&whitener);
+    let views: Vec<&[f64]> = white.iter().map(Vec::as_slice).collect();
+    let linear = least_squares::fit(&views, &columns.target(&whitener, residual));
+    let left = columns.left(residual, &linear.coefficients);
+    let log_likelihood = -0.5 * (linear.residual_square + whitener.log_determinant());
+    Fit { linear, noises: noises.to_vec(), log_likelihood, left }
+}
+
+/// Noise of each sensor from what a model leaves.
+#[must_use]
+pub(crate) fn noises_of(problem: &Problem, left: &[f64]) -> Vec<Noise> {
+    (0..problem.sensors.len()).map(|sensor| noise_of(problem, left, sensor, None)).collect()
+}
+
+/// Noise of each sensor, searched for near one that is nearly right.
+fn adjusted_noises(problem: &Problem, left: &[f64], near: &[Noise]) -> Vec<Noise> {
+    let with_index = near.iter().enumerate();
+    with_index.map(|(sensor, noise)| noise_of(problem, left, sensor, Some(noise))).collect()
+}
+
+/// Least noise of a sensor, µm: a meter's clock is no finer, and a simulated record without any
+/// would weigh so much that nothing else could be calculated.
+const LEAST_UM: f64 = 1e-4;
+
+fn noise_of(problem: &Problem, left: &[f64], sensor: usize, near: Option<&Noise>) -> Noise {
+    let (layout, rows) = problem.of_sensor(sensor);
+    let part: Vec<f64> = rows.iter().map(|&row| left[row]).collect();
+    let noise = fit_noise(&layout, &part, near).noise;
+    Noise { white: noise.white.max(LEAST_UM * LEAST_UM), ..noise }
+}

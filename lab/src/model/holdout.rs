@@ -1,0 +1,113 @@
+//! Error on data a fit has not seen.
+
+use rayon::prelude::*;
+
+use super::columns::Columns;
+use super::problem::Problem;
+use crate::noise::{Layout, Noise, Whitener, rms, swift_rms};
+use crate::numerics::{count, least_squares};
+
+/// Parts a pass is cut into when whole passes cannot be held out.
+const PARTS: usize = 5;
+
+/// Root mean square of the residual on held-out data, µm (arcsec).
+///
+/// Whole passes are held out in turn when the others tell every coefficient; otherwise stretches
+/// of a fifth of each pass, twice with other bounds, for what happens at a bound shows on neither
+/// side of it. A held-out part may have its own zero, as a pass has.
+#[must_use]
+pub(crate) fn holdout_rms(problem: &Problem, columns: &Columns, noises: &[Noise]) -> f64 {
+    size(&unseen(problem, (columns, noises)), rms)
+}
+
+/// A model as it is held out: its columns and its noise.
+pub(crate) type Unseen<'a> = (&'a Columns, &'a [Noise]);
+
+/// True when one model does better on unseen data than another: in all, or in what is swift.
+///
+/// Slow effects that both lack may lie in the way of a swift one, and weigh more than it does.
+#[must_use]
+pub(crate) fn helps_unseen(problem: &Problem, model: Unseen<'_>, without: Unseen<'_>) -> bool {
+    let (model, without) = (unseen(problem, model), unseen(problem, without));
+    let better = |of: fn(&Layout, &[f64]) -> f64| size(&model, of) < size(&without, of);
+    better(rms) || better(swift_rms)
+}
+
+/// What a model leaves of each part that is held out.
+fn unseen(problem: &Problem, (columns, noises): Unseen<'_>) -> Vec<(Layout, Vec<f64>)> {
+    let of_fold = |held: &Vec<bool>| {
+        let left = left_unseen(problem, columns, noises, held);
+        let (layout, rows) = problem.layout.of_rows(held);
+        (layout, rows.iter().map(|&row| left[row]).collect())
+    };
+    folds(problem, columns).par_iter().map(of_fold).collect()
+}
+
+/// Size of all parts together, `of` being that of one.
+fn size(parts: &[(Layout, Vec<f64>)], of: fn(&Layout, &[f64]) -> f64) -> f64 {
+    let weighed = parts.iter().map(|(layout, left)| (of(layout, left), left.len()));
+    let square: f64 = weighed.map(|(rms, rows)| rms * rms * count(rows)).sum();
+    let rows: usize = parts.iter().map(|(_, left)| left.len()).sum();
+    (square / count(rows.max(1))).sqrt()
+}
+
+/// Per fold: true for the rows held out.
+fn folds(problem: &Problem, columns: &Columns) -> Vec<Vec<bool>> {
+    let layout = &problem.layout;
+    let passes = layout.blocks.iter().map(|block| block.pass + 1).max().unwrap_or(0);
+    let by_pass: Vec<Vec<bool>> = (0..passes)
+        .map(|pass| rows_where(layout, |block, _| layout.blocks[block].pass == pass))
+        .filter(|held| held.iter().any(|held| *held))
+        .collect();
+    let told = |held: &Vec<bool>| columns.raw.iter().all(|column| tells(layout, column, held));
+    if 1 < by_pass.len() && by_pass.iter().all(told) {
+        return by_pass;
+    }
+    let fifths = (0..PARTS).map(|part| (part, 0));
+    let shifted = (0..=PARTS).map(|part| (part, 1));
+    let stretch = |(part, halves): (usize, usize)| {
+        rows_where(layout, |block, row| {
+            let rows = &layout.blocks[block].rows;
+            (2 * (row - rows.start) * PARTS + halves * rows.len()) / (2 * rows.len()) == part
+        })
+    };
+    fifths.chain(shifted).map(stretch).collect()
+}
+
+fn rows_where(layout: &Layout, held: impl Fn(usize, usize) -> bool) -> Vec<bool> {
+    let mut rows = vec![false; layout.len()];
+    for (index, block) in layout.blocks.iter().enumerate() {
+        for row in block.rows.clone() {
+            rows[row] = held(index, row);
+        }
+    }
+    rows
+}
+
+/// True when the rows left carry at least a tenth of what a column varies.
+fn tells(layout: &Layout, column: &[f64], held: &[bool]) -> bool {
+    let (mut kept, mut all) = (0.0, 0.0);
+    for block in &layout.blocks {
+        let part = &column[block.rows.clone()];
+        let mean = part.iter().sum::<f64>() / count(part.len().max(1));
+        for row in block.rows.clone() {
+            let square = (column[row] - mean) * (column[row] - mean);
+            all += square;
+            kept += if held[row] { 0.0 } else { square };
+        }
+    }
+    0.1 * all <= kept
+}
+
+/// What a model that was fitted to the other rows leaves.
+fn left_unseen(problem: &Problem, columns: &Columns, noises: &[Noise], held: &[bool]) -> Vec<f64> {
+    let residual = problem.residual();
+    // A held-out row gets so much noise that the fit does not see it.
+    let mut layout = problem.layout.clone();
+    layout.inflation.iter_mut().zip(held).filter(|(_, held)| **held).for_each(|(f, _)| *f *= 1e8);
+    let whitener = Whitener::new(&layout, noises);
+    let white = columns.whitened(&whitener);
+    let views: Vec<&[f64]> = white.iter().map(Vec::as_slice).collect();
+    let fit = least_squares::fit(&views, &columns.target(&whitener, &residual));
+    columns.left(&residual, &fit.coefficients)
+}

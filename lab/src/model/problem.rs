@@ -1,0 +1,375 @@
+//! A measurement against a machine, as the rows of one least-squares problem.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use helixlock_plant::prediction::{Sensor, gain, meter_um, observe, predict};
+use helixlock_plant::{Effect, EffectError, Entry, Machine, Model, Record, Samples, Term};
+
+use super::designs::Designs;
+use super::finer::Finer;
+use crate::measurement::Measurement;
+use crate::noise::{Block, Layout, outlier_inflation};
+use crate::numerics::{count, highest_frequency, median};
+
+/// One value of one sensor.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Row {
+    /// Which sensor.
+    pub sensor: Sensor,
+    /// Index of the sample in the measurement and in the record.
+    pub sample: usize,
+}
+
+/// All sensors of a measurement stacked, with what the model predicts taken off.
+#[derive(Debug, Clone)]
+pub struct Problem {
+    /// The machine and its effects, which are part of the prediction.
+    pub model: Model,
+    /// The samples.
+    pub measurement: Measurement,
+    /// The samples as the catalogue wants them.
+    pub record: Record,
+    /// Samples behind those of this problem: between them, or that they are means or a choice of.
+    /// There may be millions; clones of a problem share them.
+    pub(crate) finer: Option<Arc<Finer>>,
+    /// Sensors in the order of `Layout`'s numbers.
+    pub sensors: Vec<Sensor>,
+    /// What each row is.
+    pub rows: Vec<Row>,
+    /// Blocks, clocks and outliers.
+    pub layout: Layout,
+    /// Observed values in µm (arcsec), the counter too.
+    pub observed: Vec<f64>,
+    /// What the model predicts, each pass from its own zero.
+    pub(crate) predicted: Vec<f64>,
+    /// Effects of the user's own to be tried beside the catalogue.
+    pub extra: Vec<Term>,
+    /// Highest order of the spindle that the samples resolve.
+    pub(crate) highest_order: f64,
+    /// Highest frequency in time that the samples resolve, Hz.
+    pub(crate) highest_hz: f64,
+    /// Columns of effects on these samples; they depend on the machine and the record alone.
+    pub(crate) designs: Designs,
+    /// How far a closed loop whose steps are not known swings either way, µm; 0 for any other.
+    pub(crate) hunting_um: f64,
+}
+
+impl Problem {
+    /// Lays a measurement out for a machine.
+    ///
+    /// # Errors
+    ///
+    /// [`EffectError`] when an effect of the machine needs a column the measurement lacks.
+    pub fn new(model: &Model, measurement: &Measurement) -> Result<Self, EffectError> {
+        Self::laid_out(model, measurement, None)
+    }
+
+    /// The same with means of groups of neighbouring samples.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::new`].
+    pub(crate) fn averaged(&self, groups: Vec<Range<usize>>) -> Result<Self, EffectError> {
+        let measurement = self.measurement.averaged(&groups);
+        let finer = match &self.finer {
+            Some(finer) if finer.is_between() && finer.record.len() <= MOST_BETWEEN => {
+                Finer { groups, ..Finer::clone(finer) }
+            }
+            _ => Finer { record: self.record.clone(), measured: None, groups },
+        };
+        Self::laid_out(&self.model, &measurement, Some(finer))
+    }
+
+    fn laid_out(
+        model: &Model,
+        measurement: &Measurement,
+        finer: Option<Finer>,
+    ) -> Result<Self, EffectError> {
+        let record = record(model, measurement);
+        let sensors: Vec<Sensor> = measurement.observations.keys().copied().collect();
+        let whole = finer.is_none();
+        let lags = whole && sensors.contains(&Sensor::Recorder);
+        let finer = if lags { Finer::between(model, &record) } else { finer };
+        let mut problem = Self {
+            model: as_measured(model, measurement),
+            measurement: measurement.clone(),
+            record,
+            finer: finer.map(Arc::new),
+            sensors,
+            rows: Vec::new(),
+            layout: Layout::default(),
+            observed: Vec::new(),
+            predicted: Vec::new(),
+            extra: Vec::new(),
+            highest_order: 0.0,
+            highest_hz: 0.0,
+            designs: Designs::default(),
+            hunting_um: 0.0,
+        };
+        let turns: Vec<f64> = problem.record.turns().collect();
+        problem.highest_order = highest_frequency(&turns);
+        problem.highest_hz = highest_frequency(&problem.record.time_s);
+        problem.stack_rows();
+        problem.predict()?;
+        if whole {
+            problem.find_start()?;
+        }
+        let residual = problem.residual();
+        problem.mark_outliers(&residual);
+        problem.hunting_um = hunting_um(&problem, &residual);
+        Ok(problem)
+    }
+
+    /// Weighs outliers down, as they stand out of what a model leaves.
+    pub(crate) fn mark_outliers(&mut self, left: &[f64]) {
+        self.layout.inflation = outlier_inflation(&self.layout, left);
+    }
+
+    /// Observed less predicted, µm (arcsec); every pass has an arbitrary zero.
+    #[must_use]
+    pub(crate) fn residual(&self) -> Vec<f64> {
+        self.observed.iter().zip(&self.predicted).map(|(seen, said)| seen - said).collect()
+    }
+
+    /// What a free number costs as evidence (Bayesian information criterion).
+    #[must_use]
+    pub(crate) fn price_of_a_number(&self) -> f64 {
+        libm::log(count(self.rows.len()).max(3.0))
+    }
+
+    /// Design column, row by row, of an effect whose δ at every sample is given.
+    #[must_use]
+    pub(crate) fn column(&self, entry: Entry, deltas: &[f64]) -> Vec<f64> {
+        self.stacked(|sensor| observe(&self.model, &self.record, entry, sensor, deltas))
+    }
+
+    /// Design column of an effect, through the recorder's filter at every comparison.
+    fn column_of(&self, entry: Entry, unit: &dyn Effect) -> Vec<f64> {
+        let between = self.finer.as_ref().filter(|finer| finer.measured.is_some());
+        let Some(finer) = between.filter(|_| self.model.filter_cutoff_hz.is_some()) else {
+            return self.column(entry, &self.deltas_um(unit));
+        };
+        let deltas = unit.deltas_um(&finer.record);
+        self.stacked(|sensor| {
+            finer.means(&observe(&self.model, &finer.record, entry, sensor, &deltas))
+        })
+    }
+
+    /// What each sensor shows of each sample, row by row in µm.
+    fn stacked(&self, shown: impl Fn(Sensor) -> Vec<f64>) -> Vec<f64> {
+        let shown: Vec<Vec<f64>> = self.sensors.iter().map(|&sensor| shown(sensor)).collect();
+        let mut column = Vec::with_capacity(self.rows.len());
+        for block in &self.layout.blocks {
+            let shown = &shown[block.sensor];
+            let factor = self.unit(self.sensors[block.sensor]);
+            let rows = &self.rows[block.rows.clone()];
+            column.extend(rows.iter().map(|row| factor * shown[row.sample]));
+        }
+        column
+    }
+
+    /// True when some sensor sees an entry.
+    #[must_use]
+    pub(crate) fn sees(&self, entry: Entry) -> bool {
+        self.sensors.iter().any(|&s| gain(&self.model, entry, s) != 0.0)
+    }
+
+    /// Design columns of a term at its nonlinear values, and what does not scale.
+    ///
+    /// # Errors
+    ///
+    /// [`EffectError`] when a column or a section of the machine file is missing.
+    pub(crate) fn design(&self, term: &Term) -> Result<Design, EffectError> {
+        let context =
+            helixlock_plant::Context { machine: &self.model, columns: &self.record.columns };
+        let basis = term.basis(&context)?;
+        let column = |unit: &dyn Effect| self.column_of(term.entry, unit);
+        let columns = basis.columns.iter().map(|unit| column(unit.as_ref())).collect();
+        Ok(Design { columns, fixed: basis.fixed.map(|unit| column(unit.as_ref())) })
+    }
+
+    /// δ of every sample. The mean of neighbours stands for them, except with an effect that
+    /// depends on the error since the start of the pass: of that one the mean is taken.
+    fn deltas_um(&self, unit: &dyn Effect) -> Vec<f64> {
+        match &self.finer {
+            Some(finer) if unit.feeds_back() => finer.means(&unit.deltas_um(&finer.record)),
+            _ => unit.deltas_um(&self.record),
+        }
+    }
+
+    /// Rows of one sensor with their layout as sensor 0.
+    #[must_use]
+    pub(crate) fn of_sensor(&self, sensor: usize) -> (Layout, Vec<usize>) {
+        let (mut layout, rows) = self.layout.restricted(|block| block.sensor == sensor);
+        layout.blocks.iter_mut().for_each(|block| block.sensor = 0);
+        (layout, rows)
+    }
+
+    /// µm a unit of a sensor's prediction: the counter counts steps.
+    fn unit(&self, sensor: Sensor) -> f64 {
+        if sensor == Sensor::Counter { self.model.drive.step_um } else { 1.0 }
+    }
+
+    fn stack_rows(&mut self) {
+        let clock = clock(&self.measurement);
+        for (index, &sensor) in self.sensors.iter().enumerate() {
+            let values = &self.measurement.observations[&sensor];
+            for rows in self.record.passes() {
+                let start = self.rows.len();
+                for sample in rows.clone().filter(|&sample| values[sample].is_finite()) {
+                    self.rows.push(Row { sensor, sample });
+                    self.layout.clock.push(clock[sample]);
+                    self.observed.push(values[sample]);
+                }
+                if start < self.rows.len() {
+                    let pass = self.measurement.pass[rows.start];
+                    let rows = start..self.rows.len();
+                    self.layout.blocks.push(Block { sensor: index, pass, rows });
+                }
+            }
+        }
+        self.layout.inflation = vec![1.0; self.rows.len()];
+        self.predicted = vec![0.0; self.rows.len()];
+    }
+
+    /// Where the compensator began to count is not in the file: at the first sample of each pass,
+    /// or at travel zero before it, whichever leaves the smaller steps between neighbours.
+    fn find_start(&mut self) -> Result<(), EffectError> {
+        if self.model.rotary || self.model.dividers.compensation_cycle().is_none() {
+            return Ok(());
+        }
+        let mut other = Self { record: self.record.begun_at_zero(), ..self.clone() };
+        if let Some(finer) = other.finer.as_mut().map(Arc::make_mut) {
+            finer.record = finer.record.begun_at_zero();
+        }
+        other.predict()?;
+        if other.roughness() < self.roughness() {
+            *self = other;
+        }
+        Ok(())
+    }
+
+    /// Sum of the squares of what is left from neighbour to neighbour, µm².
+    fn roughness(&self) -> f64 {
+        let left = self.residual();
+        let blocks = self.layout.blocks.iter();
+        let steps = blocks.flat_map(|block| left[block.rows.clone()].windows(2));
+        steps.map(|pair| (pair[1] - pair[0]) * (pair[1] - pair[0])).sum()
+    }
+
+    fn predict(&mut self) -> Result<(), EffectError> {
+        // Effects that depend on the error get the predicted one: what was measured carries the
+        // noise, and a column made of the noise explains it.
+        let effects = self
+            .model
+            .effects
+            .iter()
+            .map(|term| Ok((term.entry, term.effect(&self.model, &self.record.columns)?)))
+            .collect::<Result<Vec<_>, EffectError>>()?;
+        self.record.error_um = meter_um(&self.model, &self.record, &effects);
+        if let Some(finer) = self.finer.as_mut().map(Arc::make_mut) {
+            finer.record.error_um = meter_um(&self.model, &finer.record, &effects);
+        }
+        let shown = match &self.finer {
+            None => predict(&self.model, &self.record)?,
+            Some(finer) => finer.mean_of(&predict(&self.model, &finer.record)?),
+        };
+        for (slot, row) in self.predicted.iter_mut().zip(&self.rows) {
+            let factor = if row.sensor == Sensor::Counter { self.model.drive.step_um } else { 1.0 };
+            *slot = factor * shown.of(row.sensor)[row.sample];
+        }
+        Ok(())
+    }
+}
+
+/// The machine as the samples show it: where the steps are known, a closed loop is an open one
+/// whose motor was turned by hand, and its hunting is no part of the error.
+fn as_measured(model: &Model, measurement: &Measurement) -> Model {
+    let known = measurement.covariates.contains_key("steps");
+    let mut shown = model.clone();
+    shown.machine.loop_closed &= !known;
+    shown
+}
+
+/// Most samples, with those in between, that a search on means works out its columns for.
+const MOST_BETWEEN: usize = 1 << 16;
+
+/// Largest swing that neighbouring samples may hide: a filter at a third of the comparisons leaves
+/// a third of it, and half of all samples differ by less than half of that.
+const SWINGS: f64 = 6.0;
+
+/// What the motor moves from one comparison to the next, at the slowest speed of the samples; less
+/// where neighbours differ too little for it.
+fn hunting_um(problem: &Problem, residual: &[f64]) -> f64 {
+    let machine = &problem.model;
+    if !machine.loop_closed || machine.rotary {
+        return 0.0;
+    }
+    let speeds = problem.record.speed_rpm.iter().copied();
+    let slower = (machine.spindle.speed_rpm / speeds.fold(f64::INFINITY, f64::min)).max(1.0);
+    let swing_um =
+        slower * machine.drive.step_um * machine.drive.frequency_hz / machine.comparison_hz();
+    // Equal values of a counter say that no step was taken in between, and nothing of their size.
+    let moved =
+        |&row: &usize| problem.observed[row].to_bits() != problem.observed[row + 1].to_bits();
+    let blocks = problem.layout.blocks.iter();
+    let mut steps: Vec<f64> = blocks
+        .flat_map(|block| block.rows.start..block.rows.end.saturating_sub(1))
+        .filter(moved)
+        .map(|row| (residual[row + 1] - residual[row]).abs())
+        .collect();
+    swing_um.min(SWINGS * median(&mut steps))
+}
+
+/// Columns of one effect.
+#[derive(Debug, Clone)]
+pub(crate) struct Design {
+    /// One a coefficient, row by row.
+    pub(crate) columns: Vec<Vec<f64>>,
+    /// What does not scale with a coefficient.
+    pub(crate) fixed: Option<Vec<f64>>,
+}
+
+/// Intervals this near to the usual one, as a share of it, are taken for it: times are written with
+/// so many digits, and no noise knows the difference.
+const WRITTEN: f64 = 1e-3;
+
+/// Clock of the noise in median intervals: time if it was logged, else the count of samples.
+fn clock(measurement: &Measurement) -> Vec<f64> {
+    let time = &measurement.time_s;
+    let mut intervals: Vec<f64> = time
+        .windows(2)
+        .zip(measurement.pass.windows(2))
+        .filter(|(_, pass)| pass[0] == pass[1])
+        .map(|(pair, _)| pair[1] - pair[0])
+        .filter(|interval| 0.0 < *interval)
+        .collect();
+    let usual = median(&mut intervals);
+    if measurement.timed && 0.0 < usual {
+        let mut clock = time.first().map_or(0.0, |first| first / usual);
+        let later = time.windows(2).map(|pair| {
+            let interval = (pair[1] - pair[0]) / usual;
+            clock += if (interval - 1.0).abs() < WRITTEN { 1.0 } else { interval };
+            clock
+        });
+        return time.first().map(|first| first / usual).into_iter().chain(later).collect();
+    }
+    (0..time.len()).map(count).collect()
+}
+
+fn record(machine: &Machine, measurement: &Measurement) -> Record {
+    let samples = Samples {
+        time_s: Some(measurement.time_s.clone()),
+        position_mm: Some(measurement.position_mm.clone()),
+        angle_rev: Some(measurement.angle_rev.clone()),
+        speed_rpm: Some(measurement.speed_rpm.clone()),
+        direction: Some(measurement.direction.clone()),
+        pass: Some(measurement.pass.iter().map(|&pass| count(pass)).collect()),
+        covariates: measurement.covariates.iter().map(|(n, v)| (n.clone(), v.clone())).collect(),
+    };
+    Record::new(machine, &samples).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests;

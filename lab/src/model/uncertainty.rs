@@ -1,0 +1,96 @@
+//! Standard errors of all parameters together, linear and nonlinear.
+
+use nalgebra::DMatrix;
+
+use super::columns::Columns;
+use super::component::Component;
+use super::problem::Problem;
+use super::state::State;
+use crate::noise::Whitener;
+use crate::numerics::least_squares;
+
+/// Covariance of a joint fit under its noise.
+#[derive(Debug, Clone)]
+pub(crate) struct JointCovariance {
+    /// Of the stacked linear coefficients, nonlinear parameters free.
+    pub(crate) linear: DMatrix<f64>,
+    /// Per component and nonlinear parameter: the standard error, `None` for one from a list.
+    pub(crate) nonlinear: Vec<Vec<Option<f64>>>,
+}
+
+/// Linearises the model about its fit (Gauss–Newton): a column a coefficient and one a
+/// continuous nonlinear parameter, whose derivative is taken by a central difference.
+#[must_use]
+pub(crate) fn joint_covariance(problem: &Problem, state: &State) -> JointCovariance {
+    let mut columns = state.columns.clone();
+    columns.fixed = None;
+    let linear_width = columns.raw.len();
+    let slopes = slopes(problem, state);
+    let raw = slopes.iter().map(|slope| slope.column.clone()).collect();
+    columns = columns.and(&Columns::free(raw));
+    let whitener = Whitener::new(&problem.layout, &state.fit.noises);
+    let white = columns.whitened(&whitener);
+    let views: Vec<&[f64]> = white.iter().map(Vec::as_slice).collect();
+    let nothing = vec![0.0; white.first().map_or(0, Vec::len)];
+    let covariance = least_squares::fit(&views, &nothing).covariance;
+    let mut nonlinear: Vec<Vec<Option<f64>>> = state
+        .components
+        .iter()
+        .map(|component| vec![None; component.term.nonlinear_indices().len()])
+        .collect();
+    for (offset, slope) in slopes.iter().enumerate() {
+        let at = linear_width + offset;
+        nonlinear[slope.component][slope.place] = Some(covariance[(at, at)].max(0.0).sqrt());
+    }
+    let linear = covariance.view((0, 0), (linear_width, linear_width)).into_owned();
+    JointCovariance { linear, nonlinear }
+}
+
+/// How the fitted model changes with one nonlinear value.
+#[derive(Debug)]
+pub(crate) struct Slope {
+    /// Index of the component.
+    pub(crate) component: usize,
+    /// Which of its nonlinear values.
+    pub(crate) place: usize,
+    /// Change of the model a unit of the value, row by row.
+    pub(crate) column: Vec<f64>,
+}
+
+/// A slope for every continuous nonlinear value of a model that shows in the data.
+#[must_use]
+pub(crate) fn slopes(problem: &Problem, state: &State) -> Vec<Slope> {
+    let mut slopes = Vec::new();
+    for (index, component) in state.components.iter().enumerate() {
+        for place in 0..component.term.nonlinear_indices().len() {
+            if let Some(column) = slope(problem, state, index, component, place) {
+                slopes.push(Slope { component: index, place, column });
+            }
+        }
+    }
+    slopes
+}
+
+/// Change of a component's fitted pattern with one nonlinear parameter; `None` for a parameter
+/// that only takes listed values.
+fn slope(
+    problem: &Problem,
+    state: &State,
+    index: usize,
+    component: &Component,
+    place: usize,
+) -> Option<Vec<f64>> {
+    use helixlock_plant::Search;
+    let parameter = &component.term.parameters[component.term.nonlinear_indices()[place]];
+    if matches!(parameter.search, Search::Whole | Search::GearOrder | Search::Fixed) {
+        return None;
+    }
+    let value = component.term.nonlinear()[place];
+    let range = parameter.range.end() - parameter.range.start();
+    let step = 1e-4 * if value == 0.0 { range.abs() } else { value.abs() };
+    let (coefficients, _) = state.coefficients(index);
+    let at = |value| component.with_value(place, value).shown_um(problem, coefficients);
+    let (up, down) = (at(value + step)?, at(value - step)?);
+    let slope: Vec<f64> = up.iter().zip(&down).map(|(a, b)| (a - b) / (2.0 * step)).collect();
+    slope.iter().any(|value| *value != 0.0).then_some(slope)
+}

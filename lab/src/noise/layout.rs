@@ -1,0 +1,98 @@
+//! Rows of one analysis: which sensor and pass each belongs to, and the clock its noise runs on.
+
+use std::ops::Range;
+
+use crate::numerics::rms_about_means;
+
+/// Consecutive rows of one sensor in one pass; it has its own zero and its own noise history.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Block {
+    /// Index of the sensor; each sensor has its own noise.
+    pub sensor: usize,
+    /// Index of the pass.
+    pub pass: usize,
+    /// Rows of the block.
+    pub rows: Range<usize>,
+}
+
+/// How the rows of a fit hang together.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Layout {
+    /// Blocks in row order, without gaps between them.
+    pub blocks: Vec<Block>,
+    /// Per row: clock of the noise in median sample intervals, not falling within a block.
+    pub clock: Vec<f64>,
+    /// Per row: factor on the white variance, 1 for an ordinary sample, more for an outlier.
+    pub inflation: Vec<f64>,
+}
+
+impl Layout {
+    /// Number of rows.
+    #[must_use]
+    pub(crate) fn len(&self) -> usize {
+        self.clock.len()
+    }
+
+    /// Number of sensors.
+    #[must_use]
+    pub(crate) fn sensors(&self) -> usize {
+        self.blocks.iter().map(|block| block.sensor + 1).max().unwrap_or(0)
+    }
+
+    /// The layout of some blocks only, and the rows they had here.
+    #[must_use]
+    pub(crate) fn restricted(&self, keep: impl Fn(&Block) -> bool) -> (Self, Vec<usize>) {
+        self.begun(usize::MAX, keep)
+    }
+
+    /// The layout of some rows, each block's together, and where they are here.
+    #[must_use]
+    pub(crate) fn of_rows(&self, keep: &[bool]) -> (Self, Vec<usize>) {
+        let kept = |block: &Block| block.rows.clone().filter(|&row| keep[row]).collect();
+        self.picked(self.blocks.iter().map(|block| (block, kept(block))))
+    }
+
+    /// The layout of the first rows of some blocks, and the rows they had here.
+    #[must_use]
+    pub(crate) fn begun(&self, most: usize, keep: impl Fn(&Block) -> bool) -> (Self, Vec<usize>) {
+        let blocks = self.blocks.iter().filter(|block| keep(block));
+        self.picked(blocks.map(|block| (block, block.rows.clone().take(most).collect())))
+    }
+
+    fn picked<'a>(
+        &self,
+        parts: impl Iterator<Item = (&'a Block, Vec<usize>)>,
+    ) -> (Self, Vec<usize>) {
+        let mut part = Self::default();
+        let mut rows = Vec::new();
+        for (block, own) in parts {
+            let start = rows.len();
+            rows.extend(own);
+            part.blocks.push(Block { rows: start..rows.len(), ..block.clone() });
+        }
+        part.clock = rows.iter().map(|&row| self.clock[row]).collect();
+        part.inflation = rows.iter().map(|&row| self.inflation[row]).collect();
+        (part, rows)
+    }
+}
+
+/// Root mean square about the offset of each pass, all sensors together, µm.
+#[must_use]
+pub(crate) fn rms(layout: &Layout, left: &[f64]) -> f64 {
+    rms_about_means(layout.blocks.iter().map(|block| block.rows.clone()), left)
+}
+
+/// Stretches a pass is cut into to tell what is swift from what is slow.
+const STRETCHES: usize = 10;
+
+/// Root mean square about the mean of each tenth of a pass, µm: slow effects that are still to be
+/// found are no noise for a swift one.
+#[must_use]
+pub(crate) fn swift_rms(layout: &Layout, left: &[f64]) -> f64 {
+    let stretches = layout.blocks.iter().flat_map(|block| {
+        let Range { start, end } = block.rows;
+        let length = (end - start).div_ceil(STRETCHES).max(1);
+        (start..end).step_by(length).map(move |from| from..(from + length).min(end))
+    });
+    rms_about_means(stretches, left)
+}

@@ -1,0 +1,172 @@
+//! Finds the noise of a residual by restricted maximum likelihood, and which samples are outliers.
+//!
+//! Restricted: the offsets of the passes are projected out and counted, so that short passes do
+//! not make the noise look smaller than it is (Patterson and Thompson 1971).
+
+use nalgebra::SVector;
+
+use super::kernel::{Noise, SlowPart};
+use super::layout::{Block, Layout};
+use super::sweep::squares_and_log_determinants;
+use crate::numerics::quasi_newton::{Descent, minimise};
+use crate::numerics::{count, median};
+
+/// A fitted noise model with its log likelihood.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct NoiseFit {
+    /// The noise in the unit of the residual squared.
+    pub(crate) noise: Noise,
+    /// Restricted log likelihood, without the constant `−n/2·log 2π`.
+    pub(crate) log_likelihood: f64,
+}
+
+/// Longest correlation tried, against the longest block: beyond it a random walk looks alike.
+const LONGEST_AGAINST_BLOCK: f64 = 3.0;
+
+/// Logarithm of the shortest length tried, in sample intervals: anything shorter is white.
+const SHORTEST: f64 = -1.0;
+
+/// Least distance of the logarithms of two lengths that a search begins with: nearer ones are as
+/// good as one, and a length at its bound has nothing beyond it.
+const ROOM: f64 = 0.5;
+
+/// Fits the noise of one sensor to its residual.
+///
+/// `warm` is the noise of a similar residual: its parts are only adjusted. Without it, white
+/// first, then one and two slow parts; each must pay for its two parameters by the Bayesian
+/// information criterion. `layout` holds rows of this sensor only (as sensor 0).
+#[must_use]
+pub(crate) fn fit_noise(layout: &Layout, residual: &[f64], warm: Option<&Noise>) -> NoiseFit {
+    if let Some(warm) = warm.filter(|warm| !warm.slow.is_empty()) {
+        return adjusted(layout, residual, warm);
+    }
+    let mut best = profile(layout, residual, &Noise::white());
+    let price = 2.0 * libm::log(count(layout.len()).max(2.0));
+    let span = longest_block(layout).max(2.0);
+    let one = one_part(layout, residual, span);
+    if best.log_likelihood + 0.5 * price < one.log_likelihood {
+        let two = two_parts(layout, residual, &one.noise, span);
+        best = if one.log_likelihood + 0.5 * price < two.log_likelihood { two } else { one };
+    }
+    best
+}
+
+fn adjusted(layout: &Layout, residual: &[f64], warm: &Noise) -> NoiseFit {
+    let of = |part: &SlowPart| {
+        [libm::log((part.variance / warm.white).max(1e-6)), libm::log(part.length)]
+    };
+    let span = longest_block(layout).max(2.0);
+    match warm.slow.as_slice() {
+        [one] => searched(layout, residual, of(one), span),
+        [one, two, ..] => searched(layout, residual, joined(of(one), of(two)), span),
+        [] => profile(layout, residual, &Noise::white()),
+    }
+}
+
+fn one_part(layout: &Layout, residual: &[f64], span: f64) -> NoiseFit {
+    let starts = [[0.0, libm::log(3.0)], [0.0, libm::log((0.2 * span).max(4.0))]];
+    best_of(starts.into_iter().map(|start| searched(layout, residual, start, span)))
+}
+
+fn two_parts(layout: &Layout, residual: &[f64], one: &Noise, span: f64) -> NoiseFit {
+    let part = one.slow.first().copied().unwrap_or(SlowPart { variance: 1.0, length: 3.0 });
+    let known = [libm::log((part.variance / one.white).max(1e-6)), libm::log(part.length)];
+    let longer = [known[0] - 1.0, (known[1] + 2.5).min(libm::log(span))];
+    let shorter = [known[0] - 1.0, (known[1] - 2.0).max(SHORTEST)];
+    let longer = (known[1] + ROOM < longer[1]).then_some(longer);
+    let shorter = (shorter[1] < known[1] - ROOM).then_some(shorter);
+    let starts = longer.into_iter().chain(shorter).map(|other| joined(known, other));
+    best_of(starts.map(|start| searched(layout, residual, start, span)))
+}
+
+fn joined(one: [f64; 2], two: [f64; 2]) -> [f64; 4] {
+    [one[0], one[1], two[0], two[1]]
+}
+
+fn best_of(fits: impl Iterator<Item = NoiseFit>) -> NoiseFit {
+    fits.reduce(|a, b| if a.log_likelihood < b.log_likelihood { b } else { a })
+        .unwrap_or(NoiseFit { noise: Noise::white(), log_likelihood: f64::NEG_INFINITY })
+}
+
+/// How far a parameter may go at once, and what the likelihood may still gain at the end.
+const DESCENT: Descent = Descent { iterations: 24, longest: 1.5, tolerance: 0.02 };
+
+fn searched<const D: usize>(
+    layout: &Layout,
+    residual: &[f64],
+    start: [f64; D],
+    span: f64,
+) -> NoiseFit {
+    let losses = |points: &[SVector<f64, D>]| {
+        let shapes: Vec<Noise> =
+            points.iter().map(|point| shaped(point.as_slice(), span)).collect();
+        profiles(layout, residual, &shapes).into_iter().map(|fit| -fit.log_likelihood).collect()
+    };
+    let point = minimise(losses, SVector::from(start), DESCENT);
+    profile(layout, residual, &shaped(point.as_slice(), span))
+}
+
+/// Noise of white variance 1 from log variances and log lengths, kept within sensible bounds.
+fn shaped(point: &[f64], span: f64) -> Noise {
+    let slow = point.chunks_exact(2).map(|pair| SlowPart {
+        variance: libm::exp(pair[0].clamp(-12.0, 14.0)),
+        length: libm::exp(pair[1].clamp(SHORTEST, libm::log(LONGEST_AGAINST_BLOCK * span))),
+    });
+    Noise { white: 1.0, slow: slow.collect() }
+}
+
+/// The likelihood of noise shapes with equally many parts, their scales at their best values.
+fn profiles(layout: &Layout, residual: &[f64], shapes: &[Noise]) -> Vec<NoiseFit> {
+    let freedom = count(layout.len().saturating_sub(layout.blocks.len())).max(1.0);
+    let swept = squares_and_log_determinants(layout, shapes, residual);
+    let with_shape = swept.into_iter().zip(shapes);
+    with_shape
+        .map(|((square, log_determinant), shape)| {
+            let scale = (square / freedom).max(f64::MIN_POSITIVE);
+            let log_likelihood = -0.5 * (freedom * (libm::log(scale) + 1.0) + log_determinant);
+            NoiseFit { noise: shape.scaled(scale), log_likelihood }
+        })
+        .collect()
+}
+
+fn profile(layout: &Layout, residual: &[f64], shape: &Noise) -> NoiseFit {
+    best_of(profiles(layout, residual, std::slice::from_ref(shape)).into_iter())
+}
+
+fn longest_block(layout: &Layout) -> f64 {
+    let length = |block: &Block| layout.clock[block.rows.end - 1] - layout.clock[block.rows.start];
+    layout.blocks.iter().filter(|block| !block.rows.is_empty()).map(length).fold(0.0, f64::max)
+}
+
+/// Variance factors that take outliers back to size: 1 within `2.5` robust deviations.
+///
+/// A sample is judged against the median of its seven neighbours, so a slow effect or a step,
+/// which neighbours share, is never an outlier (Hampel's identifier).
+#[must_use]
+pub(crate) fn outlier_inflation(layout: &Layout, residual: &[f64]) -> Vec<f64> {
+    let mut inflation = vec![1.0; residual.len()];
+    for sensor in 0..layout.sensors() {
+        let mut departures = Vec::new();
+        for block in layout.blocks.iter().filter(|block| block.sensor == sensor) {
+            for row in block.rows.clone() {
+                departures.push((row, departure(residual, row, &block.rows)));
+            }
+        }
+        let mut sizes: Vec<f64> = departures.iter().map(|(_, value)| value.abs()).collect();
+        let deviation = 1.4826 * median(&mut sizes);
+        if 0.0 < deviation {
+            for (row, value) in departures {
+                let size = value.abs() / (3.0 * deviation);
+                inflation[row] = (size * size).max(1.0);
+            }
+        }
+    }
+    inflation
+}
+
+fn departure(residual: &[f64], row: usize, rows: &std::ops::Range<usize>) -> f64 {
+    let from = row.saturating_sub(3).max(rows.start);
+    let to = (row + 4).min(rows.end);
+    let mut near: Vec<f64> = residual[from..to].to_vec();
+    residual[row] - median(&mut near)
+}

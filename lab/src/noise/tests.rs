@@ -1,0 +1,150 @@
+use nalgebra::{DMatrix, DVector};
+
+use super::kernel::PARTS;
+use super::sweep::squares_and_log_determinants;
+use super::*;
+use crate::noise::layout::{Block, Layout};
+use crate::numerics::count;
+use crate::numerics::least_squares::dot;
+
+fn uneven() -> (Layout, Vec<Noise>) {
+    let clock = vec![0.0, 1.0, 1.5, 4.0, 4.0, 7.0, 0.0, 2.0, 2.5, 9.0];
+    let mut inflation = vec![1.0; 10];
+    inflation[4] = 7.0;
+    let blocks =
+        vec![Block { sensor: 0, pass: 0, rows: 0..6 }, Block { sensor: 1, pass: 0, rows: 6..10 }];
+    let slow =
+        vec![SlowPart { variance: 2.0, length: 1.5 }, SlowPart { variance: 0.7, length: 40.0 }];
+    let noises = vec![Noise { white: 0.3, slow }, Noise { white: 1.1, slow: vec![] }];
+    (Layout { blocks, clock, inflation }, noises)
+}
+
+/// Even sampling with an outlier and a pause.
+fn even() -> Layout {
+    let rows = 400;
+    let clock = (0..rows).map(|i| if i < 300 { i } else { i + 50 }).map(count).collect();
+    let mut inflation = vec![1.0; rows];
+    inflation[200] = 9.0;
+    Layout { blocks: vec![Block { sensor: 0, pass: 0, rows: 0..rows }], clock, inflation }
+}
+
+fn dense(layout: &Layout, noises: &[Noise]) -> DMatrix<f64> {
+    let rows = layout.len();
+    let mut matrix = DMatrix::zeros(rows, rows);
+    for block in &layout.blocks {
+        let noise = &noises[block.sensor];
+        for i in block.rows.clone() {
+            for j in block.rows.clone() {
+                let apart = (layout.clock[i] - layout.clock[j]).abs();
+                let slow = |p: &SlowPart| p.variance * libm::exp(-apart / p.length);
+                matrix[(i, j)] = noise.slow.iter().map(slow).sum();
+            }
+            matrix[(i, i)] += noise.white * layout.inflation[i];
+        }
+    }
+    matrix
+}
+
+#[test]
+fn products_equal_those_of_the_dense_inverse() {
+    let (layout, noises) = uneven();
+    let inverse = dense(&layout, &noises).try_inverse().unwrap();
+    let whitener = Whitener::new(&layout, &noises);
+    let a = DVector::from_fn(10, |i, _| libm::sin(count(i)));
+    let b = DVector::from_fn(10, |i, _| libm::cos(count(i * i)));
+    let (white_a, white_b) =
+        (whitener.whiten_only(a.as_slice()), whitener.whiten_only(b.as_slice()));
+    let semiseparable: f64 = white_a.iter().zip(&white_b).map(|(x, y)| x * y).sum();
+    assert!((semiseparable - a.dot(&(&inverse * &b))).abs() < 1e-10);
+    let weighted = whitener.unwhiten(&white_a);
+    let product: f64 = weighted.iter().zip(b.iter()).map(|(x, y)| x * y).sum();
+    assert!((product - semiseparable).abs() < 1e-10);
+}
+
+#[test]
+fn determinant_equals_the_dense_one_with_the_offsets() {
+    let (layout, noises) = uneven();
+    let matrix = dense(&layout, &noises);
+    let inverse = matrix.clone().try_inverse().unwrap();
+    let mut expected = libm::log(matrix.determinant());
+    for block in &layout.blocks {
+        let ones = DVector::from_fn(10, |i, _| f64::from(u8::from(block.rows.contains(&i))));
+        expected += libm::log(ones.dot(&(&inverse * &ones)));
+    }
+    assert!((Whitener::new(&layout, &noises).log_determinant() - expected).abs() < 1e-10);
+}
+
+/// White, one part and two, alone and in lanes; lengths near each other and far apart.
+#[test]
+fn one_sweep_gives_what_the_stored_factor_gives() {
+    let (layout, noises) = uneven();
+    for layout in [layout.restricted(|block| block.sensor == 0).0, even()] {
+        let column: Vec<f64> = (0..layout.len()).map(|i| libm::sin(count(7 * i))).collect();
+        for parts in 0..=PARTS {
+            let mut noise = noises[0].clone();
+            noise.slow.truncate(parts);
+            let mut many = vec![noise; 8];
+            for (lane, noise) in many.iter_mut().enumerate().skip(2) {
+                let factor = if lane < 5 { 1.0 + 1e-3 * count(lane) } else { 3.0 };
+                noise.slow.iter_mut().for_each(|part| part.length *= factor);
+                noise.white *= factor;
+            }
+            for lanes in [1, 3, 6, 8] {
+                let swept = squares_and_log_determinants(&layout, &many[..lanes], &column);
+                assert_eq!(swept.len(), lanes);
+                for (swept, noise) in swept.iter().zip(&many) {
+                    let whitener = Whitener::new(&layout, std::slice::from_ref(noise));
+                    let white = whitener.whiten(&column);
+                    let square: f64 = white.iter().map(|value| value * value).sum();
+                    assert!((swept.0 / square - 1.0).abs() < 1e-11, "{swept:?} {square}");
+                    let logarithm = whitener.log_determinant();
+                    assert!((swept.1 - logarithm).abs() < 1e-9, "{swept:?} {logarithm}");
+                }
+            }
+        }
+    }
+}
+
+/// Where sampling is even the gains settle; an outlier and a pause unsettle them again.
+#[test]
+fn settled_gains_give_what_the_dense_covariance_gives() {
+    let layout = even();
+    let (_, noises) = uneven();
+    let inverse = dense(&layout, &noises).try_inverse().unwrap();
+    let whitener = Whitener::new(&layout, &noises);
+    let columns: Vec<DVector<f64>> =
+        (1..16).map(|k| DVector::from_fn(layout.len(), |i, _| libm::sin(count(k * i)))).collect();
+    let views: Vec<&[f64]> = columns.iter().map(DVector::as_slice).collect();
+    let ones = DVector::from_element(layout.len(), 1.0);
+    let weight = ones.dot(&(&inverse * &ones));
+    let white = whitener.whiten_all(&views);
+    for (i, a) in columns.iter().enumerate() {
+        let weighted = &inverse * a;
+        for (j, b) in columns.iter().enumerate() {
+            let offsets = ones.dot(&weighted) * ones.dot(&(&inverse * b)) / weight;
+            let expected = weighted.dot(b) - offsets;
+            let product = dot(&white[i], &white[j]);
+            assert!((product - expected).abs() < 1e-9, "{i} {j}: {product} {expected}");
+        }
+    }
+}
+
+#[test]
+fn noises_are_alike_when_every_number_is() {
+    let (_, noises) = uneven();
+    assert!(noises[0].is_like(&noises[0].scaled(1.04)));
+    assert!(!noises[0].is_like(&noises[0].scaled(1.06)));
+    assert!(!noises[0].is_like(&noises[1]));
+    let mut longer = noises[0].clone();
+    longer.slow[1].length *= 2.0;
+    assert!(!noises[0].is_like(&longer));
+}
+
+#[test]
+fn a_constant_in_a_pass_whitens_to_nothing() {
+    let (layout, noises) = uneven();
+    let mut column = vec![3.0; 10];
+    column[6..].fill(-8.0);
+    let white = Whitener::new(&layout, &noises).whiten(&column);
+    assert!(white.iter().all(|value| value.abs() < 1e-12), "{white:?}");
+}

@@ -1,0 +1,81 @@
+//! Generalised least squares on whitened columns.
+
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+
+/// What a linear fit gives; covariance at noise scale 1.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct LinearFit {
+    /// One coefficient a column, in the column's unit.
+    pub(crate) coefficients: Vec<f64>,
+    /// Covariance of the coefficients for whitened noise of variance 1.
+    pub(crate) covariance: DMatrix<f64>,
+    /// Sum of squares of the whitened residual.
+    pub(crate) residual_square: f64,
+    /// Number of directions of the columns that the data determine.
+    pub(crate) rank: usize,
+}
+
+/// Fits `target ≈ Σ cᵢ·columnᵢ`, all whitened alike, by the normal equations of scaled columns.
+///
+/// Directions weaker than 1e-10 of the strongest are left out (their coefficients are the
+/// smallest ones), so that columns which say the same do not blow up.
+#[must_use]
+pub(crate) fn fit(columns: &[&[f64]], target: &[f64]) -> LinearFit {
+    let count = columns.len();
+    let total = dot(target, target);
+    let norms: Vec<f64> = columns.iter().map(|column| dot(column, column).sqrt()).collect();
+    let scale = |i: usize| if norms[i] > 0.0 { 1.0 / norms[i] } else { 0.0 };
+    let gram = DMatrix::from_fn(count, count, |i, j| {
+        if i <= j { dot(columns[i], columns[j]) * scale(i) * scale(j) } else { 0.0 }
+    });
+    let gram = DMatrix::from_fn(count, count, |i, j| gram[(i.min(j), i.max(j))]);
+    let moment = DVector::from_fn(count, |i, _| dot(columns[i], target) * scale(i));
+    let (inverse, rank) = pseudo_inverse(gram);
+    let scaled = &inverse * &moment;
+    let explained = scaled.dot(&moment);
+    let covariance = DMatrix::from_fn(count, count, |i, j| inverse[(i, j)] * scale(i) * scale(j));
+    let coefficients = (0..count).map(|i| scaled[i] * scale(i)).collect();
+    LinearFit { coefficients, covariance, residual_square: (total - explained).max(0.0), rank }
+}
+
+/// Inverse of a symmetric matrix of unit diagonal on the directions that matter, and their number.
+fn pseudo_inverse(gram: DMatrix<f64>) -> (DMatrix<f64>, usize) {
+    let count = gram.nrows();
+    if count == 0 {
+        return (gram, 0);
+    }
+    let eigen = SymmetricEigen::new(gram);
+    let largest = eigen.eigenvalues.iter().copied().fold(0.0, f64::max);
+    let mut inverse = DMatrix::zeros(count, count);
+    let mut rank = 0;
+    for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
+        if *value > 1e-10 * largest {
+            inverse += vector * vector.transpose() / *value;
+            rank += 1;
+        }
+    }
+    (inverse, rank)
+}
+
+/// Scalar product, summed in eight lanes: one sum after the other would wait for itself.
+#[must_use]
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    const LANES: usize = 8;
+    let rows = a.len().min(b.len());
+    let (a, a_rest) = a[..rows].as_chunks::<LANES>();
+    let (b, b_rest) = b[..rows].as_chunks::<LANES>();
+    let mut sums = [0.0; LANES];
+    for (a, b) in a.iter().zip(b) {
+        for lane in 0..LANES {
+            sums[lane] += a[lane] * b[lane];
+        }
+    }
+    let rest: f64 = a_rest.iter().zip(b_rest).map(|(x, y)| x * y).sum();
+    sums.iter().sum::<f64>() + rest
+}
+
+/// A part of a covariance as plain rows.
+#[must_use]
+pub(crate) fn covariance_rows(matrix: &DMatrix<f64>, from: usize, width: usize) -> Vec<Vec<f64>> {
+    (from..from + width).map(|i| (from..from + width).map(|j| matrix[(i, j)]).collect()).collect()
+}

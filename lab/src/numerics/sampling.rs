@@ -1,0 +1,71 @@
+//! Which frequencies a set of places resolves.
+
+use super::fourier;
+use super::summary::{count, median, spread};
+
+/// Highest frequency looked at, against the usual rate of sampling.
+const HIGHEST_AGAINST_RATE: f64 = 4.0;
+
+/// Spectral window beyond which two frequencies look alike.
+const ALIKE: f64 = 0.7;
+
+/// Most frequencies at which the window is worked out.
+const MOST_POINTS: f64 = 65_536.0;
+
+/// Usual number of samples a unit of a coordinate: one over the median distance of neighbours.
+#[must_use]
+pub(crate) fn usual_rate(coordinate: &[f64]) -> f64 {
+    let moves = coordinate.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+    let mut moves: Vec<f64> = moves.filter(|step| 0.0 < *step).collect();
+    1.0 / median(&mut moves).max(f64::MIN_POSITIVE)
+}
+
+/// Highest frequency that the places resolve, cycles a unit of the coordinate.
+///
+/// Half the rate for even sampling. Uneven places tell a frequency from its aliases: two
+/// frequencies look alike when the spectral window `|Σ exp(2πi·f·u)|/n` comes back near 1 at
+/// their sum (Eyer and Bartholdi 1999, *Variable stars: which Nyquist frequency?*, A&AS 135:1),
+/// so the limit is half of the first such frequency, at most four times the rate.
+#[must_use]
+pub(crate) fn highest_frequency(coordinate: &[f64]) -> f64 {
+    let range = spread(coordinate);
+    let rate = usual_rate(coordinate);
+    if range <= 0.0 || coordinate.len() < 3 {
+        return 0.5 * rate;
+    }
+    let step = 0.25 / range;
+    let points = (2.0 * HIGHEST_AGAINST_RATE * rate / step).clamp(4.0, MOST_POINTS);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "clamped to small positive numbers"
+    )]
+    let window = fourier::sizes(coordinate, &vec![1.0; coordinate.len()], step, points as usize);
+    let returns = window
+        .iter()
+        .enumerate()
+        .map(|(index, size)| (step * count(index), size / count(coordinate.len())))
+        .find(|(frequency, size)| 0.6 * rate < *frequency && ALIKE < *size);
+    let end = step * points;
+    returns.map_or(end, |(frequency, _)| frequency).max(rate) * 0.5
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn even_sampling_resolves_half_its_rate() {
+        let places: Vec<f64> = (0..500).map(|i| 0.1 * f64::from(i)).collect();
+        let highest = highest_frequency(&places);
+        assert!((highest - 5.0).abs() < 0.05, "{highest}");
+    }
+
+    #[test]
+    fn uneven_sampling_resolves_more() {
+        // Quadratic residues are spread evenly without being evenly spaced.
+        let mut places: Vec<f64> = (0..500).map(|i| f64::from(i * i % 9973) / 200.0).collect();
+        places.sort_by(f64::total_cmp);
+        assert!(30.0 < highest_frequency(&places), "{}", highest_frequency(&places));
+    }
+}

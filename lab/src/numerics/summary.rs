@@ -1,0 +1,41 @@
+//! Plain figures of a series of numbers.
+
+use std::ops::Range;
+
+/// A count as a number to calculate with; exact up to 2⁵³.
+#[expect(clippy::cast_precision_loss, reason = "no file has 2⁵³ rows")]
+pub(crate) fn count(count: usize) -> f64 {
+    count as f64
+}
+
+/// Largest less smallest value.
+#[must_use]
+pub(crate) fn spread(values: &[f64]) -> f64 {
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    if low <= high { high - low } else { 0.0 }
+}
+
+/// Median; the lower one of an even number, 0 of none.
+#[must_use]
+pub(crate) fn median(values: &mut [f64]) -> f64 {
+    if values.is_empty() {
+        return 0.0;
+    }
+    let middle = (values.len() - 1) / 2;
+    *values.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+/// Root mean square of values about the mean of each of their parts.
+pub(crate) fn rms_about_means(
+    parts: impl IntoIterator<Item = Range<usize>>,
+    values: &[f64],
+) -> f64 {
+    let mut square = 0.0;
+    for rows in parts {
+        let part = &values[rows];
+        let mean = part.iter().sum::<f64>() / count(part.len().max(1));
+        square += part.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>();
+    }
+    (square / count(values.len().max(1))).sqrt()
+}

@@ -1,0 +1,1 @@
+//! Every number that decides, with its origin.

@@ -1,0 +1,14 @@
+//! The search for what a model lacks: effects are added while they are accepted, pruned when they
+//! are superfluous, held against their rivals, and polished on all rows.
+
+mod acceptance;
+mod analysis;
+mod likeness;
+mod polish;
+mod pruning;
+mod rivals;
+
+pub(crate) use analysis::{Step, search};
+pub(crate) use polish::polished;
+pub(crate) use pruning::pruned;
+pub(crate) use rivals::{Found, rivals};

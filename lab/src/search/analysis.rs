@@ -1,0 +1,237 @@
+//! The search for what a model lacks: round by round, until what is left is noise.
+
+use std::collections::BTreeMap;
+
+use helixlock_plant::Role;
+use rayon::prelude::*;
+
+use super::acceptance::acceptable;
+use super::likeness;
+use super::pruning::{Dropped, pruned};
+use crate::hypotheses::{Trial, candidates, setting_trials, try_candidate};
+use crate::model::{
+    Columns, Component, Fit, Judged, Problem, Stage, State, holdout_rms, noises_of, settle,
+    with_noise,
+};
+use crate::noise::{Noise, rms};
+use crate::numerics::{chi_squared_tail, count, median};
+
+/// Most effects that are looked for one after the other.
+const MOST_ROUNDS: usize = 5;
+
+/// Candidates whose noise is fitted anew before one is chosen.
+const SHORTLIST: usize = 4;
+
+/// Everything that happened in one round.
+#[derive(Debug, Clone)]
+pub(crate) struct Step {
+    /// The state after it.
+    pub(crate) state: State,
+    /// Effects tried, best first.
+    pub(crate) tried: Vec<Judged>,
+    /// Name of the effect added.
+    pub(crate) added: Option<String>,
+    /// Effects that became superfluous.
+    pub(crate) dropped: Vec<Dropped>,
+}
+
+/// Looks for effects until none is significant; every step begins where the last one ended.
+///
+/// Outliers are marked anew whenever the model has changed, so that no effect passes for them.
+#[must_use]
+pub(crate) fn search(problem: &mut Problem) -> Vec<Step> {
+    let bare = State::bare(problem);
+    let mut steps = vec![Step { state: bare, tried: Vec::new(), added: None, dropped: Vec::new() }];
+    for _ in 0..MOST_ROUNDS {
+        let last = steps.len() - 1;
+        let now = &steps[last].state;
+        let tried = tried(problem, now);
+        let best = tried.iter().find(|judged| acceptable(problem, now, judged)).cloned();
+        if let Some(members) = known_together(problem, now, &tried) {
+            steps[last].tried = tried;
+            add_together(problem, &mut steps, members);
+            continue;
+        }
+        let mut components = now.components.clone();
+        steps[last].tried = tried;
+        let Some(best) = best else { break };
+        components.push(best.component.clone());
+        problem.mark_outliers(&best.fit.left);
+        let Some(state) = State::settled(problem, components, &best.fit.noises) else { break };
+        let (state, dropped) = pruned(problem, state);
+        if dropped.iter().any(|one| one.name == best.component.term.name) {
+            // It would only be found again.
+            break;
+        }
+        let added = Some(best.component.term.name.clone());
+        steps.push(Step { state, tried: Vec::new(), added, dropped });
+    }
+    steps
+}
+
+/// Adds the members of a set one a step.
+fn add_together(problem: &mut Problem, steps: &mut Vec<Step>, members: Vec<Component>) {
+    let bare = State::bare(problem).fit.noises;
+    for member in members {
+        let before = &steps[steps.len() - 1].state;
+        let components = [before.components.clone(), vec![member.clone()]].concat();
+        let Some(state) = State::settled(problem, components, &bare) else { return };
+        let added = Some(member.term.name);
+        steps.push(Step { state, tried: Vec::new(), added, dropped: Vec::new() });
+    }
+    let left = steps[steps.len() - 1].state.fit.left.clone();
+    problem.mark_outliers(&left);
+}
+
+/// Two or three effects of known size that together beat every single effect.
+///
+/// Logged physics comes together: a warm day has weather too, and one part of it alone may fit
+/// worse than none. Their coefficients are known, so a set of them has hardly any freedom.
+fn known_together(problem: &Problem, now: &State, tried: &[Judged]) -> Option<Vec<Component>> {
+    let coloured = Stage::new(problem, &now.columns, &now.fit.noises);
+    let known: Vec<Component> = candidates(&coloured, &now.components)
+        .into_iter()
+        .map(|candidate| Component::new(candidate.term))
+        .filter(|component| {
+            component.term.parameters.iter().any(|what| matches!(what.role, Role::Known { .. }))
+                && now.components.iter().all(|other| other.term.name != component.term.name)
+        })
+        .collect();
+    let price = problem.price_of_a_number();
+    let single = tried.first().map_or(0.0, |best| best.evidence);
+    let sets = (1_usize..1 << known.len().min(5)).filter(|set| 1 < set.count_ones());
+    let best = sets
+        .filter_map(|set| {
+            let members: Vec<Component> = (0..known.len().min(5))
+                .filter(|index| set & (1 << index) != 0)
+                .map(|index| known[index].clone())
+                .collect();
+            let all = [now.components.clone(), members.clone()].concat();
+            let columns = Columns::of(problem, &all).ok()?;
+            let rough = with_noise(
+                &problem.layout,
+                &columns,
+                &problem.residual(),
+                &plain_noises(problem, &now.fit),
+            );
+            let state = State::of(problem, all, &noises_of(problem, &rough.left))?;
+            let gain = 2.0 * (state.fit.log_likelihood - now.fit.log_likelihood);
+            Some((gain - price * count(members.len()), members))
+        })
+        .max_by(|a, b| a.0.total_cmp(&b.0))?;
+    (single.max(0.0) + TOGETHER < best.0).then_some(best.1)
+}
+
+/// Evidence by which a set of known effects must beat the best single one.
+const TOGETHER: f64 = 10.0;
+
+/// All candidates on what a model leaves, best evidence first.
+#[must_use]
+pub(crate) fn tried(problem: &Problem, now: &State) -> Vec<Judged> {
+    let coloured = Stage::new(problem, &now.columns, &now.fit.noises);
+    let white = Stage::new(problem, &now.columns, &plain_noises(problem, &now.fit));
+    let first = judged_shortlist(problem, now, &[trials(&white, now), trials(&coloured, now)]);
+    let Some(best) = first.first() else { return first };
+    if best.fit.noises.iter().zip(&now.fit.noises).all(|(a, b)| a.is_like(b)) {
+        return first;
+    }
+    // Under the noise that the best one leaves, its rivals show what they can really do.
+    let clear = Stage::new(problem, &now.columns, &best.fit.noises);
+    let again = trials(&clear, now);
+    let mut all = judged_shortlist(problem, now, &[again]);
+    for judged in first {
+        let known =
+            all.iter().position(|other| other.component.term.name == judged.component.term.name);
+        match known {
+            Some(place) if all[place].evidence < judged.evidence => all[place] = judged,
+            Some(_) => {}
+            None => all.push(judged),
+        }
+    }
+    all.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+    all
+}
+
+/// Every candidate at its best under a stage's noise, largest gain first.
+fn trials(stage: &Stage<'_>, now: &State) -> Vec<Trial> {
+    let all = candidates(stage, &now.components);
+    let mut trials: Vec<Trial> =
+        all.par_iter().filter_map(|candidate| try_candidate(stage, candidate)).collect();
+    trials.extend(setting_trials(stage));
+    trials.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+    trials
+}
+
+/// The strongest trials of each list and all that come near them, their noise fitted anew.
+fn judged_shortlist(problem: &Problem, now: &State, lists: &[Vec<Trial>]) -> Vec<Judged> {
+    let mut chosen: BTreeMap<String, Vec<&Trial>> = BTreeMap::new();
+    let mut tried = 1.0_f64;
+    for list in lists {
+        let best = list.first().map_or(0.0, |trial| trial.gain);
+        let near = |place: usize, trial: &Trial| place < SHORTLIST || 0.7 * best < trial.gain;
+        for (place, trial) in list.iter().enumerate() {
+            if near(place, trial) {
+                let known = chosen.entry(trial.component.term.name.clone()).or_default();
+                if !known.iter().any(|other| trial.leaves_as_much_as(other)) {
+                    known.push(trial);
+                }
+            }
+        }
+        tried = tried.max(count(list.len()));
+    }
+    let flat: Vec<&Trial> = chosen.into_values().flatten().collect();
+    let judged: Vec<Judged> =
+        flat.into_par_iter().filter_map(|trial| judge(problem, now, trial, tried)).collect();
+    let mut best: Vec<Judged> = Vec::new();
+    for one in judged {
+        match best.iter_mut().find(|other| other.component.term.name == one.component.term.name) {
+            Some(other) if other.evidence < one.evidence => *other = one,
+            Some(_) => {}
+            None => best.push(one),
+        }
+    }
+    best.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+    best
+}
+
+/// Joint fit, evidence, chance and held-out error of one trial.
+fn judge(problem: &Problem, now: &State, trial: &Trial, tried: f64) -> Option<Judged> {
+    let more = Columns::of(problem, std::slice::from_ref(&trial.component)).ok()?;
+    // The noise begins with what the trial leaves, lest the first noise hides the effect.
+    let left = more.left(&now.fit.left, &trial.coefficients);
+    let columns = now.columns.and(&more);
+    let fit = settle(problem, &columns, &noises_of(problem, &left));
+    let gain = 2.0 * (fit.log_likelihood - now.fit.log_likelihood);
+    let freedom = trial.freedom();
+    let price = problem.price_of_a_number();
+    Some(Judged {
+        component: trial.component.clone(),
+        gain,
+        evidence: gain
+            - freedom * price
+            - 2.0 * libm::log(trial.looks)
+            - likeness::price(&trial.component, &now.components),
+        looks: trial.looks,
+        p_value: (chi_squared_tail(gain, freedom) * trial.looks.max(1.0) * tried).min(1.0),
+        rms_um: rms(&problem.layout, &fit.left),
+        holdout_rms_um: holdout_rms(problem, &columns, &fit.noises),
+        fit,
+    })
+}
+
+/// White noise of the size that neighbouring samples differ by: no slow effect hides in it.
+fn plain_noises(problem: &Problem, fit: &Fit) -> Vec<Noise> {
+    (0..problem.sensors.len())
+        .map(|sensor| {
+            let (layout, rows) = problem.of_sensor(sensor);
+            let mut steps: Vec<f64> = layout
+                .blocks
+                .iter()
+                .flat_map(|block| block.rows.clone().skip(1))
+                .map(|row| (fit.left[rows[row]] - fit.left[rows[row - 1]]).abs())
+                .collect();
+            let deviation = (median(&mut steps) * 1.4826).max(f64::MIN_POSITIVE.sqrt());
+            Noise::white().scaled(0.5 * deviation * deviation)
+        })
+        .collect()
+}

@@ -1,0 +1,181 @@
+//! Likenesses that physics knows beforehand, whatever the evidence says of them.
+
+use helixlock_plant::prediction::gain;
+use helixlock_plant::{Entry, Role, Search, Term};
+
+use crate::model::{Component, Problem, State, pattern};
+use crate::noise::Whitener;
+use crate::numerics::least_squares::dot;
+use crate::numerics::{count, least_squares, spread};
+
+/// Lowest harmonic of the screw that does not come without the ones below it.
+const HIGH_HARMONIC: f64 = 3.0;
+
+/// What a high harmonic without the lower ones must bring beyond a named shaft, as evidence:
+/// odds of one to a hundred.
+const HIGH_HARMONIC_PRICE: f64 = 9.2;
+
+/// Share of a pattern that a straight line must leave for it to have a shape.
+const SHAPE: f64 = 1e-3;
+
+/// True for a harmonic of the machine's screw of which the lower ones are not in the model.
+///
+/// A screw runs out once a turn, or twice by its bearing; its third and higher harmonics are small
+/// and come with the first two. A shaft that the machine file lists runs out once a turn.
+#[must_use]
+pub(crate) fn high_harmonic_alone(component: &Component, others: &[Component]) -> bool {
+    let screw = |term: &Term| term.kind() == "screw-periodic";
+    screw(&component.term)
+        && component.term.nonlinear().first().is_some_and(|harmonic| HIGH_HARMONIC <= *harmonic)
+        && !others
+            .iter()
+            .any(|other| screw(&other.term) && other.term.nonlinear() != component.term.nonlinear())
+}
+
+/// Evidence an effect has to pay for being unlikely beforehand.
+#[must_use]
+pub(crate) fn price(component: &Component, others: &[Component]) -> f64 {
+    if high_harmonic_alone(component, others) { HIGH_HARMONIC_PRICE } else { 0.0 }
+}
+
+/// True when a rival is no match for an effect by physics alone: the harmonic of the screw that a
+/// listed shaft happens to coincide with.
+#[must_use]
+pub(crate) fn far_fetched(rival: &Component, own: &Component, others: &[Component]) -> bool {
+    own.term.kind() == "gear-error" && high_harmonic_alone(rival, others)
+}
+
+/// Effects that look like one of a model by physics, though none was fitted to the data.
+#[must_use]
+pub(crate) fn by_physics(problem: &Problem, state: &State, index: usize) -> Vec<String> {
+    let component = &state.components[index];
+    let mut alike = Vec::new();
+    if is_slope(problem, state, index) {
+        alike.extend(slopes_like(problem, component));
+    }
+    if slips_at_reversal(problem, component) {
+        alike.push("backlash".to_owned());
+    }
+    alike
+}
+
+/// True when the fitted pattern is a straight line over the spindle's turns, so that it has no
+/// shape.
+///
+/// Known physics and whole numbers are exempt: their size is evidence of its own.
+fn is_slope(problem: &Problem, state: &State, index: usize) -> bool {
+    let component = &state.components[index];
+    let sized = component.term.parameters.iter().any(|w| matches!(w.role, Role::Known { .. }));
+    if sized || !component.term.needs().is_empty() || component.term.kind() == "wrong-setting" {
+        return false;
+    }
+    let whitener = Whitener::new(&problem.layout, &state.fit.noises);
+    let shape = pattern(problem, state, index, &whitener);
+    let line = problem.column(component.term.entry, &problem.record.spindle_rad);
+    let line = whitener.whiten(&line);
+    let fit = least_squares::fit(&[&line], &shape);
+    fit.residual_square < SHAPE * dot(&shape, &shape)
+}
+
+/// Effects of the card's list that are straight in travel and that these sensors see alike.
+fn slopes_like(problem: &Problem, component: &Component) -> Vec<String> {
+    let cards = Term::card(component.term.kind()).map_or(&[][..], |card| card.confused_with);
+    cards
+        .iter()
+        .filter_map(|kind| Term::card(kind))
+        .filter(|card| seen_alike(problem, component.term.entry, card.entry))
+        .map(|card| card.kind.to_owned())
+        .collect()
+}
+
+/// True when no sensor tells two entries apart: their gains differ by one factor.
+fn seen_alike(problem: &Problem, a: Entry, b: Entry) -> bool {
+    let gains = |entry| {
+        let of = |&sensor| gain(&problem.model, entry, sensor);
+        problem.sensors.iter().map(of).collect::<Vec<f64>>()
+    };
+    let (a, b) = (gains(a), gains(b));
+    let (size, along) = (dot(&a, &a) * dot(&b, &b), dot(&a, &b));
+    0.0 < size && (1.0 - 1e-9) * size < along * along
+}
+
+/// True for a slip between two samples of which one is where the table turns back.
+fn slips_at_reversal(problem: &Problem, component: &Component) -> bool {
+    let Some(at) = component.term.parameters.iter().position(|w| w.search == Search::Time) else {
+        return false;
+    };
+    let (time, record) = (component.term.values[at], &problem.record);
+    let near = record.time_s.partition_point(|t| *t < time);
+    let window = near.saturating_sub(3)..(near + 3).min(record.len());
+    let passes = problem.measurement.pass[window.clone()].windows(2).all(|p| p[0] == p[1]);
+    passes && 0.0 < spread(&problem.measurement.direction[window])
+}
+
+/// True unless a play is so wide that none of the motor's moves gets through it: a loop that made
+/// them has seen what they do.
+#[must_use]
+pub(crate) fn lets_motion_through(problem: &Problem, component: &Component) -> bool {
+    let steps = problem.measurement.covariates.get("steps");
+    let (true, Some(steps)) = (component.term.kind() == "corrector-lost-motion", steps) else {
+        return true;
+    };
+    let moved_um = spread(steps) * problem.model.drive.step_um;
+    component.term.nonlinear().iter().all(|width_um| *width_um < moved_um)
+}
+
+/// Share of a wave's square that a parabola must leave for it to be seen as a wave.
+const WAVE: f64 = 0.01;
+
+/// True unless a wave is seen over so small a part of itself that it is a piece of a parabola over
+/// the travel and the time: that is any drift.
+#[must_use]
+pub(crate) fn turns_enough(problem: &Problem, component: &Component, used: &[f64]) -> bool {
+    if component.term.parameters.iter().all(|what| what.role != Role::Amplitude) {
+        return true;
+    }
+    let Some(shown) = component.shown_um(problem, used) else { return false };
+    let shape = about_passes(problem, shown);
+    let curve = |of: &dyn Fn(usize) -> f64| {
+        let values = problem.rows.iter().map(|row| of(row.sample)).collect();
+        about_passes(problem, values)
+    };
+    let (angle, time) = (&problem.record.spindle_rad, &problem.record.time_s);
+    let parabola = [
+        curve(&|row| angle[row]),
+        curve(&|row| angle[row] * angle[row]),
+        curve(&|row| time[row]),
+        curve(&|row| time[row] * time[row]),
+    ];
+    let views: Vec<&[f64]> = parabola.iter().map(Vec::as_slice).collect();
+    let fit = least_squares::fit(&views, &shape);
+    WAVE * dot(&shape, &shape) < fit.residual_square
+}
+
+/// Values about the mean of each pass of each sensor.
+fn about_passes(problem: &Problem, mut values: Vec<f64>) -> Vec<f64> {
+    for block in &problem.layout.blocks {
+        let part = &mut values[block.rows.clone()];
+        let mean = part.iter().sum::<f64>() / count(part.len().max(1));
+        for value in part {
+            *value -= mean;
+        }
+    }
+    values
+}
+
+/// True when a bump lies inside the travel with both its flanks: half a bump is any curve.
+#[must_use]
+pub(crate) fn shows_both_flanks(problem: &Problem, component: &Component) -> bool {
+    let of = |search, unit: &str| {
+        let matches =
+            |w: &helixlock_plant::Parameter| w.search == search && w.unit.suffix() == unit;
+        component.term.parameters.iter().position(matches).map(|i| component.term.values[i])
+    };
+    let (Some(place), Some(width)) = (of(Search::Position, "mm"), of(Search::Logarithmic, "mm"))
+    else {
+        return true;
+    };
+    let travel = &problem.record.position_mm;
+    let low = travel.iter().copied().fold(f64::INFINITY, f64::min);
+    low + width <= place && place <= low + spread(travel) - width
+}

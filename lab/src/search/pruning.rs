@@ -1,0 +1,102 @@
+//! Effects that have become superfluous: what joins the model last may take another's place.
+
+use rayon::prelude::*;
+
+use crate::hypotheses::{above_hunting, matters};
+use crate::model::{Component, JointCovariance, Problem, State, helps_unseen, joint_covariance};
+use crate::noise::swift_rms;
+use crate::numerics::least_squares::covariance_rows;
+use crate::numerics::{chi_squared_tail, count};
+
+/// An effect taken out of a model again.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Dropped {
+    /// Its name.
+    pub(crate) name: String,
+    /// Why.
+    pub(crate) reason: String,
+}
+
+/// A model without the effects that the data do not need, and what was dropped, in order.
+///
+/// Each is judged with all others kept and everything fitted anew: it must be beyond chance, large
+/// against the noise, helpful on unseen data, and two standard errors from zero.
+#[must_use]
+pub(crate) fn pruned(problem: &Problem, state: State) -> (State, Vec<Dropped>) {
+    let mut state = state;
+    let mut dropped = Vec::new();
+    while let Some((smaller, one)) = weakest(problem, &state) {
+        state = smaller;
+        dropped.push(one);
+    }
+    (state, dropped)
+}
+
+/// The model without its weakest effect, if that one is superfluous.
+fn weakest(problem: &Problem, state: &State) -> Option<(State, Dropped)> {
+    let covariance = joint_covariance(problem, state);
+    let found: Vec<(State, Dropped)> = (0..state.components.len())
+        .into_par_iter()
+        .filter_map(|index| {
+            let smaller = without(problem, state, index)?;
+            let reason = superfluous(problem, state, &smaller, index)
+                .or_else(|| no_better(problem, state, &smaller))
+                .or_else(|| useless(state, &covariance, index))?;
+            let name = state.components[index].term.name.clone();
+            Some((smaller, Dropped { name, reason }))
+        })
+        .collect();
+    found.into_iter().max_by(|a, b| a.0.fit.log_likelihood.total_cmp(&b.0.fit.log_likelihood))
+}
+
+fn without(problem: &Problem, state: &State, index: usize) -> Option<State> {
+    let mut fewer: Vec<Component> = state.components.clone();
+    fewer.remove(index);
+    State::settled(problem, fewer, &state.fit.noises)
+}
+
+/// Why an effect is not needed; `None` when it is.
+fn superfluous(problem: &Problem, state: &State, fewer: &State, index: usize) -> Option<String> {
+    let width = count(state.components[index].width().max(1));
+    let gain = 2.0 * (state.fit.log_likelihood - fewer.fit.log_likelihood);
+    let size = state.components[index].size_um(problem, state.coefficients(index).0);
+    let after = swift_rms(&problem.layout, &state.fit.left);
+    let unit = problem.measurement.unit();
+    let chance = chi_squared_tail(gain, width);
+    if gain < width * problem.price_of_a_number() {
+        return Some(format!("superfluous beside the others: evidence {gain:.1} only"));
+    }
+    if !matters(size, after, chance) || !above_hunting(problem, size) {
+        return Some(format!(
+            "superfluous: {size:.4} {unit} of {after:.4} {unit} noise, p {chance:.1e}"
+        ));
+    }
+    None
+}
+
+/// Why an effect is not needed when the model without it is as good on unseen data.
+fn no_better(problem: &Problem, state: &State, fewer: &State) -> Option<String> {
+    let with_it = (&state.columns, state.fit.noises.as_slice());
+    let without = (&fewer.columns, fewer.fit.noises.as_slice());
+    (!helps_unseen(problem, with_it, without))
+        .then(|| "superfluous: no better on held-out data without the noise".to_owned())
+}
+
+/// Why an effect is not needed when each of its coefficients may be zero by its standard error.
+fn useless(state: &State, covariance: &JointCovariance, index: usize) -> Option<String> {
+    let component = &state.components[index];
+    let (used, from) = state.coefficients(index);
+    if used.is_empty() {
+        return None;
+    }
+    let covariance = covariance_rows(&covariance.linear, from, component.width());
+    let sizes = component.estimates(used, &covariance);
+    let phase = |parameter: usize| {
+        component.term.parameters[parameter].role == helixlock_plant::Role::Phase
+    };
+    sizes
+        .iter()
+        .filter(|estimate| !phase(estimate.parameter))
+        .all(|estimate| estimate.value.abs() < 2.0 * estimate.stderr)
+        .then(|| "useless: no coefficient is two standard errors from zero".to_owned())
+}

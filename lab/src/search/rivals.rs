@@ -1,0 +1,97 @@
+//! Who explains the data as well as an effect that was found, so that no name is safe.
+
+use super::acceptance::plausible;
+use super::analysis::tried;
+use super::likeness::{by_physics, far_fetched};
+use crate::model::{Component, Judged, Problem, State, pattern};
+use crate::noise::Whitener;
+use crate::numerics::least_squares;
+use crate::numerics::least_squares::dot;
+
+/// Evidence by which an effect must beat every other to be named: odds of about 50 to 1.
+const MARGIN: f64 = 8.0;
+
+/// Evidence that overrules a high inflation.
+const CLEAR_MARGIN: f64 = 25.0;
+
+/// Variance inflation above which two effects count as one (`docs/effects.md`).
+const INFLATION: f64 = 10.0;
+
+/// A rival that had to be tuned to so many more places is a coincidence, not a likeness.
+const COINCIDENCE: f64 = 8.0;
+
+/// An effect that was found, and those that cannot be told from it.
+#[derive(Debug, Clone)]
+pub(crate) struct Found {
+    /// Its place among the components.
+    pub(crate) index: usize,
+    /// All effects tried in its place, best evidence first.
+    pub(crate) tried: Vec<Judged>,
+    /// Names that the data cannot tell from it.
+    pub(crate) confused: Vec<String>,
+}
+
+/// Rivals of every component of a model, given the others.
+///
+/// `first` are the effects tried on the bare model; they save the work for a single effect.
+#[must_use]
+pub(crate) fn rivals(problem: &Problem, state: &State, first: &[Judged]) -> Vec<Found> {
+    (0..state.components.len())
+        .map(|index| {
+            let tried = if state.components.len() == 1 {
+                first.to_vec()
+            } else {
+                instead_of(problem, state, index)
+            };
+            let mut confused = confused(problem, state, index, &tried);
+            for name in by_physics(problem, state, index) {
+                if !confused.contains(&name) {
+                    confused.push(name);
+                }
+            }
+            Found { index, tried, confused }
+        })
+        .collect()
+}
+
+/// Everything tried in the place of one component, the others kept.
+fn instead_of(problem: &Problem, state: &State, index: usize) -> Vec<Judged> {
+    let mut others: Vec<Component> = state.components.clone();
+    others.remove(index);
+    State::of(problem, others, &state.fit.noises)
+        .map(|fewer| tried(problem, &fewer))
+        .unwrap_or_default()
+}
+
+fn confused(problem: &Problem, state: &State, index: usize, tried: &[Judged]) -> Vec<String> {
+    let component = &state.components[index];
+    let name = &component.term.name;
+    let own = tried.iter().find(|judged| judged.component.term.name == *name);
+    let Some(own) = own else { return Vec::new() };
+    let whitener = Whitener::new(&problem.layout, &own.fit.noises);
+    let shape = pattern(problem, state, index, &whitener);
+    tried
+        .iter()
+        .filter(|judged| judged.component.term.name != *name && 0.0 < judged.gain)
+        .filter(|judged| plausible(problem, judged))
+        .filter(|judged| !far_fetched(&judged.component, component, &state.components))
+        .filter(|judged| {
+            let behind = own.evidence - judged.evidence;
+            behind < MARGIN
+                || (behind < CLEAR_MARGIN
+                    && judged.looks < COINCIDENCE * own.looks
+                    && name != "wrong-setting"
+                    && INFLATION < inflation(problem, judged, &whitener, &shape))
+        })
+        .map(|judged| judged.component.term.name.clone())
+        .collect()
+}
+
+/// Variance inflation of a pattern by another effect's fitted pattern: `1/(1 − R²)`.
+fn inflation(problem: &Problem, rival: &Judged, whitener: &Whitener, shape: &[f64]) -> f64 {
+    let Ok((design, _)) = rival.component.design(problem) else { return 1.0 };
+    let white: Vec<Vec<f64>> = design.columns.iter().map(|c| whitener.whiten(c)).collect();
+    let views: Vec<&[f64]> = white.iter().map(Vec::as_slice).collect();
+    let fit = least_squares::fit(&views, shape);
+    dot(shape, shape) / fit.residual_square.max(f64::MIN_POSITIVE)
+}

@@ -1,0 +1,102 @@
+//! How far a problem may be thinned without losing what it shows.
+
+use super::lines::gear_orders;
+use super::order_spectrum::{Scan, chance};
+use crate::model::Problem;
+use crate::noise::{Block, Noise, SlowPart, Whitener};
+use crate::numerics::{count, median, spread, usual_rate};
+
+/// Samples a period of the fastest line that means must leave.
+const SAMPLES_A_PERIOD: f64 = 6.0;
+
+/// Chance below which a fast line forbids means.
+const SIGNIFICANCE: f64 = 1e-6;
+
+/// Rows of a sensor, from the start of each of its passes, in which fast lines are looked for: a
+/// line of a fiftieth of the noise is clear in as many.
+const LOOKED_AT: usize = 200_000;
+
+/// Rows kept, against those wanted, when samples must be picked instead of averaged.
+const PICKED: usize = 2;
+
+/// Samples over which whatever is slower than a fast line is forgotten.
+const FAST_SAMPLES: f64 = 5.0;
+
+impl Problem {
+    /// The problem on about `most` rows; `None` when it is small enough.
+    ///
+    /// Means of neighbours, where the fastest line there is allows it; else single samples, one
+    /// of each group at a place by a fixed seed, so that what neighbours do not resolve stays
+    /// apart from its aliases.
+    #[must_use]
+    pub(crate) fn thinned(&self, most: usize) -> Option<Self> {
+        let together = self.rows.len().div_ceil(most.max(1));
+        if together < 2 {
+            return None;
+        }
+        let turns: Vec<f64> = self.record.turns().collect();
+        let fastest = self.fastest_line().map_or(0.0, |order| order * SAMPLES_A_PERIOD);
+        let allowed = usual_rate(&turns) / fastest.max(f64::MIN_POSITIVE);
+        let groups = if count(together) <= allowed {
+            self.measurement.groups(together)
+        } else {
+            let every = self.rows.len().div_ceil(PICKED * most);
+            if every < 2 {
+                return None;
+            }
+            self.measurement.picks(every)
+        };
+        let mut small = self.averaged(groups).ok()?;
+        small.extra.clone_from(&self.extra);
+        Some(small)
+    }
+
+    /// Order of the fastest clear line of any sensor.
+    fn fastest_line(&self) -> Option<f64> {
+        let residual = self.residual();
+        (0..self.sensors.len())
+            .filter_map(|sensor| self.fastest_line_of(sensor, &residual))
+            .max_by(f64::total_cmp)
+    }
+
+    fn fastest_line_of(&self, sensor: usize, residual: &[f64]) -> Option<f64> {
+        let of_sensor = |block: &Block| block.sensor == sensor;
+        let blocks = self.layout.blocks.iter().filter(|block| of_sensor(block)).count();
+        let (mut layout, rows) = self.layout.begun(LOOKED_AT / blocks.max(1), of_sensor);
+        layout.blocks.iter_mut().for_each(|block| block.sensor = 0);
+        let left: Vec<f64> = rows.iter().map(|&row| residual[row]).collect();
+        let all: Vec<f64> = self.record.turns().collect();
+        let turns: Vec<f64> = rows.iter().map(|&row| all[self.rows[row].sample]).collect();
+        let noises = [fast_noise(&left)];
+        let whitener = Whitener::new(&layout, &noises);
+        let white = whitener.whiten(&left);
+        let scan = Scan {
+            layout: &layout,
+            noises: &noises,
+            turns: &turns,
+            whitener: &whitener,
+            lowest: 1.5 / spread(&turns).max(f64::MIN_POSITIVE),
+            highest: self.highest_order,
+        };
+        let orders = gear_orders(&self.model);
+        let looks = count(orders.len());
+        let clear = |order: &f64| {
+            let line = scan.line(&white, *order);
+            chance(line.gain, count(white.len()), looks) < SIGNIFICANCE
+        };
+        let found = scan.lines(&white, SIGNIFICANCE, 3);
+        let named = orders.into_iter().filter(clear);
+        found.iter().map(|line| line.frequency).chain(named).max_by(f64::total_cmp)
+    }
+}
+
+/// Noise that counts everything slower than a few samples as noise, so that only fast lines show.
+fn fast_noise(left: &[f64]) -> Noise {
+    let mut steps: Vec<f64> = left.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
+    let deviation = (1.4826 * median(&mut steps)).max(f64::MIN_POSITIVE.sqrt());
+    let white = 0.5 * deviation * deviation;
+    let mean = left.iter().sum::<f64>() / count(left.len().max(1));
+    let power = left.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>();
+    let variance = power / count(left.len().max(1));
+    Noise { white, slow: vec![SlowPart { variance, length: FAST_SAMPLES }] }
+}
