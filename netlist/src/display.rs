@@ -1,4 +1,5 @@
-//! Expressions as Verilog text, every literal with its width.
+//! Expressions as Verilog text, every literal with its width: what a refusal shows of two meanings,
+//! and what files of Verilog are written with.
 
 use std::fmt::Write as _;
 

@@ -3,6 +3,7 @@
 //! [`elaborate()`] reads a block into a [`Design`] of modules, from which Verilog is written;
 //! [`Netlist::new`] joins them into the flat list that engines are made from.
 
+mod agreed;
 mod display;
 pub mod drivers;
 mod elaborate;
@@ -20,7 +21,6 @@ mod meaning;
 mod module;
 mod order;
 pub mod partition;
-pub mod rust_source;
 mod scope;
 pub mod settle;
 mod simulated;

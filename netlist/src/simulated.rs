@@ -3,13 +3,12 @@
 
 use rust_hdl::core::ast::{VerilogExpression, VerilogOp, VerilogOpUnary};
 
+use crate::agreed::{bits_of, compare};
 use crate::expression::{
-    add, all, and, any, not, or, parity, resize, shift_down, shift_up, significant, slice,
-    subtract, xor,
+    add, all, and, any, not, or, parity, resize, shift_down, shift_up, significant, subtract, xor,
 };
 use crate::kernel_text::text;
 use crate::scope::{Name, Scope, literal};
-use crate::synthesised::compare;
 use crate::{Expression, NetlistError, mask};
 
 /// The value; `expected` is the width a bare literal takes.
@@ -157,22 +156,4 @@ fn same_width(
         found: r.width as usize,
         expected: l.width as usize,
     })
-}
-
-/// Bits at a fixed place of a signal, which mean the same in both.
-pub(crate) fn bits_of(scope: &Scope, e: &VerilogExpression) -> Result<Expression, NetlistError> {
-    let (of, width, at) = match e {
-        VerilogExpression::Index(of, at) => (of, 1, at),
-        VerilogExpression::Slice(of, bits, at) => (of, scope.width(*bits, &text(e))?, at),
-        _ => return Err(scope.unsupported(e, "this operation")),
-    };
-    let VerilogExpression::Signal(name) = of.as_ref() else {
-        return Err(scope.unsupported(e, "taking bits of anything but a signal"));
-    };
-    let of = scope.read(name)?;
-    let (_, low) = literal(scope, at)?;
-    match u32::try_from(low) {
-        Ok(low) if low.saturating_add(width) <= of.width => Ok(slice(of, low, width)),
-        _ => Err(scope.unsupported(e, "taking bits beyond the end")),
-    }
 }

@@ -3,12 +3,11 @@
 
 use rust_hdl::core::ast::{VerilogExpression, VerilogOp, VerilogOpUnary};
 
+use crate::agreed::{bits_of, compare};
 use crate::expression::{
-    add, all, and, any, equal, less, less_or_equal, not, or, parity, resize, shift_down, shift_up,
-    significant, subtract, xor,
+    add, all, and, any, not, or, parity, resize, shift_down, shift_up, significant, subtract, xor,
 };
 use crate::scope::{Name, Scope, literal};
-use crate::simulated::bits_of;
 use crate::{Expression, NetlistError, mask};
 
 /// Unsized numbers and enum codes are this wide.
@@ -152,16 +151,4 @@ fn boolean(
         VerilogOp::LogicalOr => or(alone(l, left)?, alone(r, right)?),
         _ => compare(op, both()?),
     })
-}
-
-/// The comparison of two equally wide values.
-pub(crate) fn compare(op: &VerilogOp, (l, r): (Expression, Expression)) -> Expression {
-    match op {
-        VerilogOp::Lt => less(l, r),
-        VerilogOp::Le => less_or_equal(l, r),
-        VerilogOp::Gt => less(r, l),
-        VerilogOp::Ge => less_or_equal(r, l),
-        VerilogOp::Ne => not(equal(l, r)),
-        _ => equal(l, r),
-    }
 }

@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 
 use super::dense::indented;
 use super::words::{Operand, Words};
-use crate::Netlist;
-use crate::partition::{CounterPiece, Group, Net, Partition, Readers, Source, Task};
+use helixlock_netlist::Netlist;
+use helixlock_netlist::partition::{CounterPiece, Group, Net, Partition, Readers, Source, Task};
 
 /// `impl Kernel for name`.
 pub(super) fn source(netlist: &Netlist, name: &str) -> String {

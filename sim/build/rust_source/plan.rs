@@ -8,8 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::blocks::{Blocks, Site};
 use super::words::{Operand, Words, number};
-use crate::Netlist;
-use crate::drivers::{Driver, Drivers};
+use helixlock_netlist::Netlist;
+use helixlock_netlist::drivers::{Driver, Drivers};
 
 /// A block that spares fewer operations than this is dissolved: a branch costs as much.
 const FEWEST_SPARED: usize = 8;
@@ -90,12 +90,12 @@ impl<'a> Plan<'a> {
         format!("registers[{register}] = {};", self.next[register])
     }
 
-    /// A word and all it is computed from.
-    /// Words that are to be known before this one.
+    /// Words that are to be known before this one: none when it is taken from where it is kept.
     pub(super) fn operands(&self, word: usize) -> &[usize] {
         if self.kept_at(word).is_some() { &[] } else { &self.words.all()[word].operands }
     }
 
+    /// A word and all it is computed from.
     pub(super) fn cone(&self, word: usize) -> BTreeSet<usize> {
         let mut cone = BTreeSet::new();
         let mut open = vec![word];

@@ -1,6 +1,6 @@
 //! A design as Rust source: compiled ahead of time, it runs at the speed of hand-written code.
 //!
-//! The source names what `helixlock-sim` defines (`Kernel`, `Moment`, …) and is included there; it
+//! The source names what `src/engine` defines (`Kernel`, `Moment`, …) and is included beside it; it
 //! computes on 64-bit words, one word a signal; branches only pass over what has nothing to do.
 
 mod activity;
@@ -12,11 +12,10 @@ mod pieces;
 mod plan;
 mod words;
 
-use crate::Netlist;
+use helixlock_netlist::Netlist;
 
 /// Rust items that define `name`: a kernel that steps every clock and one that leaps.
-#[must_use]
-pub fn generate(netlist: &Netlist, name: &str) -> String {
+pub(crate) fn generate(netlist: &Netlist, name: &str) -> String {
     let item = format!(
         "/// Generated from the netlist.\n#[derive(Clone, Copy, Debug, Default)]\npub struct {name};\n\n"
     );
@@ -24,7 +23,6 @@ pub fn generate(netlist: &Netlist, name: &str) -> String {
 }
 
 /// Rust items that make of the `name` that [`generate`] defines a kernel of many copies too.
-#[must_use]
-pub fn generate_lanes(netlist: &Netlist, name: &str) -> String {
+pub(crate) fn generate_lanes(netlist: &Netlist, name: &str) -> String {
     lanes::source(netlist, name)
 }

@@ -5,12 +5,13 @@ use std::error::Error;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use helixlock_netlist::{Library, Netlist, elaborate, rust_source};
+use helixlock_netlist::{Library, Netlist, elaborate};
 use helixlock_rtl::{APART, BLOCKS, BlockCard};
 use random_design::{Dice, random_design};
 
-#[path = "src/engine/random_design.rs"]
+#[path = "../src/engine/random_design.rs"]
 mod random_design;
+mod rust_source;
 
 /// Random designs compiled into the tests: they take a minute to compile.
 const RANDOM_DESIGNS: u64 = 32;
@@ -18,6 +19,7 @@ const RANDOM_DESIGNS: u64 = 32;
 /// How many of them run in lanes too, which take longest to compile.
 const RANDOM_LANES: u64 = 6;
 
+#[expect(clippy::print_stdout, reason = "a build script speaks to Cargo so")]
 fn main() -> Result<(), Box<dyn Error>> {
     let folder = std::env::var("OUT_DIR")?;
     let device = BLOCKS.iter().find(|card| card.name == "device");
@@ -26,7 +28,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let source = rust_source::generate(&device, name) + &rust_source::generate_lanes(&device, name);
     write(&Path::new(&folder).join("device.rs"), &source)?;
     write(&Path::new(&folder).join("samples.rs"), &samples()?)?;
-    println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=build");
     println!("cargo::rerun-if-changed=src/engine/random_design.rs");
     Ok(())
 }

@@ -6,8 +6,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::words::{Gate, Operand, Words, number};
-use crate::drivers::Drivers;
-use crate::{Expression, Netlist, Node, SignalId};
+use helixlock_netlist::drivers::Drivers;
+use helixlock_netlist::{Expression, Netlist, Node, SignalId};
 
 /// Beyond so many terms a condition is taken as it is.
 const MOST_TERMS: usize = 64;

@@ -4,7 +4,7 @@
 //! imply those of another stands inside it: the tens of a counter inside its units.
 use super::activity::{Logic, conditions};
 use super::words::{Operand, Words};
-use crate::Netlist;
+use helixlock_netlist::Netlist;
 
 /// The code around all blocks, or a block.
 pub(super) type Site = Option<usize>;

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use crate::drivers::Drivers;
-use crate::{Expression, Netlist, Node, SignalId, mask};
+use helixlock_netlist::drivers::Drivers;
+use helixlock_netlist::{Expression, Netlist, Node, SignalId, mask};
 
 /// Straight-line code in the making.
 pub(super) struct Words<'a> {

@@ -14,8 +14,8 @@ use super::blocks::Site;
 use super::outside;
 use super::plan::{Kept, Plan};
 use super::words::{Operand, Words};
-use crate::drivers::{Driver, Drivers};
-use crate::{Netlist, SignalId};
+use helixlock_netlist::drivers::{Driver, Drivers};
+use helixlock_netlist::{Netlist, SignalId};
 
 /// `impl DenseKernel for name`.
 pub(super) fn source(netlist: &Netlist, name: &str) -> String {

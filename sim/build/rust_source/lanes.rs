@@ -7,8 +7,8 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use crate::drivers::{Driver, Drivers};
-use crate::{Expression, Netlist, Node, SignalId};
+use helixlock_netlist::drivers::{Driver, Drivers};
+use helixlock_netlist::{Expression, Netlist, Node, SignalId};
 
 use super::dense::indented;
 
