@@ -40,6 +40,7 @@ mod properties;
 mod range_stage;
 mod reset_counter;
 mod ring_distributor;
+mod rooms;
 mod rust_hdl_simulator;
 mod rust_hdl_verilog;
 mod scale_lookup;

@@ -52,7 +52,7 @@ fn a_case_that_cannot_be_run_is_named() {
     assert_eq!(run.status.code(), Some(1));
     let text = String::from_utf8(run.stdout).unwrap();
     assert!(text.contains("case 1:") && text.contains("999"), "{text}");
-    let table = helixlock_traces::table::read_table(&output).unwrap();
+    let table = helixlock_traces::read_table(&output).unwrap();
     assert_eq!(table.column("dividers.b"), Some(&[150.0, 1000.0][..]));
     let total = table.column("closed_total_um").unwrap();
     assert!(total[0].is_finite() && total[1].is_nan());

@@ -7,7 +7,7 @@ use helixlock_netlist::{Module, PortKind};
 
 use crate::GenError;
 
-/// The constraint files, by name.
+/// The constraint files, by name: all there are in the folder, in the order of help and messages.
 const FILES: &[(&str, &str)] = &[
     ("icestick.pcf", include_str!("../../constraints/icestick.pcf")),
     ("icebreaker.pcf", include_str!("../../constraints/icebreaker.pcf")),
@@ -144,12 +144,22 @@ fn bits(top: &Module, port: &helixlock_netlist::Port) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
     use super::*;
 
     #[test]
     fn every_file_is_complete() {
         let names: Vec<_> = Board::all().unwrap().into_iter().map(|board| board.name).collect();
         assert_eq!(names, ["icestick", "icebreaker", "hx8k", "upduino", "tinyfpga-bx"]);
+    }
+
+    #[test]
+    fn the_boards_are_the_files_of_the_folder() {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../constraints");
+        let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name());
+        let found: BTreeSet<_> = entries.map(|name| name.into_string().unwrap()).collect();
+        assert_eq!(found, FILES.iter().map(|(file, _)| (*file).to_owned()).collect());
     }
 
     #[test]

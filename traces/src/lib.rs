@@ -1,6 +1,6 @@
 //! Samples and waveforms in files.
 //!
-//! - [`table`]: named columns of numbers; [`read_table`] takes CSV and Parquet
+//! - [`table`]: named columns of numbers; [`read_table()`] takes CSV and Parquet
 //! - [`csv`], [`parquet`]: the two formats, read and written
 //! - [`vcd`]: value change dumps, written and read change by change
 //! - [`capture`]: the edges of every one-bit signal of a dump
@@ -9,6 +9,7 @@
 pub mod capture;
 pub mod csv;
 pub mod error;
+mod file;
 mod number;
 pub mod parquet;
 pub mod table;
@@ -16,5 +17,6 @@ pub mod vcd;
 
 pub use capture::{Capture, CapturedSignal, read_capture};
 pub use error::{At, TraceError};
-pub use table::{Column, Table, TextColumn, read_table};
+pub use file::read_table;
+pub use table::{Column, Table, TextColumn};
 pub use vcd::{Tick, Variable, VcdReader, VcdWriter};

@@ -1,9 +1,8 @@
 //! Named columns of numbers, and the place of every row in its file.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::error::{At, TraceError};
-use crate::{csv, parquet};
 
 /// One column: its name, with the unit in it, and a number a row.
 #[derive(Clone, Debug, PartialEq)]
@@ -105,28 +104,6 @@ impl Table {
     }
 }
 
-/// Reads a table of numbers, CSV or Parquet by what the file begins with.
-///
-/// # Errors
-///
-/// Whatever is wrong with the file, with its place; see [`csv::read_csv`] and
-/// [`parquet::read_parquet`].
-pub fn read_table(path: &Path) -> Result<Table, TraceError> {
-    let bytes =
-        std::fs::read(path).map_err(|source| TraceError::Read { path: path.to_owned(), source })?;
-    if bytes.starts_with(b"PAR1") {
-        return parquet::read_parquet(bytes, path);
-    }
-    match foreign_kind(&bytes) {
-        Some(found) => Err(TraceError::Kind {
-            path: path.to_owned(),
-            found,
-            expected: "comma-separated text or Parquet",
-        }),
-        None => csv::read_csv(&bytes, path),
-    }
-}
-
 /// At most forty characters, so that a message stays a line.
 pub(crate) fn shortened(text: &str) -> String {
     const LONGEST: usize = 40;
@@ -136,34 +113,12 @@ pub(crate) fn shortened(text: &str) -> String {
     }
 }
 
-/// Kinds of file that people hand over by mistake.
-fn foreign_kind(bytes: &[u8]) -> Option<&'static str> {
-    const KINDS: &[(&[u8], &str)] = &[
-        (b"PARE", "an encrypted Parquet file"),
-        (b"PK\x03\x04", "a spreadsheet or a ZIP archive"),
-        (b"\xD0\xCF\x11\xE0", "an old spreadsheet"),
-        (b"\x1F\x8B", "a gzip archive"),
-        (b"\x89HDF", "an HDF5 file"),
-        (b"ARROW1", "an Arrow file"),
-        (b"\xFF\xFE", "UTF-16 text"),
-        (b"\xFE\xFF", "UTF-16 text"),
-        (b"{", "JSON"),
-        (b"<", "HTML or XML"),
-        (b"$date", "a value change dump"),
-        (b"$version", "a value change dump"),
-        (b"$timescale", "a value change dump"),
-    ];
-    // A sigrok session is a ZIP archive whose first file is called `version`.
-    if bytes.starts_with(b"PK\x03\x04") && bytes.get(30..37) == Some(b"version") {
-        return Some("a sigrok session (`sigrok-cli -i FILE -O vcd` makes a capture of it)");
-    }
-    let known = KINDS.iter().find(|(start, _)| bytes.starts_with(start)).map(|(_, kind)| *kind);
-    known.or_else(|| bytes.contains(&0).then_some("binary data"))
-}
-
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::*;
+    use crate::csv;
 
     fn read(text: &str) -> Table {
         csv::read_csv(text.as_bytes(), Path::new("data.csv")).unwrap()
@@ -184,14 +139,5 @@ mod tests {
             error.to_string(),
             "data.csv: column `time_s` is missing, found `position_mm`, `error_um`"
         );
-    }
-
-    #[test]
-    fn foreign_files_are_recognised() {
-        assert_eq!(foreign_kind(b"PK\x03\x04rest"), Some("a spreadsheet or a ZIP archive"));
-        let session = [&b"PK\x03\x04"[..], &[0; 26], b"version"].concat();
-        assert!(foreign_kind(&session).is_some_and(|kind| kind.starts_with("a sigrok session")));
-        assert_eq!(foreign_kind(b"a,b\n1,2\0\n"), Some("binary data"));
-        assert_eq!(foreign_kind(b"a,b\n1,2\n"), None);
     }
 }

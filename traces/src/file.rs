@@ -1,0 +1,68 @@
+//! A file of columns, whatever its format.
+
+use std::path::Path;
+
+use crate::error::TraceError;
+use crate::table::Table;
+use crate::{csv, parquet};
+
+/// Reads a table of numbers, CSV or Parquet by what the file begins with.
+///
+/// # Errors
+///
+/// Whatever is wrong with the file, with its place; see [`csv::read_csv`] and
+/// [`parquet::read_parquet`].
+pub fn read_table(path: &Path) -> Result<Table, TraceError> {
+    let bytes =
+        std::fs::read(path).map_err(|source| TraceError::Read { path: path.to_owned(), source })?;
+    if bytes.starts_with(b"PAR1") {
+        return parquet::read_parquet(bytes, path);
+    }
+    match foreign_kind(&bytes) {
+        Some(found) => Err(TraceError::Kind {
+            path: path.to_owned(),
+            found,
+            expected: "comma-separated text or Parquet",
+        }),
+        None => csv::read_csv(&bytes, path),
+    }
+}
+
+/// Kinds of file that people hand over by mistake.
+fn foreign_kind(bytes: &[u8]) -> Option<&'static str> {
+    const KINDS: &[(&[u8], &str)] = &[
+        (b"PARE", "an encrypted Parquet file"),
+        (b"PK\x03\x04", "a spreadsheet or a ZIP archive"),
+        (b"\xD0\xCF\x11\xE0", "an old spreadsheet"),
+        (b"\x1F\x8B", "a gzip archive"),
+        (b"\x89HDF", "an HDF5 file"),
+        (b"ARROW1", "an Arrow file"),
+        (b"\xFF\xFE", "UTF-16 text"),
+        (b"\xFE\xFF", "UTF-16 text"),
+        (b"{", "JSON"),
+        (b"<", "HTML or XML"),
+        (b"$date", "a value change dump"),
+        (b"$version", "a value change dump"),
+        (b"$timescale", "a value change dump"),
+    ];
+    // A sigrok session is a ZIP archive whose first file is called `version`.
+    if bytes.starts_with(b"PK\x03\x04") && bytes.get(30..37) == Some(b"version") {
+        return Some("a sigrok session (`sigrok-cli -i FILE -O vcd` makes a capture of it)");
+    }
+    let known = KINDS.iter().find(|(start, _)| bytes.starts_with(start)).map(|(_, kind)| *kind);
+    known.or_else(|| bytes.contains(&0).then_some("binary data"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn foreign_files_are_recognised() {
+        assert_eq!(foreign_kind(b"PK\x03\x04rest"), Some("a spreadsheet or a ZIP archive"));
+        let session = [&b"PK\x03\x04"[..], &[0; 26], b"version"].concat();
+        assert!(foreign_kind(&session).is_some_and(|kind| kind.starts_with("a sigrok session")));
+        assert_eq!(foreign_kind(b"a,b\n1,2\0\n"), Some("binary data"));
+        assert_eq!(foreign_kind(b"a,b\n1,2\n"), None);
+    }
+}
