@@ -1,4 +1,4 @@
-//! The dependency arrows of ARCHITECTURE.md.
+//! The dependency arrows of ARCHITECTURE.md between crates.
 
 /// Each crate and what it may use of ours, in the order of the levels.
 const LAYERS: &[(&str, &[&str])] = &[
