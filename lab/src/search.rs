@@ -6,9 +6,11 @@ mod analysis;
 mod likeness;
 mod polish;
 mod pruning;
+mod refusal;
 mod rivals;
 
 pub(crate) use analysis::{Step, search};
 pub(crate) use polish::polished;
 pub(crate) use pruning::pruned;
+pub(crate) use refusal::Refusal;
 pub(crate) use rivals::{Found, rivals};

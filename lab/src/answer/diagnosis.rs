@@ -3,13 +3,13 @@
 use rayon::prelude::*;
 
 use super::experiment::{self, Advice};
-use crate::hypotheses::{SIGNIFICANCE, Structure, better_shape, structures};
+use crate::hypotheses::{Structure, better_shape, structures};
 use crate::model::{
     Component, JointCovariance, Judged, Problem, State, holdout_rms, joint_covariance,
 };
 use crate::noise::rms;
 use crate::numerics::least_squares::covariance_rows;
-use crate::search::{Found, Step, polished, pruned, rivals, search};
+use crate::search::{Found, Refusal, Step, polished, pruned, rivals, search};
 
 /// What can be said about a model and a measurement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -181,7 +181,7 @@ fn pruned_again(problem: &Problem, small: &Problem, last: &State) -> Option<(Ste
         return None;
     }
     let thin = state.on(small)?;
-    Some((Step { state: thin, tried: Vec::new(), added: None, dropped }, state))
+    Some((Step::to(thin, None, dropped), state))
 }
 
 fn verdict(state: &State, found: &[Found], residual: &[Structure]) -> Verdict {
@@ -220,29 +220,19 @@ fn rounds(problem: &Problem, steps: &[Step], states: &[State]) -> Vec<Round> {
     rounds
 }
 
+/// What was dropped, refused or beaten in a round, with the reason.
 fn rejected(step: &Step, chosen: Option<&str>) -> Vec<(String, String)> {
-    let tried = &step.tried;
+    let name = |judged: &Judged| judged.component.term.name.clone();
+    let is_chosen = |judged: &Judged| Some(judged.component.term.name.as_str()) == chosen;
     let dropped = step.dropped.iter().map(|one| (one.name.clone(), one.reason.clone()));
-    let best = tried.iter().find(|judged| Some(judged.component.term.name.as_str()) == chosen);
-    let refused = tried
-        .iter()
-        .filter(|judged| Some(judged.component.term.name.as_str()) != chosen)
-        .map(|judged| {
-            let reason = match best {
-                Some(best) => format!(
-                    "explains less than {}: evidence {:.1} behind",
-                    best.component.term.name,
-                    best.evidence - judged.evidence
-                ),
-                None if judged.p_value < SIGNIFICANCE => {
-                    "outside its plausible range, too small to matter, or worse on held-out data"
-                        .to_owned()
-                }
-                None => format!("not beyond chance: p = {:.2e}", judged.p_value),
-            };
-            (judged.component.term.name.clone(), reason)
-        });
-    dropped.chain(refused).collect()
+    let refused = step.tried.iter().zip(&step.refused);
+    let beaten = step.tried.iter().find(|judged| is_chosen(judged)).into_iter().flat_map(|best| {
+        let behind = step.tried.iter().skip(step.refused.len());
+        behind.map(|judged| (judged, Refusal::victor(best, judged)))
+    });
+    let refused = refused.map(|(judged, refusal)| (judged, refusal.clone())).chain(beaten);
+    let refused = refused.filter(|(judged, _)| !is_chosen(judged));
+    dropped.chain(refused.map(|(judged, refusal)| (name(judged), refusal.to_string()))).collect()
 }
 
 /// Every component of a state with its parameters.

@@ -51,7 +51,7 @@ fn probes(problem: &Problem) -> f64 {
 pub(crate) const SIGNIFICANCE: f64 = 1e-4;
 
 /// Structure weaker than this share of the noise is left alone: it changes no figure.
-const SHARE_OF_NOISE: f64 = 0.25;
+pub(crate) const SHARE_OF_NOISE: f64 = 0.25;
 
 /// Share of the noise and chance of a line that is small but beyond doubt.
 const CLEAR: (f64, f64) = (0.08, 1e-12);
@@ -72,7 +72,13 @@ pub(crate) fn matters(size_um: f64, noise_um: f64, p_value: f64) -> bool {
 /// all, as a line at any frequency, and u/√12 of it slow.
 #[must_use]
 pub(crate) fn above_hunting(problem: &Problem, size_um: f64) -> bool {
-    problem.hunting_um / f64::sqrt(12.0) <= size_um
+    least_above_hunting(problem) <= size_um
+}
+
+/// The least of that, µm.
+#[must_use]
+pub(crate) fn least_above_hunting(problem: &Problem) -> f64 {
+    problem.hunting_um / f64::sqrt(12.0)
 }
 
 /// True for a line so clear that no flaw of a noise model or of a smooth formula makes it.

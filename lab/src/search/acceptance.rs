@@ -3,65 +3,82 @@
 use helixlock_plant::{Parameter, Role, Search};
 
 use super::likeness;
+use super::refusal::Refusal;
 use crate::hypotheses::{
-    SIGNIFICANCE, above_hunting, chance_with_tails, gain_at, matters, turn_scan,
+    SHARE_OF_NOISE, SIGNIFICANCE, chance_with_tails, gain_at, least_above_hunting, turn_scan,
 };
-use crate::model::{Columns, Component, Judged, Problem, Stage, State, helps_unseen};
+use crate::model::{Columns, Component, Judged, Problem, Stage, State, helps_unseen, holdout_rms};
 use crate::noise::swift_rms;
 use crate::numerics::least_squares::covariance_rows;
 use crate::numerics::{chi_squared_tail, count};
 
-/// True when an effect is beyond chance, helps on unseen data and is large enough to matter.
+/// The clause that keeps the best effect of a round out of a model; `None` when it may join: it is
+/// beyond chance, helps on unseen data and is large enough to matter.
 #[must_use]
-pub(crate) fn acceptable(problem: &Problem, now: &State, judged: &Judged) -> bool {
+pub(crate) fn refusal(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
     let component = &judged.component;
     let (used, _) = judged.coefficients();
-    let size = component.size_um(problem, used);
-    matters(size, swift_rms(&problem.layout, &judged.fit.left), judged.p_value)
-        && above_hunting(problem, size)
-        && better_unseen(problem, now, judged)
-        && plausible(problem, judged)
-        && likeness::turns_enough(problem, component, used)
-        && likeness::lets_motion_through(problem, component)
-        && !at_an_end(component)
-        && repeats(judged, now)
-        && locked_to_time(problem, now, judged)
-        && !rests_on_one_sample(problem, now, judged)
+    too_small(problem, judged, component.size_um(problem, used))
+        .or_else(|| no_better_unseen(problem, now, judged))
+        .or_else(|| implausible(problem, judged))
+        .or_else(|| (!likeness::turns_enough(problem, component, used)).then_some(Refusal::Piece))
+        .or_else(|| (!likeness::lets_motion_through(problem, component)).then_some(Refusal::Play))
+        .or_else(|| at_an_end(component))
+        .or_else(|| (!repeats(judged, now)).then_some(Refusal::Again))
+        .or_else(|| turns_as_well(problem, now, judged))
+        .or_else(|| rests_on_one_sample(problem, now, judged))
 }
 
-/// True when the model with an effect does better on unseen data than without it.
-fn better_unseen(problem: &Problem, now: &State, judged: &Judged) -> bool {
-    let Ok(more) = Columns::of(problem, std::slice::from_ref(&judged.component)) else {
-        return false;
-    };
+/// Refused as chance, or as too small to change a figure.
+fn too_small(problem: &Problem, judged: &Judged, size_um: f64) -> Option<Refusal> {
+    let p_value = judged.p_value;
+    let least_um = SHARE_OF_NOISE * swift_rms(&problem.layout, &judged.fit.left);
+    let hunting_um = least_above_hunting(problem);
+    if SIGNIFICANCE <= p_value {
+        return Some(Refusal::Chance { p_value });
+    }
+    if size_um <= least_um || size_um.is_nan() {
+        return Some(Refusal::Small { size_um, least_um });
+    }
+    (size_um < hunting_um).then_some(Refusal::Hunting { size_um, least_um: hunting_um })
+}
+
+/// Refused when the model with an effect does no better on unseen data than without it.
+fn no_better_unseen(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
+    let more = Columns::of(problem, std::slice::from_ref(&judged.component)).ok()?;
     let columns = now.columns.and(&more);
-    helps_unseen(problem, (&columns, &judged.fit.noises), (&now.columns, &now.fit.noises))
+    let without = holdout_rms(problem, &now.columns, &now.fit.noises);
+    let helps =
+        helps_unseen(problem, (&columns, &judged.fit.noises), (&now.columns, &now.fit.noises));
+    (!helps).then_some(Refusal::Unseen { with_um: judged.holdout_rms_um, without_um: without })
 }
 
-/// True unless a frequency in time was found that an order of the spindle explains as well.
+/// Refused when a frequency in time was found that an order of the spindle explains as well.
 ///
 /// At one speed the two are one: such a line is nobody's until the speed is changed.
-fn locked_to_time(problem: &Problem, now: &State, judged: &Judged) -> bool {
+fn turns_as_well(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
     if !judged.component.term.parameters.iter().any(Parameter::is_frequency) {
-        return true;
+        return None;
     }
     let stage = Stage::new(problem, &now.columns, &judged.fit.noises);
     let own = gain_at(&stage, &judged.component).map_or(0.0, |gain| gain.gain);
     let turns: Vec<f64> = problem.record.turns().collect();
     let of_row: Vec<f64> = problem.rows.iter().map(|row| turns[row.sample]).collect();
     let scan = turn_scan(&stage, &of_row);
-    let line = scan.strongest(&stage.target[..of_row.len()]);
-    line.is_none_or(|line| line.gain + TIME_LOCK < own)
+    let line = scan.strongest(&stage.target[..of_row.len()])?;
+    let told = line.gain + TIME_LOCK < own;
+    (!told).then_some(Refusal::Angle { order: line.frequency, ahead: own - line.gain })
 }
 
 /// Evidence that tells time from angle.
 const TIME_LOCK: f64 = 12.0;
 
-/// True for an effect that one sample alone speaks for, which the tails of the noise explain too.
-fn rests_on_one_sample(problem: &Problem, now: &State, judged: &Judged) -> bool {
+/// Refused when one sample alone speaks for an effect, which the tails of the noise explain too.
+fn rests_on_one_sample(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
     let freedom = count(judged.component.width().max(1));
     let other_samples = |gain| chi_squared_tail(gain, freedom) * judged.looks;
-    SIGNIFICANCE < chance_with_tails(problem, [&now.fit, &judged.fit], other_samples)
+    let chance = chance_with_tails(problem, [&now.fit, &judged.fit], other_samples);
+    (SIGNIFICANCE < chance).then_some(Refusal::OneSample { chance })
 }
 
 /// True unless an effect that is there once would be added a second time.
@@ -75,39 +92,45 @@ fn repeats(judged: &Judged, now: &State) -> bool {
     before == 0 || (periodic && before < 3)
 }
 
-/// True when all parameters lie in their plausible ranges, to within two standard errors, and the
-/// shape shows enough of itself.
+/// True when nothing in an effect's values and shape speaks against it.
 #[must_use]
 pub(crate) fn plausible(problem: &Problem, judged: &Judged) -> bool {
+    implausible(problem, judged).is_none()
+}
+
+/// Refused unless all parameters lie in their plausible ranges, to within two standard errors, and
+/// the shape shows enough of itself.
+fn implausible(problem: &Problem, judged: &Judged) -> Option<Refusal> {
     let component = &judged.component;
     if !likeness::shows_both_flanks(problem, component) {
-        return false;
+        return Some(Refusal::Flank);
     }
     let (used, from) = judged.coefficients();
     let covariance = covariance_rows(&judged.fit.linear.covariance, from, component.width());
-    component.estimates(used, &covariance).iter().all(|estimate| {
+    component.estimates(used, &covariance).iter().find_map(|estimate| {
+        let what = &component.term.parameters[estimate.parameter];
         // A square that would have to be negative is fitted as 0.
-        if component.term.parameters[estimate.parameter].role == Role::Squared
-            && estimate.value <= 0.0
-        {
-            return false;
+        if what.role == Role::Squared && estimate.value <= 0.0 {
+            return Some(Refusal::NegativeSquare { parameter: what.key() });
         }
-        let range = &component.term.parameters[estimate.parameter].range;
+        let (low, high) = (*what.range.start(), *what.range.end());
         let slack = 2.0 * estimate.stderr;
-        range.start() >= range.end()
-            || (*range.start() <= estimate.value + slack && estimate.value - slack <= *range.end())
+        let inside =
+            high <= low || (low <= estimate.value + slack && estimate.value - slack <= high);
+        let (value, stderr) = (estimate.value, estimate.stderr);
+        (!inside).then(|| Refusal::Range { parameter: what.key(), value, stderr })
     })
 }
 
-/// True when the fit would go on beyond the range of a nonlinear parameter: what it follows there
-/// is another shape than the one the effect is named for.
-fn at_an_end(component: &Component) -> bool {
+/// Refused when the fit would go on beyond the range of a nonlinear parameter: what it follows
+/// there is another shape than the one the effect is named for.
+fn at_an_end(component: &Component) -> Option<Refusal> {
     let term = &component.term;
-    term.nonlinear_indices().iter().any(|&index| {
+    term.nonlinear_indices().iter().find_map(|&index| {
         let (what, value) = (&term.parameters[index], term.values[index]);
         let (low, high) = (*what.range.start(), *what.range.end());
-        matches!(what.search, Search::Linear | Search::Logarithmic)
-            && low < high
-            && !(low < value && value < high)
+        let ends = matches!(what.search, Search::Linear | Search::Logarithmic) && low < high;
+        let inside = low < value && value < high;
+        (ends && !inside).then(|| Refusal::End { parameter: what.key(), value })
     })
 }

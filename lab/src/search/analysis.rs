@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use helixlock_plant::Role;
 use rayon::prelude::*;
 
-use super::acceptance::acceptable;
+use super::acceptance::refusal;
 use super::likeness;
 use super::pruning::{Dropped, pruned};
+use super::refusal::Refusal;
 use crate::hypotheses::{Trial, candidates, setting_trials, try_candidate};
 use crate::model::{
     Columns, Component, Fit, Judged, Problem, Stage, State, holdout_rms, noises_of, settle,
@@ -29,10 +30,19 @@ pub(crate) struct Step {
     pub(crate) state: State,
     /// Effects tried, best first.
     pub(crate) tried: Vec<Judged>,
+    /// Why the first ones of those were not taken, in their order.
+    pub(crate) refused: Vec<Refusal>,
     /// Name of the effect added.
     pub(crate) added: Option<String>,
     /// Effects that became superfluous.
     pub(crate) dropped: Vec<Dropped>,
+}
+
+impl Step {
+    /// A step to a state, nothing tried on it yet.
+    pub(crate) fn to(state: State, added: Option<String>, dropped: Vec<Dropped>) -> Self {
+        Self { state, tried: Vec::new(), refused: Vec::new(), added, dropped }
+    }
 }
 
 /// Looks for effects until none is significant; every step begins where the last one ended.
@@ -41,19 +51,23 @@ pub(crate) struct Step {
 #[must_use]
 pub(crate) fn search(problem: &mut Problem) -> Vec<Step> {
     let bare = State::bare(problem);
-    let mut steps = vec![Step { state: bare, tried: Vec::new(), added: None, dropped: Vec::new() }];
+    let mut steps = vec![Step::to(bare, None, Vec::new())];
     for _ in 0..MOST_ROUNDS {
         let last = steps.len() - 1;
         let now = &steps[last].state;
         let tried = tried(problem, now);
-        let best = tried.iter().find(|judged| acceptable(problem, now, judged)).cloned();
+        let refused: Vec<Refusal> =
+            tried.iter().map_while(|judged| refusal(problem, now, judged)).collect();
+        let best = tried.get(refused.len()).cloned();
         if let Some(members) = known_together(problem, now, &tried) {
             steps[last].tried = tried;
+            steps[last].refused = refused;
             add_together(problem, &mut steps, members);
             continue;
         }
         let mut components = now.components.clone();
         steps[last].tried = tried;
+        steps[last].refused = refused;
         let Some(best) = best else { break };
         components.push(best.component.clone());
         problem.mark_outliers(&best.fit.left);
@@ -64,7 +78,7 @@ pub(crate) fn search(problem: &mut Problem) -> Vec<Step> {
             break;
         }
         let added = Some(best.component.term.name.clone());
-        steps.push(Step { state, tried: Vec::new(), added, dropped });
+        steps.push(Step::to(state, added, dropped));
     }
     steps
 }
@@ -77,7 +91,7 @@ fn add_together(problem: &mut Problem, steps: &mut Vec<Step>, members: Vec<Compo
         let components = [before.components.clone(), vec![member.clone()]].concat();
         let Some(state) = State::settled(problem, components, &bare) else { return };
         let added = Some(member.term.name);
-        steps.push(Step { state, tried: Vec::new(), added, dropped: Vec::new() });
+        steps.push(Step::to(state, added, Vec::new()));
     }
     let left = steps[steps.len() - 1].state.fit.left.clone();
     problem.mark_outliers(&left);

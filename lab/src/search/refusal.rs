@@ -1,0 +1,89 @@
+//! Why an effect is not taken into a model: the clause it failed, and by how much.
+
+use std::fmt;
+
+use crate::model::Judged;
+
+/// The first clause of the acceptance that an effect fails.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Refusal {
+    /// Noise does as much with this chance, all places and effects that were tried counted.
+    Chance { p_value: f64 },
+    /// Smaller than the share of the noise that changes a figure; in µm (arcsec).
+    Small { size_um: f64, least_um: f64 },
+    /// The swing of the closed loop may show as much; in µm.
+    Hunting { size_um: f64, least_um: f64 },
+    /// Held-out data are followed no better with it; root mean squares with and without, µm (arcsec).
+    Unseen { with_um: f64, without_um: f64 },
+    /// A value farther than two standard errors outside its plausible range.
+    Range { parameter: String, value: f64, stderr: f64 },
+    /// A parameter whose square would have to be negative.
+    NegativeSquare { parameter: String },
+    /// A nonlinear value at the end of its range: the fit would go on to another shape.
+    End { parameter: String, value: f64 },
+    /// A bump of which only one flank lies inside the travel.
+    Flank,
+    /// So small a piece of a wave that a parabola follows it.
+    Piece,
+    /// A play wider than every move of the motor.
+    Play,
+    /// It is in the model already, and a sum of such shapes imitates anything.
+    Again,
+    /// A line over the angle of the spindle explains as much as one in time.
+    Angle { order: f64, ahead: f64 },
+    /// One sample alone speaks for it, and the tails of the noise reach as far.
+    OneSample { chance: f64 },
+    /// Another effect explains more; by so much evidence.
+    Victor { name: String, by: f64 },
+}
+
+impl Refusal {
+    /// Refused because another one was taken.
+    pub(crate) fn victor(victor: &Judged, judged: &Judged) -> Self {
+        let name = victor.component.term.name.clone();
+        Self::Victor { name, by: victor.evidence - judged.evidence }
+    }
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Chance { p_value } => write!(f, "not beyond chance: p = {p_value:.2e}"),
+            Self::Small { size_um, least_um } => {
+                write!(f, "too small to change a figure: {size_um:.4}, at least {least_um:.4}")
+            }
+            Self::Hunting { size_um, least_um } => {
+                write!(f, "within the swing of the loop: {size_um:.4}, at least {least_um:.4}")
+            }
+            Self::Unseen { with_um, without_um } => write!(
+                f,
+                "no better on held-out data: {with_um:.4} with it, {without_um:.4} without"
+            ),
+            Self::Range { parameter, value, stderr } => {
+                write!(f, "outside its plausible range: {parameter} {value:.4} ± {stderr:.4}")
+            }
+            Self::NegativeSquare { parameter } => {
+                write!(f, "the square of {parameter} would have to be negative")
+            }
+            Self::End { parameter, value } => {
+                write!(f, "at the end of its range: {parameter} {value:.4}")
+            }
+            Self::Flank => f.write_str("only one flank of the bump lies inside the travel"),
+            Self::Piece => f.write_str("so small a piece of a wave that any drift follows it"),
+            Self::Play => f.write_str("a play wider than every move of the motor"),
+            Self::Again => f.write_str("it is in the model already"),
+            Self::Angle { order, ahead } => {
+                write!(
+                    f,
+                    "order {order:.4} of the spindle explains as much: evidence {ahead:.1} ahead only"
+                )
+            }
+            Self::OneSample { chance } => {
+                write!(f, "one sample alone speaks for it: p = {chance:.2e} with the noise's tails")
+            }
+            Self::Victor { name, by } => {
+                write!(f, "explains less than {name}: evidence {by:.1} behind")
+            }
+        }
+    }
+}
