@@ -38,6 +38,7 @@ class Planted:
     reached: float = 0.0  # standard errors of it, all other planted ones free
     nearest: float = 0.0  # twice log likelihood by which two effects of the catalogue fall short of it
     alike: list = field(default_factory=list)  # effects that the data cannot tell from it
+    evidence: float = 0.0  # twice the log likelihood that it gains when the noise has to be found as well
     size_um: float = 0.0  # of one of a counted thing: its rivals come in whole numbers too
 
     def parameters(self):

@@ -8,7 +8,7 @@ from multiprocessing import Pool
 from pathlib import Path
 
 from .build import build
-from .judge import covered, judge
+from .judge import ASKED, ASKED_EVIDENCE, covered, judge
 from .synth import truth, write
 
 # Longest that a diagnosis may take before it counts as failed.
@@ -95,7 +95,8 @@ def levels(cases):
     out = []
     for low, high in ((2.5, 4), (4, 6.5), (7.9, 10), (10, 15), (15, 1e9)):
         mine = [case for case in cases if case["expect"] == "named" and len(case["planted"]) == 1
-                and not case["planted"][0]["alike"] and low <= case["planted"][0]["level"] < high]
+                and not case["planted"][0]["alike"] and low <= case["planted"][0]["level"] < high
+                and (low < ASKED or case["planted"][0]["evidence"] >= ASKED_EVIDENCE)]
         named = sum(case["planted"][0]["effect"] in case["effects"] and case["verdict"] == "explained" for case in mine)
         band = f"{low:g} to {high:g}" if high < 1e9 else f"{low:g} and more"
         out.append(f"| one effect that the data can tell, {band} standard errors: named | {share(named, len(mine))} |")

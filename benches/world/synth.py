@@ -6,6 +6,7 @@ import numpy as np
 
 from . import noise as noises
 from .case import GAINS
+from .evidence import weigh
 from .loop import run
 
 
@@ -70,6 +71,7 @@ def cell(case, name, value):
 
 def write(case, rng, folder):
     columns = table(rng, case)
+    weigh(case, columns)
     if case.mend:
         case.mend(columns, case)
     folder.mkdir(parents=True, exist_ok=True)
@@ -80,8 +82,8 @@ def write(case, rng, folder):
 
 def truth(case):
     planted = [
-        {"effect": one.name, "level": round(one.reached, 2), "nearest": round(one.nearest, 1), "alike": one.alike,
-         "parameters": one.parameters()}
+        {"effect": one.name, "level": round(one.reached, 2), "evidence": round(one.evidence, 1),
+         "nearest": round(one.nearest, 1), "alike": one.alike, "parameters": one.parameters()}
         for one in case.planted
     ]
     return {"kind": case.kind, "expect": case.expect, "level": case.level, "rows": len(case.record) // case.thin,
