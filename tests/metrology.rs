@@ -174,6 +174,32 @@ fn iso_230_2_by_another_implementation() {
     near(&found["systematic_um"], 8.174, 1e-9);
     near(&found["mean_range_um"], 7.702, 1e-9);
     near(&found["repeatability_um"], 1.040_254_445_190_270_4, 1e-9);
+    near(&found["systematic_forward_um"], 7.748, 1e-9);
+    near(&found["systematic_backward_um"], 7.656, 1e-9);
+    near(&found["mean_reversal_um"], -0.421_090_909_090_909, 1e-9);
+    near(&found["repeatability_forward_um"], 0.697_653_208_979_934_8, 1e-9);
+    near(&found["repeatability_backward_um"], 0.575_082_602_762_420_3, 1e-9);
+    let vdi = &found["vdi3441"];
+    near(&vdi["p_um"], 8.881_087_532_636_565, 1e-9);
+    near(&vdi["pa_um"], 7.702, 1e-9);
+    near(&vdi["u_max_um"], 0.518, 1e-9);
+    near(&vdi["ps_max_um"], 0.858_381_667_785_405_9, 1e-9);
+    near(&vdi["ps_mean_um"], 0.556_125_288_679_995_6, 1e-9);
+}
+
+/// A is 8.552 µm: conformity has to be proven, not merely not disproven.
+#[test]
+fn a_limit_within_the_uncertainty_is_not_kept() {
+    let words = ["scale", "iso230", "inductosyn-scale/axis.csv", "--limit"];
+    let decided = |limit: &str| {
+        let words = [&words[..], &[limit, "--expanded-uncertainty", "0.5 um", "--json"]].concat();
+        let (status, out, _) = run(&words);
+        let found: Value = serde_json::from_str(&out).expect("JSON");
+        (status, found["conformity"].as_str().expect("a word").to_owned())
+    };
+    assert_eq!(decided("9.1 um"), (Some(0), "proven".into()));
+    assert_eq!(decided("9.0 um"), (Some(1), "open".into()));
+    assert_eq!(decided("8.0 um"), (Some(1), "disproven".into()));
 }
 
 const WORM: &[&str] = &[

@@ -138,6 +138,9 @@ struct Iso230 {
     /// Accuracy A that must not be exceeded, µm; exit status 1 beyond
     #[arg(long, value_name = "UM", value_parser = length_um)]
     limit: Option<f64>,
+    /// Expanded uncertainty of A (k = 2), µm: the limit is then decided by ISO 14253-1
+    #[arg(long, value_name = "UM", value_parser = length_um, requires = "limit")]
+    expanded_uncertainty: Option<f64>,
     /// Print the result as JSON
     #[arg(long)]
     json: bool,
@@ -253,7 +256,7 @@ impl Iso230 {
         let errors = samples.iter().map(|sample| (*sample, sample.error_um));
         let found =
             axis_result(errors).map_err(|error| anyhow!("{}: {error}", self.data.display()))?;
-        let test = AxisTest { limit_um: self.limit, found };
+        let test = AxisTest { limit_um: self.limit, expanded_um: self.expanded_uncertainty, found };
         if self.json {
             print_json(out, &axis_json(&test))?;
         } else {

@@ -3,8 +3,9 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use helixlock_metrology::iso230::AxisResult;
+use helixlock_metrology::iso230::{AxisResult, Vdi3441};
 use helixlock_metrology::scale::{Corrected, CorrectionTable, IMAGE_BYTES, Joint, Spread};
+use helixlock_metrology::{Conformity, conformity};
 use serde_json::{Value, json};
 
 use super::samples::axis_result;
@@ -28,6 +29,8 @@ pub(crate) struct Comparison {
 pub(crate) struct AxisTest {
     /// Largest accuracy A allowed, µm.
     pub(crate) limit_um: Option<f64>,
+    /// Expanded uncertainty of A (k = 2), µm.
+    pub(crate) expanded_um: Option<f64>,
     /// What was found.
     pub(crate) found: AxisResult,
 }
@@ -55,9 +58,16 @@ impl Comparison {
 }
 
 impl AxisTest {
-    /// True when there is no limit or it is kept.
+    /// True when there is no limit or it is kept; proven so where the uncertainty is known.
     pub(crate) fn holds(&self) -> bool {
-        self.limit_um.is_none_or(|limit| self.found.accuracy_um <= limit)
+        let kept = self.limit_um.is_none_or(|limit| self.found.accuracy_um <= limit);
+        self.conformity().map_or(kept, |found| found == Conformity::Proven)
+    }
+
+    /// The decision by ISO 14253-1; absent without a limit or an uncertainty.
+    fn conformity(&self) -> Option<Conformity> {
+        let (limit_um, expanded_um) = self.limit_um.zip(self.expanded_um)?;
+        Some(conformity(self.found.accuracy_um, limit_um, expanded_um))
     }
 }
 
@@ -176,6 +186,8 @@ pub(crate) fn axis_json(test: &AxisTest) -> Value {
     });
     let mut value = axis_values(&test.found);
     value["limit_um"] = json!(test.limit_um);
+    value["expanded_uncertainty_um"] = json!(test.expanded_um);
+    value["conformity"] = json!(test.conformity().map(Conformity::name));
     value["holds"] = json!(test.limit_um.map(|_| test.holds()));
     value["targets"] = targets.collect();
     value
@@ -187,25 +199,63 @@ fn axis_values(found: &AxisResult) -> Value {
         "accuracy_forward_um": found.accuracy_unidirectional_um[0],
         "accuracy_backward_um": found.accuracy_unidirectional_um[1],
         "systematic_um": found.systematic_um,
+        "systematic_forward_um": found.systematic_unidirectional_um[0],
+        "systematic_backward_um": found.systematic_unidirectional_um[1],
         "mean_range_um": found.mean_range_um,
         "reversal_um": found.reversal_um,
+        "mean_reversal_um": found.mean_reversal_um,
         "repeatability_um": found.repeatability_um,
+        "repeatability_forward_um": found.repeatability_unidirectional_um[0],
+        "repeatability_backward_um": found.repeatability_unidirectional_um[1],
+        "vdi3441": found.vdi3441.map(|vdi| json!({
+            "p_um": vdi.uncertainty_um,
+            "pa_um": vdi.deviation_um,
+            "u_max_um": vdi.reversal_um[0],
+            "u_mean_um": vdi.reversal_um[1],
+            "ps_max_um": vdi.scatter_um[0],
+            "ps_mean_um": vdi.scatter_um[1],
+        })),
     })
+}
+
+/// Symbol, meaning and value of every figure, ISO 230-2 first, then VDI/DGQ 3441.
+fn axis_figures(found: &AxisResult) -> Vec<(&'static str, &'static str, Option<f64>)> {
+    let vdi = |figure: fn(&Vdi3441) -> f64| found.vdi3441.as_ref().map(figure);
+    vec![
+        ("A", "accuracy", Some(found.accuracy_um)),
+        ("A↑", "accuracy, forward", found.accuracy_unidirectional_um[0]),
+        ("A↓", "accuracy, backward", found.accuracy_unidirectional_um[1]),
+        ("E", "systematic error", Some(found.systematic_um)),
+        ("E↑", "systematic error, forward", found.systematic_unidirectional_um[0]),
+        ("E↓", "systematic error, backward", found.systematic_unidirectional_um[1]),
+        ("M", "range of the means", Some(found.mean_range_um)),
+        ("B", "largest reversal value", found.reversal_um),
+        ("B̄", "mean reversal value", found.mean_reversal_um),
+        ("R", "repeatability", Some(found.repeatability_um)),
+        ("R↑", "repeatability, forward", found.repeatability_unidirectional_um[0]),
+        ("R↓", "repeatability, backward", found.repeatability_unidirectional_um[1]),
+        ("P", "VDI/DGQ 3441 positional uncertainty", vdi(|vdi| vdi.uncertainty_um)),
+        ("Pa", "VDI/DGQ 3441 positional deviation", vdi(|vdi| vdi.deviation_um)),
+        ("U", "VDI/DGQ 3441 largest reversal span", vdi(|vdi| vdi.reversal_um[0])),
+        ("Ps", "VDI/DGQ 3441 largest scatter", vdi(|vdi| vdi.scatter_um[0])),
+    ]
 }
 
 /// An ISO 230-2 test for people.
 pub(crate) fn print_axis(out: &mut impl Write, test: &AxisTest) -> anyhow::Result<()> {
     let found = &test.found;
     writeln!(out, "ISO 230-2, {} targets", found.targets.len())?;
-    writeln!(out, "A  accuracy                 {:9.3} µm", found.accuracy_um)?;
-    writeln!(out, "E  systematic error         {:9.3} µm", found.systematic_um)?;
-    writeln!(out, "M  range of the means       {:9.3} µm", found.mean_range_um)?;
-    if let Some(reversal) = found.reversal_um {
-        writeln!(out, "B  reversal value           {reversal:9.3} µm")?;
+    for (symbol, meaning, value_um) in axis_figures(found) {
+        if let Some(value_um) = value_um {
+            writeln!(out, "{symbol:<6} {meaning:<38} {value_um:9.3} µm")?;
+        }
     }
-    writeln!(out, "R  repeatability            {:9.3} µm", found.repeatability_um)?;
     if let Some(limit) = test.limit_um {
-        let verdict = if test.holds() { "holds" } else { "is exceeded" };
+        let verdict = match test.conformity() {
+            Some(decision) => format!("by ISO 14253-1: conformity {}", decision.name()),
+            None if test.holds() => "holds".into(),
+            None => "is exceeded".into(),
+        };
         writeln!(out, "limit {limit} µm {verdict}")?;
     }
     Ok(())

@@ -47,12 +47,33 @@ pub struct AxisResult {
     pub accuracy_unidirectional_um: [Option<f64>; 2],
     /// Systematic positioning error E = max − min of all unidirectional means.
     pub systematic_um: f64,
+    /// Unidirectional systematic errors E↑ and E↓.
+    pub systematic_unidirectional_um: [Option<f64>; 2],
     /// Range M of the bidirectional means.
     pub mean_range_um: f64,
     /// Largest reversal value |B|.
     pub reversal_um: Option<f64>,
+    /// Mean reversal value B̄, with its sign.
+    pub mean_reversal_um: Option<f64>,
     /// Largest repeatability R.
     pub repeatability_um: f64,
+    /// Unidirectional repeatabilities R↑ and R↓: the largest 4s.
+    pub repeatability_unidirectional_um: [Option<f64>; 2],
+    /// The same approaches by VDI/DGQ 3441; absent in a unidirectional test.
+    pub vdi3441: Option<Vdi3441>,
+}
+
+/// Figures of VDI/DGQ 3441 (1977), all in µm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vdi3441 {
+    /// Positional uncertainty P = max(x̄ⱼ + (Uⱼ + Psⱼ)/2) − min(x̄ⱼ − (Uⱼ + Psⱼ)/2).
+    pub uncertainty_um: f64,
+    /// Positional deviation Pa: range of the means x̄ⱼ of both directions.
+    pub deviation_um: f64,
+    /// Reversal span U: the largest and the mean of Uⱼ = |x̄ⱼ↑ − x̄ⱼ↓|.
+    pub reversal_um: [f64; 2],
+    /// Positional scatter Ps: the largest and the mean of Psⱼ = 6·(sⱼ↑ + sⱼ↓)/2.
+    pub scatter_um: [f64; 2],
 }
 
 /// Evaluates an axis.
@@ -82,19 +103,56 @@ pub fn evaluate_axis(targets: &[Target]) -> Result<AxisResult, Error> {
     let middle = |t: &TargetResult| {
         t.mean_backward_um.map_or(t.mean_forward_um, |back| f64::midpoint(t.mean_forward_um, back))
     };
-    let reversals = results.iter().filter_map(|t| t.reversal_um.map(f64::abs));
+    let reversals: Vec<f64> = results.iter().filter_map(|t| t.reversal_um).collect();
+    let of_backward = |figure: f64| bidirectional.then_some(figure);
     Ok(AxisResult {
         accuracy_um: range(&both, 2.0),
-        accuracy_unidirectional_um: [
-            Some(range(&upward, 2.0)),
-            bidirectional.then(|| range(&downward, 2.0)),
-        ],
+        accuracy_unidirectional_um: [Some(range(&upward, 2.0)), of_backward(range(&downward, 2.0))],
         systematic_um: range(&both, 0.0),
+        systematic_unidirectional_um: [
+            Some(range(&upward, 0.0)),
+            of_backward(range(&downward, 0.0)),
+        ],
         mean_range_um: range(&results.iter().map(|t| (middle(t), 0.0)).collect::<Vec<_>>(), 0.0),
-        reversal_um: reversals.max_by(f64::total_cmp),
+        reversal_um: reversals.iter().map(|reversal| reversal.abs()).max_by(f64::total_cmp),
+        mean_reversal_um: of_backward(mean(&reversals)),
         repeatability_um: results.iter().map(|t| t.repeatability_um).fold(0.0, f64::max),
+        repeatability_unidirectional_um: [
+            Some(4.0 * largest_s(&upward)),
+            of_backward(4.0 * largest_s(&downward)),
+        ],
+        vdi3441: vdi3441(&results),
         targets: results,
     })
+}
+
+fn vdi3441(targets: &[TargetResult]) -> Option<Vdi3441> {
+    let (mut means, mut bands, mut reversals, mut scatters) = (vec![], vec![], vec![], vec![]);
+    for target in targets {
+        let (back_um, s_back_um) = (target.mean_backward_um?, target.s_backward_um?);
+        let mean_um = f64::midpoint(target.mean_forward_um, back_um);
+        let reversal_um = (target.mean_forward_um - back_um).abs();
+        let scatter_um = 6.0 * f64::midpoint(target.s_forward_um, s_back_um);
+        means.push((mean_um, 0.0));
+        bands.push((mean_um, f64::midpoint(reversal_um, scatter_um)));
+        reversals.push(reversal_um);
+        scatters.push(scatter_um);
+    }
+    let largest_and_mean = |all: &[f64]| [all.iter().copied().fold(0.0, f64::max), mean(all)];
+    Some(Vdi3441 {
+        uncertainty_um: range(&bands, 1.0),
+        deviation_um: range(&means, 0.0),
+        reversal_um: largest_and_mean(&reversals),
+        scatter_um: largest_and_mean(&scatters),
+    })
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / number(values.len())
+}
+
+fn largest_s(means: &[(f64, f64)]) -> f64 {
+    means.iter().map(|(_, s)| *s).fold(0.0, f64::max)
 }
 
 fn evaluate_target(target: &Target, bidirectional: bool) -> Result<TargetResult, Error> {
@@ -128,7 +186,7 @@ fn mean_and_s(target: &Target, deviations_um: &[f64]) -> Result<(f64, f64), Erro
     if let Some(row) = deviations_um.iter().position(|value| !value.is_finite()) {
         return Err(Error::NotFinite { row, column: "deviation" });
     }
-    let mean_um = deviations_um.iter().sum::<f64>() / number(found);
+    let mean_um = mean(deviations_um);
     let squares = deviations_um.iter().map(|value| (value - mean_um) * (value - mean_um));
     Ok((mean_um, (squares.sum::<f64>() / number(found - 1)).sqrt()))
 }
@@ -174,6 +232,19 @@ mod tests {
         // Upward: mean 0 with s 0, mean 2 with s √2; the lower bound is min(0, 2 − 2√2).
         let upward_um = 2.0 + 2.0 * s - (2.0 - 2.0 * s).min(0.0);
         assert!((found.accuracy_unidirectional_um[0].unwrap() - upward_um).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_other_figures_by_hand() {
+        let (found, s) = (by_hand(), 2.0_f64.sqrt());
+        assert_eq!(found.systematic_unidirectional_um, [Some(2.0), Some(2.0)]);
+        assert_eq!(found.repeatability_unidirectional_um, [Some(4.0 * s), Some(4.0 * s)]);
+        assert_eq!(found.mean_reversal_um, Some(3.0));
+        let vdi = found.vdi3441.unwrap();
+        assert_eq!((vdi.deviation_um, vdi.reversal_um), (2.0, [3.0, 3.0]));
+        // Ps is 6·√2/2 at either target; the means are 0.5 and −1.5.
+        assert!((vdi.scatter_um[0] - 3.0 * s).abs() < 1e-12, "{vdi:?}");
+        assert!((vdi.uncertainty_um - (2.0 + 3.0 + 3.0 * s)).abs() < 1e-12, "{vdi:?}");
     }
 
     #[test]

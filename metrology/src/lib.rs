@@ -3,6 +3,7 @@
 #![cfg_attr(test, allow(clippy::float_cmp, reason = "tests say where equality is meant"))]
 
 mod banded;
+mod conformity;
 mod error;
 pub mod iso230;
 mod number;
@@ -11,4 +12,5 @@ pub mod screw;
 pub mod straightness;
 pub mod transmission;
 
+pub use conformity::{Conformity, conformity};
 pub use error::Error;

@@ -1,0 +1,47 @@
+//! Whether a measured value proves that a limit is kept.
+
+/// What a value with its uncertainty says of an upper limit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Conformity {
+    /// Kept, even with the uncertainty against it.
+    Proven,
+    /// Exceeded, even with the uncertainty in its favour.
+    Disproven,
+    /// Neither: the value lies within the uncertainty of the limit.
+    Open,
+}
+
+/// Decides by ISO 14253-1: the tolerance is smaller by the expanded uncertainty `U` (k = 2) for
+/// whoever has to prove conformity, and larger by it for whoever has to disprove it.
+///
+/// # Examples
+///
+/// ```
+/// use helixlock_metrology::{Conformity, conformity};
+///
+/// assert_eq!(conformity(7.9, 10.0, 2.0), Conformity::Proven);
+/// assert_eq!(conformity(9.0, 10.0, 2.0), Conformity::Open);
+/// assert_eq!(conformity(12.1, 10.0, 2.0), Conformity::Disproven);
+/// ```
+#[must_use]
+pub fn conformity(value_um: f64, limit_um: f64, expanded_um: f64) -> Conformity {
+    if value_um + expanded_um <= limit_um {
+        Conformity::Proven
+    } else if limit_um < value_um - expanded_um {
+        Conformity::Disproven
+    } else {
+        Conformity::Open
+    }
+}
+
+impl Conformity {
+    /// In one word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Proven => "proven",
+            Self::Disproven => "disproven",
+            Self::Open => "open",
+        }
+    }
+}
