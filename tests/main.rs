@@ -29,6 +29,7 @@ mod initial_phase_selector;
 mod interruption;
 mod layers;
 mod learning;
+mod licences;
 mod linuxcnc;
 mod lockstep;
 mod metrology;
