@@ -16,10 +16,7 @@ mod trial;
 pub(crate) use candidates::{candidate, candidates, turn_scan};
 pub(crate) use plain_shapes::better_shape;
 pub use probes::Structure;
-pub(crate) use probes::{
-    SHARE_OF_NOISE, SIGNIFICANCE, above_hunting, all_structures, least_above_hunting, matters,
-    structures,
-};
+pub(crate) use probes::{above_hunting, all_structures, least_above_hunting, matters, structures};
 pub(crate) use setting_trial::setting_trials;
 pub(crate) use tails::chance_with_tails;
 pub(crate) use trial::{Trial, gain_at, try_candidate};

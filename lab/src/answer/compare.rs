@@ -2,11 +2,13 @@
 
 use helixlock_plant::prediction::Sensor;
 
-use crate::hypotheses::{SIGNIFICANCE, Structure, all_structures};
+use crate::hypotheses::{Structure, all_structures};
 use crate::model::{Problem, State};
 use crate::noise::{Layout, Noise, Whitener, rms};
 use crate::numerics::least_squares::dot;
 use crate::numerics::{count, median, spread};
+use crate::policy::chance::SIGNIFICANCE;
+use crate::policy::extent::COMPARED_ROWS;
 use crate::spectrum::{NamedLine, amplitude_spectrum, lines};
 
 /// Size of a residual in one pass.
@@ -66,16 +68,13 @@ pub struct Comparison {
     pub residual: Vec<f64>,
 }
 
-/// Rows beyond which structure is looked for in means of neighbouring samples.
-const MOST_ROWS: usize = 30_000;
-
 /// Compares a model with a measurement.
 ///
-/// Sizes are those of all samples; noise and structure are looked for in at most some ten
-/// thousand, means of neighbours where there are more.
+/// Sizes are those of all samples; noise and structure are looked for in at most some
+/// thirty thousand, means of neighbours where there are more.
 #[must_use]
 pub fn compare(problem: &Problem) -> Comparison {
-    let thinned = problem.thinned(MOST_ROWS);
+    let thinned = problem.thinned(COMPARED_ROWS);
     let small = thinned.as_ref().unwrap_or(problem);
     let state = State::bare(small);
     let along = all_structures(small, &state.columns, &state.fit);

@@ -9,6 +9,8 @@ use crate::model::{
 };
 use crate::noise::rms;
 use crate::numerics::least_squares::covariance_rows;
+use crate::policy::chance::{AT_AN_END, STANDARD_ERRORS};
+use crate::policy::extent::SEARCHED_ROWS;
 use crate::search::{Found, Refusal, Step, polished, pruned, rivals, search};
 
 /// What can be said about a model and a measurement.
@@ -124,16 +126,13 @@ pub struct Diagnosis {
     pub before: Vec<f64>,
 }
 
-/// Rows beyond which the search works on means of neighbouring samples.
-const MOST_ROWS: usize = 3000;
-
 /// Diagnoses a problem.
 ///
 /// The search works on at most a few thousand rows, means of neighbours where there are more;
 /// every figure that is reported is fitted to all rows.
 #[must_use]
 pub fn diagnose(problem: &Problem) -> Diagnosis {
-    let mut small = problem.thinned(MOST_ROWS).unwrap_or_else(|| problem.clone());
+    let mut small = problem.thinned(SEARCHED_ROWS).unwrap_or_else(|| problem.clone());
     let mut steps = search(&mut small);
     let (problem, mut states) = on_all_rows(problem, &small, &steps);
     if let Some(last) = states.pop() {
@@ -285,7 +284,7 @@ fn setting_counts(term: &helixlock_plant::Term, what: &helixlock_plant::Paramete
 }
 
 fn warning(value: f64, stderr: f64, range: &std::ops::RangeInclusive<f64>) -> Option<&'static str> {
-    if value.abs() < 2.0 * stderr {
+    if value.abs() < STANDARD_ERRORS * stderr {
         return Some("useless: not two standard errors from zero");
     }
     warning_at_bound(value, stderr, range)
@@ -298,7 +297,8 @@ fn warning_at_bound(
 ) -> Option<&'static str> {
     let (low, high) = (*range.start(), *range.end());
     let open = low < high;
-    (open && (value <= low + 0.01 * stderr || high - 0.01 * stderr <= value))
+    let slack = AT_AN_END * stderr;
+    (open && (value <= low + slack || high - slack <= value))
         .then_some("at the bound of its plausible range")
 }
 

@@ -6,6 +6,7 @@ use crate::measurement::Measurement;
 use crate::model::{Component, Problem, State};
 use crate::noise::rms;
 use crate::numerics::spread;
+use crate::policy::size::{ANOTHER_SPEED, DWELL, WORTHWHILE_UM};
 use crate::search::Found;
 
 /// An experiment with what it is expected to separate.
@@ -28,13 +29,12 @@ struct Experiment {
     change: fn(&mut Measurement),
 }
 
-/// Separation below which an experiment is not proposed, µm (arcsec).
-const WORTHWHILE_UM: f64 = 0.01;
-
 const EXPERIMENTS: [Experiment; 5] = [
     Experiment {
         action: "measure once more at half the spindle speed",
-        done: |m| 1e-3 < spread(&m.speed_rpm) / m.speed_rpm.first().copied().unwrap_or(1.0),
+        done: |m| {
+            ANOTHER_SPEED < spread(&m.speed_rpm) / m.speed_rpm.first().copied().unwrap_or(1.0)
+        },
         change: slower,
     },
     Experiment {
@@ -54,7 +54,7 @@ const EXPERIMENTS: [Experiment; 5] = [
     },
     Experiment {
         action: "dwell with the table locked, then measure once more",
-        done: |m| pause_s(m) * 2.0 > spread(&m.time_s),
+        done: |m| DWELL * spread(&m.time_s) < pause_s(m),
         change: later,
     },
 ];

@@ -9,9 +9,7 @@ use helixlock_sim::{Error, Options, Simulation, Trace, simulate};
 
 use crate::model::Problem;
 use crate::numerics::count;
-
-/// Comparisons at the beginning of a run in which the loop pulls in.
-const PULLING_IN: usize = 10;
+use crate::policy::extent::PULLING_IN;
 
 /// What the run shows of one sensor.
 #[derive(Debug, Clone)]

@@ -12,12 +12,7 @@ use rayon::prelude::*;
 use crate::model::{Columns, Fit, Problem, noises_of, settle};
 use crate::noise::{Layout, Noise};
 use crate::numerics::{chi_squared_tail, count};
-
-/// Draws of noise; their mean and variance say which scaled χ² a gain follows.
-const DRAWS: u64 = 16;
-
-/// Gain a column above which no noise is to blame.
-const BEYOND_DOUBT: f64 = 40.0;
+use crate::policy::chance::{BEYOND_DOUBT, DRAWS};
 
 /// Chance of a gain of some free columns in noise like that of a fit.
 ///

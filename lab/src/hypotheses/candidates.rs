@@ -4,6 +4,7 @@ use helixlock_plant::{CATALOGUE, Entry, Formula, Parameter, Record, Search, Term
 
 use crate::model::{Component, Problem, Stage};
 use crate::numerics::{count, median, spread};
+use crate::policy::extent::{FREQUENCIES, LONGEST, NARROWEST, OVERTONES, SLOWEST_WAVES};
 use crate::spectrum::{Scan, gear_orders, strongest_first};
 
 /// An effect that may be missing.
@@ -24,7 +25,7 @@ const PLAIN: usize = 24;
 /// Places along the travel.
 const PLACES: usize = 48;
 /// Instants along the record.
-const INSTANTS: usize = 96;
+pub(super) const INSTANTS: usize = 96;
 /// Most grid points of an effect.
 const MOST: usize = 3000;
 
@@ -46,9 +47,6 @@ pub(crate) fn candidates(stage: &Stage<'_>, found: &[Component]) -> Vec<Candidat
         .map(|candidate| with_overtones(candidate, stage.problem, found))
         .collect()
 }
-
-/// Highest overtone of a gear that is looked for: a worm shows five.
-const OVERTONES: u16 = 5;
 
 /// Adds the overtones of gears that the model has already: without its fundamental, a line at
 /// twice a gear's order is nobody's.
@@ -113,7 +111,7 @@ pub(crate) fn candidate(stage: &Stage<'_>, term: Term) -> Option<Candidate> {
     }
     if term.parameters.iter().any(Parameter::is_frequency) {
         let times = row_times(stage.problem);
-        looks *= time_scan(stage, &times, 0.0, f64::INFINITY).looks() / 16.0;
+        looks *= time_scan(stage, &times, 0.0, f64::INFINITY).looks() / count(FREQUENCIES);
     }
     let candidate = Candidate { term, grid, steps, looks };
     stage.problem.design(&candidate.at(0)).is_ok().then_some(candidate)
@@ -163,21 +161,21 @@ fn evenly(low: f64, high: f64, points: usize) -> Vec<f64> {
     (0..points).map(|i| low + (high - low) * (count(i) + 0.5) / count(points)).collect()
 }
 
-/// Values that the record can tell apart: times between two samples and twice its length, widths
-/// from a two-hundredth of the travel on.
+/// Values that the record can tell apart: times from an interval on, widths from a small part of
+/// the travel on, neither much longer than the record.
 fn logarithmic(problem: &Problem, parameter: &Parameter) -> Vec<f64> {
     let (mut low, mut high) = (*parameter.range.start(), *parameter.range.end());
     let told = match parameter.unit.suffix().as_str() {
         "s" => Some((interval_s(&problem.record), spread(&problem.record.time_s))),
         "mm" => {
             let travel_mm = spread(&problem.record.position_mm);
-            Some((travel_mm / 200.0, travel_mm))
+            Some((travel_mm / NARROWEST, travel_mm))
         }
         _ => None,
     };
     if let Some((least, whole)) = told.filter(|(_, whole)| 0.0 < *whole) {
         low = low.max(least);
-        high = high.min(whole * 2.0).max(low);
+        high = high.min(whole * LONGEST).max(low);
     }
     let (from, to) = (libm::log(low.max(1e-12)), libm::log(high.max(1e-12)));
     evenly(from, to, PLAIN).into_iter().map(libm::exp).collect()
@@ -233,7 +231,6 @@ pub(crate) fn between_samples(time_s: &[f64]) -> Vec<f64> {
 
 /// Distinct frequencies of the strongest lines in time.
 fn frequencies(stage: &Stage<'_>, low: f64, high: f64) -> Vec<f64> {
-    const MOST: usize = 16;
     let times = row_times(stage.problem);
     let scan = time_scan(stage, &times, low, high);
     let resolution = scan.resolution();
@@ -243,7 +240,7 @@ fn frequencies(stage: &Stage<'_>, low: f64, high: f64) -> Vec<f64> {
         if peaks.iter().all(apart) {
             peaks.push(point.frequency);
         }
-        if peaks.len() == MOST {
+        if peaks.len() == FREQUENCIES {
             break;
         }
     }
@@ -260,7 +257,7 @@ fn time_scan<'a>(stage: &'a Stage<'_>, times: &'a [f64], low: f64, high: f64) ->
         noises: &stage.noises,
         turns: times,
         whitener: &stage.whitener,
-        lowest: low.max(1.5 / spread(times).max(f64::MIN_POSITIVE)),
+        lowest: low.max(SLOWEST_WAVES / spread(times).max(f64::MIN_POSITIVE)),
         highest: high.min(stage.problem.highest_hz),
     }
 }

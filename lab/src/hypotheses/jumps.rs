@@ -4,9 +4,7 @@ use super::tails::chance_beyond;
 use crate::model::{Fit, Problem};
 use crate::noise::Whitener;
 use crate::numerics::median;
-
-/// A whitened sample beyond this many deviations is a jump.
-const DEVIATIONS: f64 = 5.0;
+use crate::policy::chance::{FEWEST_JUMPS, JUMP_DEVIATIONS};
 
 /// Usual size of the jumps, µm (arcsec), and the chance of so many in noise.
 ///
@@ -18,31 +16,31 @@ pub(crate) fn jumps(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
     let mut sizes = Vec::new();
     for block in &problem.layout.blocks {
         for row in block.rows.clone().skip(1) {
-            if DEVIATIONS < white[row].abs() {
+            if JUMP_DEVIATIONS < white[row].abs() {
                 sizes.push((fit.left[row] - fit.left[row - 1]).abs());
             }
         }
     }
-    if sizes.len() < 2 {
+    if sizes.len() < FEWEST_JUMPS {
         return None;
     }
-    let p_value = chance_beyond(&white, DEVIATIONS, sizes.len());
+    let p_value = chance_beyond(&white, JUMP_DEVIATIONS, sizes.len());
     Some((median(&mut sizes), p_value))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::hypotheses::probes::SIGNIFICANCE;
     use crate::numerics::count;
+    use crate::policy::chance::SIGNIFICANCE;
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
     use rand_distr::{Distribution, StandardNormal, StudentT};
 
     /// Samples beyond the limit, and their chance.
     fn judged(values: &[f64]) -> Option<f64> {
-        let jumps = values.iter().filter(|value| DEVIATIONS < value.abs()).count();
-        (1 < jumps).then(|| chance_beyond(values, DEVIATIONS, jumps))
+        let jumps = values.iter().filter(|value| JUMP_DEVIATIONS < value.abs()).count();
+        (FEWEST_JUMPS <= jumps).then(|| chance_beyond(values, JUMP_DEVIATIONS, jumps))
     }
 
     /// Heavy tails are no jumps: fewer than one in a hundred records of them is taken for some.

@@ -12,15 +12,13 @@ use super::probes::Structure;
 use crate::model::{Columns, Component, Problem, Stage, State, settle};
 use crate::noise::rms;
 use crate::numerics::count;
+use crate::policy::evidence::PLAIN_SHAPE;
 
 /// Effects that are smooth curves or stairs over the travel.
 const CURVES: [&str; 3] = ["screw-progressive", "steady-sag", "compensator-staircase"];
 
 /// Places tried for a plain shape before it is looked for nearby.
 const PLACES: usize = 100;
-
-/// Evidence by which a plain shape must be better.
-const BETTER: f64 = 10.0;
 
 /// The plain shape that explains more than some imitators of a model, with fewer numbers.
 ///
@@ -71,7 +69,7 @@ fn better_than(problem: &Problem, state: &State, group: &[usize]) -> Option<Stru
     let mut names: Vec<&str> = imitators.iter().map(|one| one.term.name.as_str()).collect();
     names.sort_unstable();
     names.dedup();
-    (BETTER < ahead).then(|| Structure {
+    (PLAIN_SHAPE < ahead).then(|| Structure {
         along: axis.name().to_owned(),
         shape: format!("{}, better than {}", best.name, names.join(" and ")),
         rms_um: rms(&problem.layout, &settle(problem, &base, &state.fit.noises).left),

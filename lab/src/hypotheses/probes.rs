@@ -10,6 +10,15 @@ use super::tails::chance_with_tails;
 use crate::model::{Columns, Fit, Problem, Row, Stage, settle};
 use crate::noise::rms;
 use crate::numerics::{chi_squared_tail, count, spread};
+use crate::policy::chance::{CLEAR_LINE, MANY_COLUMNS, PROBES, SIGNIFICANCE};
+use crate::policy::extent::{
+    BUMP_ORDER, COLUMNS_OF_PASSES, CURVE_OF_A_PASS, CURVE_ORDER, HARMONICS, ROWS_A_COLUMN, TURNS,
+    WAVE_ORDER,
+};
+use crate::policy::size::{
+    CLEAR_SHARE_OF_NOISE, FAR_ABOVE, LOOP_JUMP, SHARE_OF_ERROR, SHARE_OF_NOISE,
+    SLOW_SHARE_OF_HUNTING,
+};
 use crate::spectrum::{Line, LineSearch};
 
 /// What is left, in the words of a person.
@@ -39,26 +48,10 @@ impl Structure {
     }
 }
 
-/// Probes beside those of logged columns.
-const PROBES: f64 = 12.0;
-
 /// Number of probes, for they are counted together: every logged column is one more.
 fn probes(problem: &Problem) -> f64 {
     PROBES + count(problem.measurement.covariates.len())
 }
-
-/// A chance smaller than this is structure.
-pub(crate) const SIGNIFICANCE: f64 = 1e-4;
-
-/// Structure weaker than this share of the noise is left alone: it changes no figure.
-pub(crate) const SHARE_OF_NOISE: f64 = 0.25;
-
-/// Share of the noise and chance of a line that is small but beyond doubt.
-const CLEAR: (f64, f64) = (0.08, 1e-12);
-
-/// Share of the error before any effect below which nothing is looked for: no formula of the
-/// catalogue is better than that.
-const SHARE_OF_ERROR: f64 = 1e-3;
 
 /// True for something beyond chance and large enough to change a figure.
 #[must_use]
@@ -83,7 +76,9 @@ pub(crate) fn least_above_hunting(problem: &Problem) -> f64 {
 
 /// True for a line so clear that no flaw of a noise model or of a smooth formula makes it.
 fn clear_line(structure: &Structure, noise_um: f64) -> bool {
-    structure.line.is_some() && structure.p_value < CLEAR.1 && CLEAR.0 * noise_um < structure.rms_um
+    structure.line.is_some()
+        && structure.p_value < CLEAR_LINE
+        && CLEAR_SHARE_OF_NOISE * noise_um < structure.rms_um
 }
 
 /// Everything a fit leaves that is not noise, clearest first.
@@ -95,7 +90,7 @@ pub(crate) fn structures(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<S
     found.retain(|s| matters(s.rms_um, noise, s.p_value) || clear_line(s, noise));
     found.retain(|s| exact < s.rms_um);
     // What is no effect may be any of its lines.
-    found.retain(|s| above_hunting(problem, 0.5 * s.rms_um));
+    found.retain(|s| above_hunting(problem, SLOW_SHARE_OF_HUNTING * s.rms_um));
     found
 }
 
@@ -138,17 +133,11 @@ fn probe(problem: &Problem, model: &Columns, fit: &Fit, raw: &[Vec<f64>]) -> (f6
     let after = rms(&problem.layout, &wider.left);
     let size = (before * before - after * after).max(0.0).sqrt();
     let mut p_value = (probes(problem) * chi_squared_tail(gain, width)).min(1.0);
-    if MANY <= raw.len() && matters(size, before, p_value) {
+    if MANY_COLUMNS <= raw.len() && matters(size, before, p_value) {
         p_value = (probes(problem) * calibration::chance(problem, model, fit, raw, gain)).min(1.0);
     }
     (size, p_value)
 }
-
-/// Columns from which on χ² is too optimistic and the chance is found by trying noise.
-const MANY: usize = 6;
-
-/// Variance by which a shape of many columns must exceed what it leaves.
-const FAR_ABOVE: f64 = 2.25;
 
 /// True for a shape that stands far above the rest: many columns also follow slow noise.
 fn far_above(rms_um: f64, noise_um: f64) -> bool {
@@ -160,24 +149,24 @@ fn smooth(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
     let noise = rms(&problem.layout, &fit.left);
     let passes = record.passes().len();
     let position = &record.position_mm;
-    let mut axes =
-        vec![("position", position, 6), ("position", position, 24), ("position", position, 64)];
+    let orders = [CURVE_ORDER, BUMP_ORDER, WAVE_ORDER];
+    let mut axes: Vec<_> = orders.map(|order| ("position", position, order)).into();
     if problem.model.rotary || 1 < passes {
-        axes.push(("time", &record.time_s, 6));
+        axes.push(("time", &record.time_s, CURVE_ORDER));
     }
     let mut found = Vec::new();
     for (along, values, order) in axes {
-        if spread(values) <= 0.0 || problem.rows.len() < 6 * order {
+        if spread(values) <= 0.0 || problem.rows.len() < ROWS_A_COLUMN * order {
             continue;
         }
         let raw = stacked(problem, &chebyshev(values, order));
         let (rms_um, mut p_value) = probe(problem, model, fit, &raw);
-        if 30 < order && !far_above(rms_um, noise) {
+        if order == WAVE_ORDER && !far_above(rms_um, noise) {
             p_value = 1.0;
         }
         let shape = match order {
-            0..10 => "smooth curve",
-            10..30 => "local bump or wave",
+            CURVE_ORDER => "smooth curve",
+            BUMP_ORDER => "local bump or wave",
             _ => "wave whose length changes, or several bumps",
         };
         found.push(Structure::without_place(along, shape, rms_um, p_value));
@@ -186,15 +175,12 @@ fn smooth(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
     found
 }
 
-/// Columns of all passes together that their own smooth curves may have.
-const COLUMNS_OF_PASSES: usize = 48;
-
 /// A smooth curve over the travel that is another one in every pass.
 fn smooth_in_passes(problem: &Problem, model: &Columns, fit: &Fit) -> Option<Structure> {
     let passes = problem.record.passes();
-    let order = (COLUMNS_OF_PASSES / passes.len().max(1)).min(8);
-    let few = problem.rows.len() < 6 * order * passes.len();
-    if passes.len() < 2 || order < 3 || few {
+    let order = (COLUMNS_OF_PASSES / passes.len().max(1)).min(*CURVE_OF_A_PASS.end());
+    let few = problem.rows.len() < ROWS_A_COLUMN * order * passes.len();
+    if passes.len() < 2 || order < *CURVE_OF_A_PASS.start() || few {
         return None;
     }
     let mut raw = Vec::new();
@@ -219,9 +205,6 @@ fn repeats(problem: &Problem, fit: &Fit) -> Option<Structure> {
     Some(Structure::without_place("position", "repeats from pass to pass", rms_um, p_value))
 }
 
-/// Swings of a loop that a jump must exceed to be none of them, with the noise of two samples.
-const LOOP_JUMP: f64 = 3.0;
-
 /// Several jumps, wherever they are.
 fn jumping(problem: &Problem, fit: &Fit) -> Option<Structure> {
     let (rms_um, chance) = jumps(problem, fit)?;
@@ -239,7 +222,7 @@ fn cyclic_shapes(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure
     if let Some(screw) = problem.model.lead_screw.as_ref().filter(|_| !problem.model.rotary) {
         axes.push(("machine screw angle", problem.model.workpiece.lead.mm() / screw.mm()));
     }
-    let enough = |order: &f64| 2.0 < order * spread(&turns);
+    let enough = |order: &f64| TURNS < order * spread(&turns);
     axes.into_iter()
         .filter(|(_, order)| enough(order))
         .map(|(along, order)| {
@@ -250,9 +233,9 @@ fn cyclic_shapes(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure
         .collect()
 }
 
-/// Sines and cosines of the first four harmonics.
+/// Sines and cosines of the first harmonics.
 fn turning(turns: &[f64], order: f64) -> Vec<Vec<f64>> {
-    (1..=4)
+    (1..=HARMONICS)
         .flat_map(|harmonic| {
             let angle = |turn: &f64| std::f64::consts::TAU * order * f64::from(harmonic) * turn;
             let sine = turns.iter().map(|turn| libm::sin(angle(turn))).collect();

@@ -6,6 +6,7 @@ use crate::model::{Fit, Problem};
 use crate::noise::Whitener;
 use crate::numerics::count;
 use crate::numerics::least_squares::dot;
+use crate::policy::extent::COMMON_SAMPLES;
 
 /// Mean correlation of neighbouring passes, and its chance in independent noise.
 ///
@@ -55,7 +56,7 @@ fn along_travel(
     if !forward {
         points.reverse();
     }
-    (one_way && 32 <= points.len()).then_some(points)
+    (one_way && COMMON_SAMPLES <= points.len()).then_some(points)
 }
 
 /// Correlation over the common travel, and its standard deviation in independent noise.
@@ -74,7 +75,7 @@ fn correlation(a: &[(f64, f64)], b: &[(f64, f64)]) -> Option<(f64, f64)> {
         first.push(value);
         second.push(y0 + share * (y1 - y0));
     }
-    if first.len() < 32 {
+    if first.len() < COMMON_SAMPLES {
         return None;
     }
     centre(&mut first);
@@ -96,7 +97,7 @@ fn centre(values: &mut [f64]) {
     }
 }
 
-/// Autocorrelations at lags 1 … a tenth of the series.
+/// Autocorrelations at lags 1 … a tenth of the series, at most 100.
 fn autocorrelations(values: &[f64]) -> Vec<f64> {
     let power = dot(values, values).max(f64::MIN_POSITIVE);
     let lags = (values.len() / 10).clamp(1, 100);

@@ -6,12 +6,8 @@ use super::settings::alternatives;
 use super::trial::{Trial, gain_at};
 use crate::model::{Columns, Component, Stage};
 use crate::numerics::count;
-
-/// Slopes that physics leaves lie within this, µm/m; it sets what an exact match is worth.
-const PHYSICAL_UM_PER_M: f64 = 400.0;
-
-/// Relative error of a slope that the air and the wavelength leave in any case.
-const EXACT: f64 = 1e-4;
+use crate::policy::chance::EXACT_STANDARD_ERRORS;
+use crate::policy::evidence::{EXACT_SLOPE, NORMAL_WIDTH, PHYSICAL_UM_PER_M};
 
 /// The setting that fits a slope best, if one does to within four standard errors.
 ///
@@ -24,7 +20,7 @@ pub(crate) fn setting_trials(stage: &Stage<'_>) -> Option<Trial> {
     let slope = Columns::free(vec![problem.column(Entry::AngleReference, &metres)]);
     let free = stage.gain(&slope);
     let (value, stderr) = (free.fit.coefficients[0], free.fit.covariance[(0, 0)].sqrt());
-    if !value.is_finite() || stderr <= 0.0 || value.abs() < 4.0 * stderr {
+    if !value.is_finite() || stderr <= 0.0 || value.abs() < EXACT_STANDARD_ERRORS * stderr {
         return None;
     }
     let all = alternatives(&problem.model);
@@ -32,7 +28,8 @@ pub(crate) fn setting_trials(stage: &Stage<'_>) -> Option<Trial> {
     let near = |setting: &Term| {
         let slope = slope_um_per_m(stage, setting)?;
         // A slope can pass for slow noise, and then its standard error is no measure.
-        let tolerance = (4.0 * stderr).min(PHYSICAL_UM_PER_M) + EXACT * slope.abs();
+        let tolerance =
+            (EXACT_STANDARD_ERRORS * stderr).min(PHYSICAL_UM_PER_M) + EXACT_SLOPE * slope.abs();
         ((slope - value).abs() < tolerance).then(|| setting.clone())
     };
     all.iter()
@@ -40,7 +37,7 @@ pub(crate) fn setting_trials(stage: &Stage<'_>) -> Option<Trial> {
         .map(Component::new)
         .filter_map(|component| {
             let gain = gain_at(stage, &component)?.gain;
-            let looks = tried * 2.5 * stderr / PHYSICAL_UM_PER_M;
+            let looks = tried * NORMAL_WIDTH * stderr / PHYSICAL_UM_PER_M;
             Some(Trial { component, gain, looks, coefficients: Vec::new() })
         })
         .max_by(|a, b| a.gain.total_cmp(&b.gain))

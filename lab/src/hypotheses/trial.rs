@@ -3,11 +3,14 @@
 use helixlock_plant::Search;
 use rayon::prelude::*;
 
-use super::candidates::{Candidate, around, between_samples};
+use super::candidates::{Candidate, INSTANTS, around, between_samples};
 use super::grid::{on_grid, usable};
 use crate::model::{Columns, Component, Gain, Stage};
 use crate::numerics::simplex::minimise;
 use crate::numerics::{count, simplex, spread};
+use crate::policy::chance::EXACT_STANDARD_ERRORS;
+use crate::policy::evidence::{LARGEST_STEP_UM, WHOLE};
+use crate::policy::extent::SUDDEN_CHANGES;
 
 /// A candidate at its best under a stage's noise.
 #[derive(Debug, Clone)]
@@ -67,9 +70,6 @@ pub(crate) fn try_candidate(stage: &Stage<'_>, candidate: &Candidate) -> Option<
     Some(Trial { component, gain: best.gain, looks: candidate.looks * choices, coefficients })
 }
 
-/// Sudden changes that an effect of one moment is tried at.
-const SUDDEN: usize = 16;
-
 /// Instants of the most sudden changes, for effects of one moment.
 ///
 /// Slow noise takes back a step that is tried a few samples too early or too late, so that it
@@ -86,7 +86,7 @@ fn sudden_places(stage: &Stage<'_>, candidate: &Candidate) -> Vec<Vec<f64>> {
         .collect();
     let size = |row: usize| stage.target[row].abs();
     later.sort_by(|&a, &b| size(b).total_cmp(&size(a)));
-    later.truncate(SUDDEN);
+    later.truncate(SUDDEN_CHANGES);
     let before = |row: usize| 0.5 * (time_s[rows[row - 1].sample] + time_s[rows[row].sample]);
     let at = |row: usize| {
         let mut place = first.clone();
@@ -150,9 +150,6 @@ fn starts(grid: &[Vec<f64>], gains: &[f64]) -> Vec<usize> {
     starts
 }
 
-/// Largest step that a count is looked for, µm; it sets what a whole number must pay.
-const LARGEST_STEP_UM: f64 = 5.0;
-
 /// Holds counts at the whole number nearest to their fit; `None` when they are none.
 ///
 /// Also the number of whole numbers that were open, against the freedom of one coefficient.
@@ -164,7 +161,7 @@ fn counted(stage: &Stage<'_>, component: Component) -> Option<(Component, f64)> 
         let value = free.coefficients[column];
         let stderr = free.covariance[(column, column)].max(0.0).sqrt();
         let whole = value.round();
-        let near = 4.0 * stderr + 0.02;
+        let near = EXACT_STANDARD_ERRORS * stderr + WHOLE;
         if whole == 0.0 || (stage.is_noise(&free) && near < (value - whole).abs()) {
             return None;
         }
@@ -226,7 +223,7 @@ fn sharpened(stage: &Stage<'_>, candidate: &Candidate, start: &[f64]) -> Vec<f64
             continue;
         }
         let gaps = between_samples(&stage.problem.record.time_s);
-        let reach = gaps.len() / 96 + 2;
+        let reach = gaps.len() / INSTANTS + 2;
         let nearby = around(&gaps, best[place], reach);
         let columns = |gap: &f64| {
             let mut values = best.clone();

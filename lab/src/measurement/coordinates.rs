@@ -4,6 +4,7 @@ use helixlock_traces::Table;
 
 use super::Nominal;
 use super::error::LabError;
+use crate::policy::reading::CLOCK_S;
 
 /// Coordinates of the rows of a table, in the order of the file; NaN where unknown.
 #[derive(Debug, Clone)]
@@ -63,7 +64,7 @@ pub(crate) fn complete(table: &Table, nominal: &Nominal) -> Result<Coordinates, 
 fn from_start(time: &[f64]) -> Vec<f64> {
     let first = time.iter().copied().filter(|t| t.is_finite()).fold(f64::INFINITY, f64::min);
     // A record that begins soon after zero keeps its own zero: effects count from there.
-    let start = if first.abs() < 86_400.0 { 0.0 } else { first };
+    let start = if first.abs() < CLOCK_S { 0.0 } else { first };
     time.iter().map(|t| t - start).collect()
 }
 

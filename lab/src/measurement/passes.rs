@@ -6,6 +6,9 @@ use helixlock_traces::Table;
 
 use super::coordinates::Coordinates;
 use crate::numerics::{count, median, spread};
+use crate::policy::reading::{
+    DIRECTION_REACH, JUMP_OF_MOVES, JUMP_OF_TRAVEL, REVERSAL_REACH, ROWS_A_PASS, ROWS_A_REVERSAL,
+};
 
 /// Rows of the table in pass and time order, with what follows from that order.
 #[derive(Debug)]
@@ -98,9 +101,9 @@ fn by_jumps(
     let mut sizes: Vec<f64> = moves.iter().map(|m| m.abs()).collect();
     let usual = median(&mut sizes);
     let range = spread(&rows.iter().map(|&r| coordinates.angle_rev[r]).collect::<Vec<_>>());
-    let far = (50.0 * usual).max(0.2 * range);
+    let far = (JUMP_OF_MOVES * usual).max(JUMP_OF_TRAVEL * range);
     let jumps = moves.iter().filter(|m| far < m.abs()).count();
-    let shuffled = rows.len() < 20 * jumps;
+    let shuffled = rows.len() < ROWS_A_PASS * jumps;
     let mut groups = vec![(1.0, vec![rows[0]])];
     for (pair, step) in rows.windows(2).zip(&moves) {
         if coordinates.placed && !shuffled && far < step.abs() {
@@ -126,7 +129,7 @@ fn order(members: &mut [usize], coordinates: &Coordinates) {
         .windows(3)
         .filter(|w| (angle(w[1]) - angle(w[0])) * (angle(w[2]) - angle(w[1])) < 0.0)
         .count();
-    if members.len() < 8 * turns {
+    if members.len() < ROWS_A_REVERSAL * turns {
         members.sort_by(|&a, &b| angle(a).total_cmp(&angle(b)));
     }
 }
@@ -141,8 +144,8 @@ fn direction(table: &Table, coordinates: &Coordinates, members: &[usize]) -> Vec
     let mut signs = Vec::with_capacity(members.len());
     for (index, &row) in members.iter().enumerate() {
         let told = given.map_or(f64::NAN, |column| column[row]);
-        // Two samples each way, so that a jitter of the scale is no reversal.
-        let way = travel(index.saturating_sub(2), (index + 2).min(last));
+        let way =
+            travel(index.saturating_sub(DIRECTION_REACH), (index + DIRECTION_REACH).min(last));
         if told.is_finite() && told != 0.0 {
             before = told.signum();
         } else if way != 0.0 {
@@ -166,7 +169,8 @@ fn turn_at_extremes(signs: &mut [f64], angle: impl Fn(usize) -> f64, time: impl 
     let speed = |i: usize| ((angle(i + 1) - angle(i)) / (time(i + 1) - time(i))).abs();
     for change in changes {
         let way = signs[change - 1];
-        let window = change.saturating_sub(3)..(change + 3).min(signs.len());
+        let window =
+            change.saturating_sub(REVERSAL_REACH)..(change + REVERSAL_REACH).min(signs.len());
         let far = |&a: &usize, &b: &usize| (way * angle(a)).total_cmp(&(way * angle(b)));
         let Some(last) = window.clone().max_by(far) else { continue };
         let turned = 0 < last && last + 1 < signs.len() && speed(last - 1) < speed(last);

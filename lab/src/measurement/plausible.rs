@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 use helixlock_traces::Table;
 
 use super::error::LabError;
+use crate::policy::reading::KELVIN;
 
 /// What a sensor can read at all, its unit taken at its word.
 struct Limits {
@@ -31,9 +32,6 @@ const LIMITS: &[Limits] = &[
     limits("air_pressure_hpa", (f64::MIN_POSITIVE..=f64::MAX, "a pressure in hPa, above 0")),
     limits("humidity_pct", (-2.0..=102.0, "a relative humidity in %, 0 to 100")),
 ];
-
-/// A shop in °C is never this hot throughout; one in kelvin always is.
-const KELVIN: RangeInclusive<f64> = 200.0..=400.0;
 
 const KELVIN_HINT: &str = "\n\nhint: if these are kelvin, name the column so, as in \
                            `air temperature [K]`, or take 273.15 off";

@@ -17,13 +17,7 @@ use helixlock_traces::{Column, Table};
 
 use super::error::LabError;
 use crate::numerics::count;
-
-/// Fewest pulses of a train that say anything.
-const FEWEST: usize = 4;
-
-/// Fringes a line, over what the dividers say, beyond which the trains are not those of this
-/// machine: a wrong line count is a few per cent, exchanged signals or a wrong lead are more.
-const MOST_OFF: f64 = 1.25;
+use crate::policy::reading::{FEWEST_PULSES, MOST_OFF};
 
 /// Rising edges of both references, and the steps of the corrector if they were captured.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -72,13 +66,13 @@ impl PulseTrains {
     /// Fewer than four pulses in a train, or trains whose ratio is not that of the machine.
     pub fn table(&self, machine: &Model) -> Result<(Table, Vec<String>), LabError> {
         for (train, pulses) in [("grating", &self.grating_s), ("laser", &self.laser_s)] {
-            if pulses.len() < FEWEST {
+            if pulses.len() < FEWEST_PULSES {
                 let path = self.path.display().to_string();
                 return Err(LabError::FewPulses {
                     path,
                     train,
                     found: pulses.len(),
-                    expected: FEWEST,
+                    expected: FEWEST_PULSES,
                 });
             }
         }

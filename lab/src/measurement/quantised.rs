@@ -6,6 +6,7 @@
 //! structure of the machine.
 
 use super::Measurement;
+use crate::policy::reading::{CHANGES_A_LEAP, FEWEST_VALUES, OFF_THE_LATTICE};
 
 /// Quantities that change steadily, and whether they go on from pass to pass.
 const STEADY: [(&str, bool); 7] = [
@@ -17,9 +18,6 @@ const STEADY: [(&str, bool); 7] = [
     ("bed_pitch_arcsec", false),
     ("force_n", false),
 ];
-
-/// Fewest values on a lattice: fewer may be settings.
-const FEWEST_VALUES: usize = 5;
 
 impl Measurement {
     /// The same with the treads of rounded logs bridged, and a note on each.
@@ -58,12 +56,14 @@ fn lattice(values: &[f64]) -> Option<f64> {
     let step = gaps.fold(f64::INFINITY, f64::min);
     let whole = |level: &f64| {
         let steps = (level - levels[0]) / step;
-        (steps - steps.round()).abs() < 0.02
+        (steps - steps.round()).abs() < OFF_THE_LATTICE
     };
     let moves = values.windows(2).map(|pair| ((pair[1] - pair[0]) / step).abs());
     let changes = moves.clone().filter(|steps| 0.5 < *steps).count();
     let leaps = moves.filter(|steps| 1.5 < *steps).count();
-    let stair = FEWEST_VALUES <= levels.len() && 2 * leaps <= changes && levels.iter().all(whole);
+    let stair = FEWEST_VALUES <= levels.len()
+        && CHANGES_A_LEAP * leaps <= changes
+        && levels.iter().all(whole);
     stair.then_some(step)
 }
 

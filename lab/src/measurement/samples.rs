@@ -9,6 +9,7 @@ use helixlock_traces::{Table, TextColumn};
 use super::error::LabError;
 use super::{coordinates, headers, passes, plausible};
 use crate::numerics::spread;
+use crate::policy::reading::FEWEST_SAMPLES;
 
 /// What the machine file says that a data file may leave out.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -101,9 +102,6 @@ fn is_of_another_run(name: &str) -> bool {
     name == "raw_error_um" || rest == "raw_error_um" || NOT_COVARIATES.contains(&rest)
 }
 
-/// Fewest samples that say anything about noise.
-const FEWEST: usize = 16;
-
 impl Measurement {
     /// Orders and completes the samples of a table.
     ///
@@ -149,8 +147,8 @@ impl Measurement {
             coordinates.usable(*row) && observed.iter().any(|(_, values)| values[*row].is_finite())
         };
         let rows: Vec<usize> = (0..table.rows()).filter(keep).collect();
-        if rows.len() < FEWEST {
-            return Err(LabError::TooFew { path, found: rows.len(), expected: FEWEST });
+        if rows.len() < FEWEST_SAMPLES {
+            return Err(LabError::TooFew { path, found: rows.len(), expected: FEWEST_SAMPLES });
         }
         let mut notes = coordinates.notes.clone();
         let dropped = table.rows() - rows.len();

@@ -8,9 +8,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::Measurement;
 use crate::numerics::count;
-
-/// Samples on each side of a reversal that stay single: there play and wind-up change quickly.
-const AROUND_REVERSALS: usize = 8;
+use crate::policy::reading::AROUND_REVERSALS;
 
 /// Mean of each group of values.
 #[must_use]

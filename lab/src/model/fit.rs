@@ -10,6 +10,7 @@ use super::problem::Problem;
 use crate::noise::{Layout, Noise, Whitener, fit_noise};
 use crate::numerics::least_squares;
 use crate::numerics::least_squares::LinearFit;
+use crate::policy::size::FINEST_SENSOR_UM;
 
 /// A fitted model.
 #[derive(Debug, Clone)]
@@ -75,13 +76,9 @@ fn adjusted_noises(problem: &Problem, left: &[f64], near: &[Noise]) -> Vec<Noise
     with_index.map(|(sensor, noise)| noise_of(problem, left, sensor, Some(noise))).collect()
 }
 
-/// Least noise of a sensor, µm: a meter's clock is no finer, and a simulated record without any
-/// would weigh so much that nothing else could be calculated.
-const LEAST_UM: f64 = 1e-4;
-
 fn noise_of(problem: &Problem, left: &[f64], sensor: usize, near: Option<&Noise>) -> Noise {
     let (layout, rows) = problem.of_sensor(sensor);
     let part: Vec<f64> = rows.iter().map(|&row| left[row]).collect();
     let noise = fit_noise(&layout, &part, near).noise;
-    Noise { white: noise.white.max(LEAST_UM * LEAST_UM), ..noise }
+    Noise { white: noise.white.max(FINEST_SENSOR_UM * FINEST_SENSOR_UM), ..noise }
 }

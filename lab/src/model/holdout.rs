@@ -6,9 +6,7 @@ use super::columns::Columns;
 use super::problem::Problem;
 use crate::noise::{Layout, Noise, Whitener, rms, swift_rms};
 use crate::numerics::{count, least_squares};
-
-/// Parts a pass is cut into when whole passes cannot be held out.
-const PARTS: usize = 5;
+use crate::policy::evidence::{PARTS, TOLD};
 
 /// Root mean square of the residual on held-out data, µm (arcsec).
 ///
@@ -84,7 +82,7 @@ fn rows_where(layout: &Layout, held: impl Fn(usize, usize) -> bool) -> Vec<bool>
     rows
 }
 
-/// True when the rows left carry at least a tenth of what a column varies.
+/// True when the rows left carry enough of what a column varies.
 fn tells(layout: &Layout, column: &[f64], held: &[bool]) -> bool {
     let (mut kept, mut all) = (0.0, 0.0);
     for block in &layout.blocks {
@@ -96,7 +94,7 @@ fn tells(layout: &Layout, column: &[f64], held: &[bool]) -> bool {
             kept += if held[row] { 0.0 } else { square };
         }
     }
-    0.1 * all <= kept
+    TOLD * all <= kept
 }
 
 /// What a model that was fitted to the other rows leaves.

@@ -11,6 +11,9 @@ use super::finer::Finer;
 use crate::measurement::Measurement;
 use crate::noise::{Block, Layout, outlier_inflation};
 use crate::numerics::{count, highest_frequency, median};
+use crate::policy::extent::MOST_BETWEEN;
+use crate::policy::reading::WRITTEN_INTERVAL;
+use crate::policy::size::SWINGS;
 
 /// One value of one sensor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -292,13 +295,6 @@ fn as_measured(model: &Model, measurement: &Measurement) -> Model {
     shown
 }
 
-/// Most samples, with those in between, that a search on means works out its columns for.
-const MOST_BETWEEN: usize = 1 << 16;
-
-/// Largest swing that neighbouring samples may hide: a filter at a third of the comparisons leaves
-/// a third of it, and half of all samples differ by less than half of that.
-const SWINGS: f64 = 6.0;
-
 /// What the motor moves from one comparison to the next, at the slowest speed of the samples; less
 /// where neighbours differ too little for it.
 fn hunting_um(problem: &Problem, residual: &[f64]) -> f64 {
@@ -331,10 +327,6 @@ pub(crate) struct Design {
     pub(crate) fixed: Option<Vec<f64>>,
 }
 
-/// Intervals this near to the usual one, as a share of it, are taken for it: times are written with
-/// so many digits, and no noise knows the difference.
-const WRITTEN: f64 = 1e-3;
-
 /// Clock of the noise in median intervals: time if it was logged, else the count of samples.
 fn clock(measurement: &Measurement) -> Vec<f64> {
     let time = &measurement.time_s;
@@ -350,7 +342,7 @@ fn clock(measurement: &Measurement) -> Vec<f64> {
         let mut clock = time.first().map_or(0.0, |first| first / usual);
         let later = time.windows(2).map(|pair| {
             let interval = (pair[1] - pair[0]) / usual;
-            clock += if (interval - 1.0).abs() < WRITTEN { 1.0 } else { interval };
+            clock += if (interval - 1.0).abs() < WRITTEN_INTERVAL { 1.0 } else { interval };
             clock
         });
         return time.first().map(|first| first / usual).into_iter().chain(later).collect();

@@ -7,6 +7,7 @@ use super::problem::Problem;
 use crate::noise::{Noise, Whitener};
 use crate::numerics::least_squares::{LinearFit, dot};
 use crate::numerics::{count, least_squares};
+use crate::policy::chance::MORE_THAN_NOISE;
 
 /// Whitened residual of a model, free of everything the model's columns can explain.
 #[derive(Debug)]
@@ -24,9 +25,6 @@ pub(crate) struct Stage<'a> {
     /// Its square.
     square: f64,
 }
-
-/// Whitened square a row that is more than noise.
-const MORE_THAN_NOISE: f64 = 2.0;
 
 /// What a candidate takes away under the stage's noise.
 #[derive(Debug, Clone)]

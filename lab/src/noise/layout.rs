@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::numerics::rms_about_means;
+use crate::policy::evidence::STRETCHES;
 
 /// Consecutive rows of one sensor in one pass; it has its own zero and its own noise history.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -81,9 +82,6 @@ impl Layout {
 pub(crate) fn rms(layout: &Layout, left: &[f64]) -> f64 {
     rms_about_means(layout.blocks.iter().map(|block| block.rows.clone()), left)
 }
-
-/// Stretches a pass is cut into to tell what is swift from what is slow.
-const STRETCHES: usize = 10;
 
 /// Root mean square about the mean of each tenth of a pass, µm: slow effects that are still to be
 /// found are no noise for a swift one.

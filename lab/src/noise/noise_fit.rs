@@ -10,6 +10,7 @@ use super::layout::{Block, Layout};
 use super::sweep::squares_and_log_determinants;
 use crate::numerics::quasi_newton::{Descent, minimise};
 use crate::numerics::{count, median};
+use crate::policy::reading::{OUTLIER_DEVIATIONS, OUTLIER_NEIGHBOURS};
 
 /// A fitted noise model with its log likelihood.
 #[derive(Debug, Clone, PartialEq)]
@@ -138,9 +139,9 @@ fn longest_block(layout: &Layout) -> f64 {
     layout.blocks.iter().filter(|block| !block.rows.is_empty()).map(length).fold(0.0, f64::max)
 }
 
-/// Variance factors that take outliers back to size: 1 within `2.5` robust deviations.
+/// Variance factors that take outliers back to size: 1 within three robust deviations.
 ///
-/// A sample is judged against the median of its seven neighbours, so a slow effect or a step,
+/// A sample is judged against the median of itself and its neighbours, so a slow effect or a step,
 /// which neighbours share, is never an outlier (Hampel's identifier).
 #[must_use]
 pub(crate) fn outlier_inflation(layout: &Layout, residual: &[f64]) -> Vec<f64> {
@@ -156,7 +157,7 @@ pub(crate) fn outlier_inflation(layout: &Layout, residual: &[f64]) -> Vec<f64> {
         let deviation = 1.4826 * median(&mut sizes);
         if 0.0 < deviation {
             for (row, value) in departures {
-                let size = value.abs() / (3.0 * deviation);
+                let size = value.abs() / (OUTLIER_DEVIATIONS * deviation);
                 inflation[row] = (size * size).max(1.0);
             }
         }
@@ -165,8 +166,8 @@ pub(crate) fn outlier_inflation(layout: &Layout, residual: &[f64]) -> Vec<f64> {
 }
 
 fn departure(residual: &[f64], row: usize, rows: &std::ops::Range<usize>) -> f64 {
-    let from = row.saturating_sub(3).max(rows.start);
-    let to = (row + 4).min(rows.end);
+    let from = row.saturating_sub(OUTLIER_NEIGHBOURS).max(rows.start);
+    let to = (row + OUTLIER_NEIGHBOURS + 1).min(rows.end);
     let mut near: Vec<f64> = residual[from..to].to_vec();
     residual[row] - median(&mut near)
 }

@@ -2,12 +2,7 @@
 
 use super::fourier;
 use super::summary::{count, median, spread};
-
-/// Highest frequency looked at, against the usual rate of sampling.
-const HIGHEST_AGAINST_RATE: f64 = 4.0;
-
-/// Spectral window beyond which two frequencies look alike.
-const ALIKE: f64 = 0.7;
+use crate::policy::extent::{ALIKE_WINDOW, HIGHEST_AGAINST_RATE, WINDOW_FROM};
 
 /// Most frequencies at which the window is worked out.
 const MOST_POINTS: f64 = 65_536.0;
@@ -45,7 +40,7 @@ pub(crate) fn highest_frequency(coordinate: &[f64]) -> f64 {
         .iter()
         .enumerate()
         .map(|(index, size)| (step * count(index), size / count(coordinate.len())))
-        .find(|(frequency, size)| 0.6 * rate < *frequency && ALIKE < *size);
+        .find(|(frequency, size)| WINDOW_FROM * rate < *frequency && ALIKE_WINDOW < *size);
     let end = step * points;
     returns.map_or(end, |(frequency, _)| frequency).max(rate) * 0.5
 }

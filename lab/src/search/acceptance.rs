@@ -4,13 +4,14 @@ use helixlock_plant::{Parameter, Role, Search};
 
 use super::likeness;
 use super::refusal::Refusal;
-use crate::hypotheses::{
-    SHARE_OF_NOISE, SIGNIFICANCE, chance_with_tails, gain_at, least_above_hunting, turn_scan,
-};
+use crate::hypotheses::{chance_with_tails, gain_at, least_above_hunting, turn_scan};
 use crate::model::{Columns, Component, Judged, Problem, Stage, State, helps_unseen, holdout_rms};
 use crate::noise::swift_rms;
 use crate::numerics::least_squares::covariance_rows;
 use crate::numerics::{chi_squared_tail, count};
+use crate::policy::chance::{SIGNIFICANCE, STANDARD_ERRORS};
+use crate::policy::evidence::{MOST_OF_A_NAME, TIME_LOCK};
+use crate::policy::size::SHARE_OF_NOISE;
 
 /// The clause that keeps the best effect of a round out of a model; `None` when it may join: it is
 /// beyond chance, helps on unseen data and is large enough to matter.
@@ -70,9 +71,6 @@ fn turns_as_well(problem: &Problem, now: &State, judged: &Judged) -> Option<Refu
     (!told).then_some(Refusal::Angle { order: line.frequency, ahead: own - line.gain })
 }
 
-/// Evidence that tells time from angle.
-const TIME_LOCK: f64 = 12.0;
-
 /// Refused when one sample alone speaks for an effect, which the tails of the noise explain too.
 fn rests_on_one_sample(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
     let freedom = count(judged.component.width().max(1));
@@ -89,7 +87,7 @@ fn repeats(judged: &Judged, now: &State) -> bool {
     let periodic =
         term.parameters.iter().any(|what| what.role == Role::Amplitude || what.name == "count");
     let before = now.components.iter().filter(|other| other.term.name == term.name).count();
-    before == 0 || (periodic && before < 3)
+    before == 0 || (periodic && before < MOST_OF_A_NAME)
 }
 
 /// True when nothing in an effect's values and shape speaks against it.
@@ -114,7 +112,7 @@ fn implausible(problem: &Problem, judged: &Judged) -> Option<Refusal> {
             return Some(Refusal::NegativeSquare { parameter: what.key() });
         }
         let (low, high) = (*what.range.start(), *what.range.end());
-        let slack = 2.0 * estimate.stderr;
+        let slack = STANDARD_ERRORS * estimate.stderr;
         let inside =
             high <= low || (low <= estimate.value + slack && estimate.value - slack <= high);
         let (value, stderr) = (estimate.value, estimate.stderr);

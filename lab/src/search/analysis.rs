@@ -16,12 +16,8 @@ use crate::model::{
 };
 use crate::noise::{Noise, rms};
 use crate::numerics::{chi_squared_tail, count, median};
-
-/// Most effects that are looked for one after the other.
-const MOST_ROUNDS: usize = 5;
-
-/// Candidates whose noise is fitted anew before one is chosen.
-const SHORTLIST: usize = 4;
+use crate::policy::evidence::SET_MARGIN;
+use crate::policy::extent::{KNOWN_IN_SETS, MOST_ROUNDS, NEAR_THE_BEST, SHORTLIST};
 
 /// Everything that happened in one round.
 #[derive(Debug, Clone)]
@@ -97,7 +93,7 @@ fn add_together(problem: &mut Problem, steps: &mut Vec<Step>, members: Vec<Compo
     problem.mark_outliers(&left);
 }
 
-/// Two or three effects of known size that together beat every single effect.
+/// Several effects of known size that together beat every single effect.
 ///
 /// Logged physics comes together: a warm day has weather too, and one part of it alone may fit
 /// worse than none. Their coefficients are known, so a set of them has hardly any freedom.
@@ -113,10 +109,11 @@ fn known_together(problem: &Problem, now: &State, tried: &[Judged]) -> Option<Ve
         .collect();
     let price = problem.price_of_a_number();
     let single = tried.first().map_or(0.0, |best| best.evidence);
-    let sets = (1_usize..1 << known.len().min(5)).filter(|set| 1 < set.count_ones());
+    let known = &known[..known.len().min(KNOWN_IN_SETS)];
+    let sets = (1_usize..1 << known.len()).filter(|set| 1 < set.count_ones());
     let best = sets
         .filter_map(|set| {
-            let members: Vec<Component> = (0..known.len().min(5))
+            let members: Vec<Component> = (0..known.len())
                 .filter(|index| set & (1 << index) != 0)
                 .map(|index| known[index].clone())
                 .collect();
@@ -133,11 +130,8 @@ fn known_together(problem: &Problem, now: &State, tried: &[Judged]) -> Option<Ve
             Some((gain - price * count(members.len()), members))
         })
         .max_by(|a, b| a.0.total_cmp(&b.0))?;
-    (single.max(0.0) + TOGETHER < best.0).then_some(best.1)
+    (single.max(0.0) + SET_MARGIN < best.0).then_some(best.1)
 }
-
-/// Evidence by which a set of known effects must beat the best single one.
-const TOGETHER: f64 = 10.0;
 
 /// All candidates on what a model leaves, best evidence first.
 #[must_use]
@@ -182,7 +176,8 @@ fn judged_shortlist(problem: &Problem, now: &State, lists: &[Vec<Trial>]) -> Vec
     let mut tried = 1.0_f64;
     for list in lists {
         let best = list.first().map_or(0.0, |trial| trial.gain);
-        let near = |place: usize, trial: &Trial| place < SHORTLIST || 0.7 * best < trial.gain;
+        let near =
+            |place: usize, trial: &Trial| place < SHORTLIST || NEAR_THE_BEST * best < trial.gain;
         for (place, trial) in list.iter().enumerate() {
             if near(place, trial) {
                 let known = chosen.entry(trial.component.term.name.clone()).or_default();

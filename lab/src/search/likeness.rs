@@ -7,16 +7,8 @@ use crate::model::{Component, Problem, State, pattern};
 use crate::noise::Whitener;
 use crate::numerics::least_squares::dot;
 use crate::numerics::{count, least_squares, spread};
-
-/// Lowest harmonic of the screw that does not come without the ones below it.
-const HIGH_HARMONIC: f64 = 3.0;
-
-/// What a high harmonic without the lower ones must bring beyond a named shaft, as evidence:
-/// odds of one to a hundred.
-const HIGH_HARMONIC_PRICE: f64 = 9.2;
-
-/// Share of a pattern that a straight line must leave for it to have a shape.
-const SHAPE: f64 = 1e-3;
+use crate::policy::evidence::{HIGH_HARMONIC, HIGH_HARMONIC_PRICE, SHAPE, WAVE};
+use crate::policy::reading::REVERSAL_REACH;
 
 /// True for a harmonic of the machine's screw of which the lower ones are not in the model.
 ///
@@ -106,7 +98,7 @@ fn slips_at_reversal(problem: &Problem, component: &Component) -> bool {
     };
     let (time, record) = (component.term.values[at], &problem.record);
     let near = record.time_s.partition_point(|t| *t < time);
-    let window = near.saturating_sub(3)..(near + 3).min(record.len());
+    let window = near.saturating_sub(REVERSAL_REACH)..(near + REVERSAL_REACH).min(record.len());
     let passes = problem.measurement.pass[window.clone()].windows(2).all(|p| p[0] == p[1]);
     passes && 0.0 < spread(&problem.measurement.direction[window])
 }
@@ -122,9 +114,6 @@ pub(crate) fn lets_motion_through(problem: &Problem, component: &Component) -> b
     let moved_um = spread(steps) * problem.model.drive.step_um;
     component.term.nonlinear().iter().all(|width_um| *width_um < moved_um)
 }
-
-/// Share of a wave's square that a parabola must leave for it to be seen as a wave.
-const WAVE: f64 = 0.01;
 
 /// True unless a wave is seen over so small a part of itself that it is a piece of a parabola over
 /// the travel and the time: that is any drift.

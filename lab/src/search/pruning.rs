@@ -7,6 +7,7 @@ use crate::model::{Component, JointCovariance, Problem, State, helps_unseen, joi
 use crate::noise::swift_rms;
 use crate::numerics::least_squares::covariance_rows;
 use crate::numerics::{chi_squared_tail, count};
+use crate::policy::chance::STANDARD_ERRORS;
 
 /// An effect taken out of a model again.
 #[derive(Debug, Clone, PartialEq)]
@@ -97,6 +98,6 @@ fn useless(state: &State, covariance: &JointCovariance, index: usize) -> Option<
     sizes
         .iter()
         .filter(|estimate| !phase(estimate.parameter))
-        .all(|estimate| estimate.value.abs() < 2.0 * estimate.stderr)
+        .all(|estimate| estimate.value.abs() < STANDARD_ERRORS * estimate.stderr)
         .then(|| "useless: no coefficient is two standard errors from zero".to_owned())
 }

@@ -7,18 +7,7 @@ use crate::model::{Component, Judged, Problem, State, pattern};
 use crate::noise::Whitener;
 use crate::numerics::least_squares;
 use crate::numerics::least_squares::dot;
-
-/// Evidence by which an effect must beat every other to be named: odds of about 50 to 1.
-const MARGIN: f64 = 8.0;
-
-/// Evidence that overrules a high inflation.
-const CLEAR_MARGIN: f64 = 25.0;
-
-/// Variance inflation above which two effects count as one (`docs/effects.md`).
-const INFLATION: f64 = 10.0;
-
-/// A rival that had to be tuned to so many more places is a coincidence, not a likeness.
-const COINCIDENCE: f64 = 8.0;
+use crate::policy::evidence::{CLEAR_MARGIN, COINCIDENCE, INFLATION, MARGIN};
 
 /// An effect that was found, and those that cannot be told from it.
 #[derive(Debug, Clone)]

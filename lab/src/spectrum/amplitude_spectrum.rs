@@ -2,6 +2,7 @@
 
 use crate::model::Problem;
 use crate::numerics::{count, fourier, spread, usual_rate};
+use crate::policy::extent::SLOWEST_WAVES;
 
 /// Points a frequency cell: at worst the top of a line is drawn a fortieth too low.
 const POINTS_A_CELL: f64 = 4.0;
@@ -41,7 +42,7 @@ pub fn amplitude_spectrum(problem: &Problem, left: &[f64], sensor: usize) -> Vec
     let orders = (0..points).map(|index| step * count(index));
     orders
         .zip(sizes)
-        .filter(|(order, _)| 1.5 / range <= *order)
+        .filter(|(order, _)| SLOWEST_WAVES / range <= *order)
         .map(|(order, size)| [order, 2.0 * size / rows])
         .collect()
 }

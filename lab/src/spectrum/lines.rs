@@ -6,6 +6,10 @@ use super::order_spectrum::{Line, Scan};
 use crate::model::{Columns, Fit, Problem, Row, State, settle};
 use crate::noise::Whitener;
 use crate::numerics::{median, spread};
+use crate::policy::chance::{LISTED_LINE, NAME_CELL, NAME_STANDARD_ERRORS, NEARLY_WHOLE};
+use crate::policy::extent::{
+    HIGHEST_MULTIPLE, LISTED_LINES, NAMED_HARMONICS, NAMED_SPINDLE_HARMONICS, SLOWEST_WAVES,
+};
 
 /// A line with what is known of it.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,18 +70,12 @@ impl LineSearch<'_> {
             noises,
             turns: &turns,
             whitener: &whitener,
-            lowest: 1.5 / spread(&turns).max(f64::MIN_POSITIVE),
+            lowest: SLOWEST_WAVES / spread(&turns).max(f64::MIN_POSITIVE),
             highest: self.highest,
         };
         use_scan(&scan, &white)
     }
 }
-
-/// Most lines listed a sensor.
-const MOST: usize = 10;
-
-/// Chance below which a line is listed.
-const SIGNIFICANCE: f64 = 1e-3;
 
 /// Every line over the spindle angle that the machine file leaves, strongest first.
 #[must_use]
@@ -98,7 +96,7 @@ pub(crate) fn lines(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<NamedL
         let mut columns = model.clone();
         let mut now = fit.clone();
         let mut found: Vec<NamedLine> = Vec::new();
-        while found.len() < MOST {
+        while found.len() < LISTED_LINES {
             let search = LineSearch {
                 problem,
                 fit: &now,
@@ -107,7 +105,7 @@ pub(crate) fn lines(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<NamedL
                 highest: problem.highest_order,
             };
             let Some(line) = search.strongest() else { break };
-            if SIGNIFICANCE < line.p_value {
+            if LISTED_LINE < line.p_value {
                 break;
             }
             columns = columns.and(&wave(problem, sensor, &turns, line.frequency));
@@ -137,9 +135,10 @@ fn named(problem: &Problem, sensor: usize, line: Line) -> NamedLine {
     let usual = median(&mut speeds);
     let period_s = 60.0 / (usual * line.frequency);
     let resolution = 1.0 / spread(&problem.measurement.angle_rev).max(f64::MIN_POSITIVE);
+    let slack = NAME_STANDARD_ERRORS * line.frequency_stderr + NAME_CELL * resolution;
     NamedLine {
         sensor,
-        name: name(machine, line.frequency, 3.0 * line.frequency_stderr + 0.2 * resolution),
+        name: name(machine, line.frequency, slack),
         harmonic_of: None,
         period_s,
         period_stderr_s: period_s * line.frequency_stderr / line.frequency,
@@ -154,18 +153,20 @@ fn name(machine: &Machine, order: f64, slack: f64) -> Option<String> {
     for gear in &machine.gears {
         known.push((gear.order, gear.name.clone()));
         known.extend(gear.mesh_order().map(|mesh| (mesh, format!("mesh of {}", gear.name))));
-        for harmonic in 2..=4 {
+        for harmonic in 2..=NAMED_HARMONICS {
             known.push((gear.order * f64::from(harmonic), format!("{} × {harmonic}", gear.name)));
         }
     }
     if let Some(screw) = machine.lead_screw.as_ref().filter(|_| !machine.rotary) {
         let turns = machine.workpiece.lead.mm() / screw.mm();
-        for harmonic in 1..=4 {
+        for harmonic in 1..=NAMED_HARMONICS {
             known.push((turns * f64::from(harmonic), format!("lead screw × {harmonic}")));
         }
     }
     if !machine.rotary {
-        known.extend([1.0, 2.0, 3.0].map(|n| (n, format!("spindle × {n}"))));
+        known.extend(
+            (1..=NAMED_SPINDLE_HARMONICS).map(|n| (f64::from(n), format!("spindle × {n}"))),
+        );
     }
     known
         .into_iter()
@@ -182,7 +183,7 @@ fn harmonics(found: &mut [NamedLine]) {
         let base = found[..index].iter().find_map(|other| {
             let ratio = line.frequency / other.line.frequency;
             let number = ratio.round();
-            let slack = 3.0
+            let slack = NAME_STANDARD_ERRORS
                 * (line.frequency_stderr / other.line.frequency
                     + ratio * other.line.frequency_stderr / other.line.frequency);
             #[expect(
@@ -190,8 +191,9 @@ fn harmonics(found: &mut [NamedLine]) {
                 clippy::cast_sign_loss,
                 reason = "between 2 and 12"
             )]
-            let harmonic = (2.0..=12.0).contains(&number).then_some(number as u32)?;
-            ((ratio - number).abs() < slack.min(0.2)).then_some((harmonic, other.line.frequency))
+            let harmonic = (2.0..=HIGHEST_MULTIPLE).contains(&number).then_some(number as u32)?;
+            ((ratio - number).abs() < slack.min(NEARLY_WHOLE))
+                .then_some((harmonic, other.line.frequency))
         });
         found[index].harmonic_of = base;
     }

@@ -5,22 +5,10 @@ use super::order_spectrum::{Scan, chance};
 use crate::model::Problem;
 use crate::noise::{Block, Noise, SlowPart, Whitener};
 use crate::numerics::{count, median, spread, usual_rate};
-
-/// Samples a period of the fastest line that means must leave.
-const SAMPLES_A_PERIOD: f64 = 6.0;
-
-/// Chance below which a fast line forbids means.
-const SIGNIFICANCE: f64 = 1e-6;
-
-/// Rows of a sensor, from the start of each of its passes, in which fast lines are looked for: a
-/// line of a fiftieth of the noise is clear in as many.
-const LOOKED_AT: usize = 200_000;
-
-/// Rows kept, against those wanted, when samples must be picked instead of averaged.
-const PICKED: usize = 2;
-
-/// Samples over which whatever is slower than a fast line is forgotten.
-const FAST_SAMPLES: f64 = 5.0;
+use crate::policy::chance::FAST_LINE;
+use crate::policy::extent::{
+    FAST_LINE_ROWS, FAST_LINES, FAST_SAMPLES, PICKED, SAMPLES_A_PERIOD, SLOWEST_WAVES,
+};
 
 impl Problem {
     /// The problem on about `most` rows; `None` when it is small enough.
@@ -62,7 +50,7 @@ impl Problem {
     fn fastest_line_of(&self, sensor: usize, residual: &[f64]) -> Option<f64> {
         let of_sensor = |block: &Block| block.sensor == sensor;
         let blocks = self.layout.blocks.iter().filter(|block| of_sensor(block)).count();
-        let (mut layout, rows) = self.layout.begun(LOOKED_AT / blocks.max(1), of_sensor);
+        let (mut layout, rows) = self.layout.begun(FAST_LINE_ROWS / blocks.max(1), of_sensor);
         layout.blocks.iter_mut().for_each(|block| block.sensor = 0);
         let left: Vec<f64> = rows.iter().map(|&row| residual[row]).collect();
         let all: Vec<f64> = self.record.turns().collect();
@@ -75,16 +63,16 @@ impl Problem {
             noises: &noises,
             turns: &turns,
             whitener: &whitener,
-            lowest: 1.5 / spread(&turns).max(f64::MIN_POSITIVE),
+            lowest: SLOWEST_WAVES / spread(&turns).max(f64::MIN_POSITIVE),
             highest: self.highest_order,
         };
         let orders = gear_orders(&self.model);
         let looks = count(orders.len());
         let clear = |order: &f64| {
             let line = scan.line(&white, *order);
-            chance(line.gain, count(white.len()), looks) < SIGNIFICANCE
+            chance(line.gain, count(white.len()), looks) < FAST_LINE
         };
-        let found = scan.lines(&white, SIGNIFICANCE, 3);
+        let found = scan.lines(&white, FAST_LINE, FAST_LINES);
         let named = orders.into_iter().filter(clear);
         found.iter().map(|line| line.frequency).chain(named).max_by(f64::total_cmp)
     }

@@ -1,0 +1,99 @@
+//! What is beyond chance, and how a chance is found.
+
+/// A chance smaller than this is structure, and an effect must have a smaller one to be named.
+///
+/// Chosen: one record of noise in ten thousand is given a name. Doubled: one in five thousand; an
+/// effect at the limit gains 1.4 of the 18 that one free number needs.
+pub(crate) const SIGNIFICANCE: f64 = 1e-4;
+
+/// Chance below which a line is listed for a reader. No verdict rests on a list, so it may be ten
+/// times as open as [`SIGNIFICANCE`].
+///
+/// Chosen. Doubled: two lists of noise in a thousand hold a line, instead of one.
+pub(crate) const LISTED_LINE: f64 = 1e-3;
+
+/// Chance below which a fast line forbids means of neighbours. Samples are then picked, at a cost
+/// to every slow effect, so this is a hundred times as strict as [`SIGNIFICANCE`].
+///
+/// Chosen. Doubled: two long records of noise in a million are picked instead of averaged.
+pub(crate) const FAST_LINE: f64 = 1e-6;
+
+/// Chance below which a line smaller than others is structure all the same.
+///
+/// Chosen, far beyond what a noise model's flaw can make of a chance. Doubled: a line at the limit
+/// needs 1.4 of 55 less.
+pub(crate) const CLEAR_LINE: f64 = 1e-12;
+
+/// Probes for structure beside those of logged columns: every chance is multiplied by their
+/// number (Bonferroni).
+///
+/// Derived: nine on one pass, thirteen on several of one sensor; this stands for both. Doubled:
+/// structure at the limit needs 1.4 more evidence.
+pub(crate) const PROBES: f64 = 12.0;
+
+/// Columns from which on χ² is too optimistic and a chance is found by trying noise.
+///
+/// Chosen: from the shortest smooth curve on, for correlated noise passed for a wave by χ² alone.
+/// Doubled: that curve, and a shape of eight columns that repeats each turn, would again.
+pub(crate) const MANY_COLUMNS: usize = 6;
+
+/// Draws of noise whose mean and variance say which scaled χ² a gain follows.
+///
+/// Chosen: a standard deviation of 16 is good to 18 %. Doubled: to 13 %, at twice the time.
+pub(crate) const DRAWS: u64 = 16;
+
+/// Gain a column above which no noise is to blame and none is drawn.
+///
+/// Derived: χ² with one degree exceeds 40 once in 4·10⁹. Doubled: more draws, the same answers.
+pub(crate) const BEYOND_DOUBT: f64 = 40.0;
+
+/// A whitened sample beyond this many deviations is a jump.
+///
+/// Derived: Gaussian noise does so once in 1.7 million samples. Heavier tails are read from the
+/// samples themselves: with it, none of 200 records of AR(1) noise with t₃ innovations shows
+/// jumps, where 77 did by Gauss's law. Doubled: only jumps of ten deviations are seen.
+pub(crate) const JUMP_DEVIATIONS: f64 = 5.0;
+
+/// Fewest jumps that are structure: a slip or a knock explains one.
+///
+/// Derived. Doubled: two and three jumps stay in the noise.
+pub(crate) const FEWEST_JUMPS: usize = 2;
+
+/// Standard errors within which a coefficient may be zero, or beyond its plausible range.
+///
+/// Source: 95.4 % of a normal law. Of the true values of challenges 557 of 583 lie within.
+/// Doubled: effects of less than four standard errors are dropped as superfluous.
+pub(crate) const STANDARD_ERRORS: f64 = 2.0;
+
+/// Standard errors within which a slope equals a ratio of settings, a count is whole.
+///
+/// Derived: a normal law leaves them once in 16 000, so that hardly a true one is lost. Doubled:
+/// a slope of less than eight is no setting, and slopes twice as far off pass for one.
+pub(crate) const EXACT_STANDARD_ERRORS: f64 = 4.0;
+
+/// Standard errors of an order within which it is that of a shaft, or of a harmonic.
+///
+/// Source: 99.7 % of a normal law. Doubled: lines get a name that belongs to their neighbour.
+pub(crate) const NAME_STANDARD_ERRORS: f64 = 3.0;
+
+/// Part of a frequency cell that is added to them: the noise's own colour moves a line.
+///
+/// Chosen. Doubled: two fifths of a cell, in which two shafts may lie.
+pub(crate) const NAME_CELL: f64 = 0.2;
+
+/// How far from whole the ratio of two lines may be, whatever their standard errors, for the one to
+/// be called a multiple of the other.
+///
+/// Chosen: two lines of no kinship are so near by chance two times in five. Doubled: four in five.
+pub(crate) const NEARLY_WHOLE: f64 = 0.2;
+
+/// Share of a standard error from its range's end at which a value is warned of.
+///
+/// Derived: whatever stopped at the end lies within rounding of it. Doubled: nothing moves.
+pub(crate) const AT_AN_END: f64 = 0.01;
+
+/// Whitened square a row of a fit that leaves more than noise: its standard errors are no measure.
+///
+/// Derived: 1 is noise, and 16 samples and more hardly double it. Doubled: slips beside something
+/// larger that is still to be found are refused as no whole number.
+pub(crate) const MORE_THAN_NOISE: f64 = 2.0;

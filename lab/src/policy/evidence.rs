@@ -1,0 +1,117 @@
+//! Who wins: margins of evidence, and what likeness is.
+//!
+//! Odds are `exp(evidence / 2)`: 8 are 55 to 1, 10 are 150 to 1, 12 are 400 to 1.
+
+/// Evidence by which an effect must beat every other to be named.
+///
+/// Chosen: odds of 55 to 1. Doubled: 3000 to 1, and more answers are `ambiguous`.
+pub(crate) const MARGIN: f64 = 8.0;
+
+/// Evidence that overrules a high inflation.
+///
+/// Chosen: odds of 270 000 to 1, which no model of the noise is good enough for. Doubled: effects
+/// that are alike in shape are `ambiguous` however well one of them fits.
+pub(crate) const CLEAR_MARGIN: f64 = 25.0;
+
+/// Variance inflation above which two effects count as one.
+///
+/// Source: Marquardt 1970, *Generalized inverses, ridge regression, biased linear estimation, and
+/// nonlinear estimation*, Technometrics 12:591. Doubled: the standard error of a named effect may
+/// be 4.5 times what it were alone, instead of 3.2 times.
+pub(crate) const INFLATION: f64 = 10.0;
+
+/// A rival that had to be tuned to so many times as many places is a coincidence, no likeness.
+///
+/// Chosen: odds of 8 to 1, paid for by the looks. Doubled: more bumps and slips are rivals.
+pub(crate) const COINCIDENCE: f64 = 8.0;
+
+/// Evidence that tells a frequency in time from an order of the spindle.
+///
+/// Chosen: odds of 400 to 1. Doubled: a vibration needs a larger change of speed to be one.
+pub(crate) const TIME_LOCK: f64 = 12.0;
+
+/// Evidence by which a set of effects of known size must beat the best single one.
+///
+/// Chosen: odds of 150 to 1. Doubled: a warm day's weather must be the larger for all of it to be
+/// seen at once, and is else found one by one.
+pub(crate) const SET_MARGIN: f64 = 10.0;
+
+/// Evidence by which a plain shape must be better than the effects that imitate it.
+///
+/// Chosen: odds of 150 to 1. Measured: without any, 3 of 41 kinks were named (challenges from
+/// 1350000 on); with it, none of 73 shapes in two fresh sets. Doubled: a small kink is named again.
+pub(crate) const PLAIN_SHAPE: f64 = 10.0;
+
+/// Lowest harmonic of the screw that does not come without the ones below it.
+///
+/// Derived: a screw runs out once a turn, its bearing twice. Doubled: the third to the fifth are
+/// as likely as the first.
+pub(crate) const HIGH_HARMONIC: f64 = 3.0;
+
+/// What a high harmonic without the lower ones must bring beyond a named shaft.
+///
+/// Chosen: odds of one to a hundred, 2·ln 100. Doubled: one to ten thousand.
+pub(crate) const HIGH_HARMONIC_PRICE: f64 = 9.2;
+
+/// Share of a pattern's square that a straight line must leave for it to have a shape.
+///
+/// Chosen: a thirtieth of its size. Doubled: a curve of a twenty-second part of its slope is no
+/// more than a slope, and named alone no more.
+pub(crate) const SHAPE: f64 = 1e-3;
+
+/// Share of a wave's square that a parabola must leave for it to be seen as a wave.
+///
+/// Chosen: a tenth of its size. Doubled: a wave needs to show more of itself, a seventh.
+pub(crate) const WAVE: f64 = 0.01;
+
+/// Most effects of one name: lines come in numbers, and so do slips.
+///
+/// Chosen. Doubled: a shape of no catalogue may be made up of six slips.
+pub(crate) const MOST_OF_A_NAME: usize = 3;
+
+/// Share of a column that the rows left must vary by for whole passes to be held out.
+///
+/// Chosen: its coefficient is then good to three times its own error. Doubled: more files are held
+/// out by fifths of a pass.
+pub(crate) const TOLD: f64 = 0.1;
+
+/// Parts a pass is cut into when whole passes cannot be held out.
+///
+/// Source: fivefold cross-validation (Hastie, Tibshirani and Friedman, *The Elements of
+/// Statistical Learning*, 2nd ed., 7.10). Doubled: the parts are shorter, and slow noise bridges
+/// them.
+pub(crate) const PARTS: usize = 5;
+
+/// Stretches a pass is cut into to tell what is swift from what is slow.
+///
+/// Measured: in one piece, a gear under a large drift was not taken. Doubled: only what turns
+/// twenty times a pass is swift.
+pub(crate) const STRETCHES: usize = 10;
+
+/// Slopes that physics leaves lie within this either way, µm/m; it sets what an exact match is
+/// worth.
+///
+/// Chosen. Doubled: an exact match gains 1.4, and slopes up to the double are searched under slow
+/// noise.
+pub(crate) const PHYSICAL_UM_PER_M: f64 = 400.0;
+
+/// Relative error of a slope that the air and the wavelength leave in any case.
+///
+/// Chosen: of a slope of a tenth it is 10 µm/m, which ten kelvin of air leave. Doubled: settings
+/// that differ by a five-thousandth of their slope look alike.
+pub(crate) const EXACT_SLOPE: f64 = 1e-4;
+
+/// What a ratio that fits must pay of its prior range, in standard errors.
+///
+/// Derived: the area of a normal law is √2π of its deviation times its height. Doubled: costs 1.4.
+pub(crate) const NORMAL_WIDTH: f64 = 2.5;
+
+/// Largest step that a count is looked for, µm; it sets what a whole number must pay.
+///
+/// Chosen: sixteen fringes. Doubled: a slip costs 1.4 more.
+pub(crate) const LARGEST_STEP_UM: f64 = 5.0;
+
+/// How far from whole a count may be fitted whatever its standard error.
+///
+/// Chosen: the formula's own error. Doubled: nothing that is not within 0.04 of whole.
+pub(crate) const WHOLE: f64 = 0.02;

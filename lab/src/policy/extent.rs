@@ -1,0 +1,182 @@
+//! How far is looked: rounds, rows, places, orders. What is not looked at is not found.
+
+/// Most effects that are looked for one after the other.
+///
+/// Chosen: challenges hide two at most. Doubled: twice the time in a record where imitators go on
+/// being accepted.
+pub(crate) const MOST_ROUNDS: usize = 5;
+
+/// Candidates whose noise is fitted anew before one is chosen.
+///
+/// Chosen. Doubled: twice the time of a round.
+pub(crate) const SHORTLIST: usize = 4;
+
+/// Share of the best gain from which on a candidate is on that list however many there are.
+///
+/// Chosen. Doubled: no other candidate would be.
+pub(crate) const NEAR_THE_BEST: f64 = 0.7;
+
+/// Most effects of known size that are tried in sets.
+///
+/// Chosen, by time: 26 sets. Doubled: 1013.
+pub(crate) const KNOWN_IN_SETS: usize = 5;
+
+/// Rows beyond which a search works on means of neighbouring samples.
+///
+/// Chosen, by time: a search is linear in it. Doubled: twice the time, and swifter effects are
+/// averaged in files of 3000 to 6000 rows no more. Reported figures are fitted to all rows.
+pub(crate) const SEARCHED_ROWS: usize = 3000;
+
+/// Rows beyond which a comparison looks for structure in means of neighbouring samples.
+///
+/// Chosen, by time: 8 s for 5.5 million rows. Doubled: twice that.
+pub(crate) const COMPARED_ROWS: usize = 30_000;
+
+/// Rows of a sensor, from the start of each of its passes, in which fast lines are looked for.
+///
+/// Derived: a line of a fiftieth of the noise gains n/50² = 80 there, which is clear. Doubled: so
+/// is one of a seventieth.
+pub(crate) const FAST_LINE_ROWS: usize = 200_000;
+
+/// Rows kept, against those wanted, when samples must be picked instead of averaged.
+///
+/// Chosen: a picked sample has the noise of one. Doubled: twice the time.
+pub(crate) const PICKED: usize = 2;
+
+/// Samples a period of the fastest line that means must leave.
+///
+/// Derived: the mean over a sixth of a period takes 4.5 % off its amplitude. Doubled: 1.1 %, and
+/// more files are picked.
+pub(crate) const SAMPLES_A_PERIOD: f64 = 6.0;
+
+/// Samples over which whatever is slower than a fast line is forgotten.
+///
+/// Chosen: about [`SAMPLES_A_PERIOD`]. Doubled: slower lines count as fast.
+pub(crate) const FAST_SAMPLES: f64 = 5.0;
+
+/// Most fast lines that are looked for beside those of the gears.
+///
+/// Chosen: the fastest decides alone. Doubled: a fourth, weaker and faster one may forbid means.
+pub(crate) const FAST_LINES: usize = 3;
+
+/// Samples, with those in between, up to which a search on means works out its columns for all.
+///
+/// Chosen, by time and memory. Doubled: files up to 130 000 samples filter their columns at every
+/// comparison.
+pub(crate) const MOST_BETWEEN: usize = 1 << 16;
+
+/// Waves over the record of the slowest line that is one.
+///
+/// Derived: one wave and a half has two turning points inside, a parabola one. Doubled: lines of
+/// less than three waves are left to the smooth curves.
+pub(crate) const SLOWEST_WAVES: f64 = 1.5;
+
+/// Highest frequency looked at, against the usual rate of sampling.
+///
+/// Chosen. Doubled: twice the looks, for which every line pays 1.4.
+pub(crate) const HIGHEST_AGAINST_RATE: f64 = 4.0;
+
+/// Spectral window beyond which two frequencies look alike.
+///
+/// Chosen: half the power. Doubled: there would be no such limit.
+pub(crate) const ALIKE_WINDOW: f64 = 0.7;
+
+/// Part of the usual rate from which on the window is looked at; below it is its own peak.
+///
+/// Chosen, above half the rate, which even samples resolve. Doubled: the first return of samples
+/// taken evenly is missed.
+pub(crate) const WINDOW_FROM: f64 = 0.6;
+
+/// Frequencies in time that an effect is tried at.
+///
+/// Chosen. Doubled: the seventeenth strongest line may be the one.
+pub(crate) const FREQUENCIES: usize = 16;
+
+/// Sudden changes that an effect of one moment is tried at.
+///
+/// Chosen. Doubled: smaller slips in slow noise are found, at twice the time.
+pub(crate) const SUDDEN_CHANGES: usize = 16;
+
+/// Part of the travel that is the narrowest bump looked for.
+///
+/// Derived: five samples of a file of a thousand. Doubled: a hundredth.
+pub(crate) const NARROWEST: f64 = 200.0;
+
+/// Longest time constant or width looked for, against the record: beyond it anything is a slope.
+///
+/// Chosen. Doubled: slopes are fitted by more effects.
+pub(crate) const LONGEST: f64 = 2.0;
+
+/// Highest overtone of a gear that is looked for: a worm shows five.
+///
+/// Chosen. Doubled: lines at up to ten times an order found are the gear's.
+pub(crate) const OVERTONES: u16 = 5;
+
+/// Harmonics of gears and of the lead screw that lines are named by.
+///
+/// Chosen. Doubled: eight, and more lines bear two shafts' names.
+pub(crate) const NAMED_HARMONICS: u8 = 4;
+
+/// Harmonics of the spindle that lines are named by.
+///
+/// Source: the document on the device, whose wanted band ends at the third. Doubled: six.
+pub(crate) const NAMED_SPINDLE_HARMONICS: u8 = 3;
+
+/// Highest multiple of a stronger line that a line is called.
+///
+/// Chosen. Doubled: every line far up is a multiple of a slow one.
+pub(crate) const HIGHEST_MULTIPLE: f64 = 12.0;
+
+/// Most lines listed a sensor.
+///
+/// Chosen, for a reader. Doubled: twenty.
+pub(crate) const LISTED_LINES: usize = 10;
+
+/// Polynomials of the smooth curve, the local bump, and the wave of changing length that are looked
+/// for.
+///
+/// Chosen: each has some three times as many as the last, so that nothing between falls through.
+/// Doubled: narrower bumps are seen, and the last follows slow noise.
+pub(crate) const CURVE_ORDER: usize = 6;
+/// See [`CURVE_ORDER`].
+pub(crate) const BUMP_ORDER: usize = 24;
+/// See [`CURVE_ORDER`].
+pub(crate) const WAVE_ORDER: usize = 64;
+
+/// Rows that each column of such a curve needs.
+///
+/// Chosen. Doubled: short files are not looked at for bumps.
+pub(crate) const ROWS_A_COLUMN: usize = 6;
+
+/// Columns of all passes together that their own smooth curves may have.
+///
+/// Chosen. Doubled: eight passes may have curves of eight columns each.
+pub(crate) const COLUMNS_OF_PASSES: usize = 48;
+
+/// Most polynomials of a pass's own curve, and fewest.
+///
+/// Chosen: fewer than three are offset, slope and sag, which every pass may have. Doubled: a curve
+/// in each pass is a bump.
+pub(crate) const CURVE_OF_A_PASS: std::ops::RangeInclusive<usize> = 3..=8;
+
+/// Turns of a shaft from which on a shape repeats with it.
+///
+/// Derived: what is there once repeats nothing. Doubled: four turns.
+pub(crate) const TURNS: f64 = 2.0;
+
+/// Harmonics of a shape that repeats each turn.
+///
+/// Chosen. Doubled: sharper shapes are seen, and sixteen columns follow slow noise.
+pub(crate) const HARMONICS: u8 = 4;
+
+/// Fewest common samples of two passes that are compared.
+///
+/// Chosen: a correlation of 0.76 is then beyond chance. Doubled: passes of less than 64 samples are
+/// not compared.
+pub(crate) const COMMON_SAMPLES: usize = 32;
+
+/// Comparisons at the beginning of a run in which the loop pulls in.
+///
+/// Chosen: at 160 steps a second and 6.3 comparisons a second they make 3 µm good. Doubled: the
+/// check begins later.
+pub(crate) const PULLING_IN: usize = 10;

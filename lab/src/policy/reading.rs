@@ -1,0 +1,99 @@
+//! How a file is read: what is too little, what is an outlier, where a pass begins.
+
+/// Fewest samples that say anything about noise.
+///
+/// Chosen: white noise is then known to 18 %. Doubled: files of 16 to 31 samples are refused.
+pub(crate) const FEWEST_SAMPLES: usize = 16;
+
+/// Fewest pulses of a train that say anything.
+///
+/// Chosen. Doubled: captures of four to seven pulses are refused here, and not as too few samples.
+pub(crate) const FEWEST_PULSES: usize = 4;
+
+/// Fringes a line, over what the dividers say, beyond which the trains are not those of this
+/// machine: a wrong line count is a few per cent, exchanged signals and most wrong leads are more.
+///
+/// Chosen: 5 mm for 6 mm are 1.2 and pass. Doubled: so does a lead of twice or half.
+pub(crate) const MOST_OFF: f64 = 1.25;
+
+/// Robust deviations from its neighbours' median beyond which a sample is an outlier.
+///
+/// Source: Hampel's identifier (Davies and Gather 1993, *The identification of multiple outliers*,
+/// JASA 88:782), three deviations. Doubled: knocks of less than six weigh fully.
+pub(crate) const OUTLIER_DEVIATIONS: f64 = 3.0;
+
+/// Neighbours on each side that a sample is judged by.
+///
+/// Chosen: seven samples hold a step on one side. Doubled: a wave of thirteen samples is all
+/// outliers.
+pub(crate) const OUTLIER_NEIGHBOURS: usize = 3;
+
+/// Share of the travel that a jump back to the start of a pass must exceed.
+///
+/// Chosen: a fifth of the travel is no gap in a record. Doubled: passes over less than two fifths
+/// of the travel run together.
+pub(crate) const JUMP_OF_TRAVEL: f64 = 0.2;
+
+/// Usual moves from row to row that such a jump must exceed as well.
+///
+/// Chosen. Doubled: in a table of less than 500 rows no pass is told.
+pub(crate) const JUMP_OF_MOVES: f64 = 50.0;
+
+/// Rows a jump, at least, in a table that is in order; one with more is shuffled.
+///
+/// Chosen: no pass is so short. Doubled: passes of less than forty rows run together.
+pub(crate) const ROWS_A_PASS: usize = 20;
+
+/// Rows a reversal, at least, in a table that is in order.
+///
+/// Chosen. Doubled: a record that reverses every twelve rows is sorted by its travel.
+pub(crate) const ROWS_A_REVERSAL: usize = 8;
+
+/// Samples on each side over whose way the direction is told, so that a jitter is no reversal.
+///
+/// Chosen. Doubled: reversals are told later, and moved back to the farthest sample all the same.
+pub(crate) const DIRECTION_REACH: usize = 2;
+
+/// Samples on each side in which a reversal, or a slip at one, lies.
+///
+/// Derived: one more than [`DIRECTION_REACH`]. Doubled: slips six samples from a reversal rival
+/// backlash.
+pub(crate) const REVERSAL_REACH: usize = 3;
+
+/// Samples on each side of a reversal that stay single where others are averaged: there play and
+/// wind-up change quickly.
+///
+/// Chosen. Doubled: twice as many rows at every reversal.
+pub(crate) const AROUND_REVERSALS: usize = 8;
+
+/// Distance from the usual interval, as a share of it, within which one is taken for it: times are
+/// written with so many digits, and no noise knows the difference.
+///
+/// Derived: a time of three digits an interval. Doubled: nothing moves but the time it takes.
+pub(crate) const WRITTEN_INTERVAL: f64 = 1e-3;
+
+/// Seconds from which on a first time is a clock's, and the record begins at zero.
+///
+/// Derived: a day. Doubled: clocks of the second day count from midnight before.
+pub(crate) const CLOCK_S: f64 = 86_400.0;
+
+/// Fewest values on a lattice that were rounded to it: fewer may be settings.
+///
+/// Chosen. Doubled: logs with less than ten steps keep their treads.
+pub(crate) const FEWEST_VALUES: usize = 5;
+
+/// Part of a lattice's step that a value may be off.
+///
+/// Chosen: a decimal written with one digit more. Doubled: a twenty-fifth.
+pub(crate) const OFF_THE_LATTICE: f64 = 0.02;
+
+/// Changes of a rounded log, at least, a leap over a value of the lattice.
+///
+/// Chosen: what leaps more often was not sampled as it went. Doubled: a log with more than one leap
+/// in four changes keeps its treads.
+pub(crate) const CHANGES_A_LEAP: usize = 2;
+
+/// Throughout in this range, a temperature of a shop is in kelvin; one in °C never is.
+///
+/// Source: −73 to 127 °C.
+pub(crate) const KELVIN: std::ops::RangeInclusive<f64> = 200.0..=400.0;

@@ -1,0 +1,70 @@
+//! What is large enough to change a figure.
+
+/// Share of the noise below which structure, or an effect, is left alone.
+///
+/// Derived: a quarter adds 3 % to the noise's root mean square. Doubled: 12 %, and an effect of
+/// half the noise is left in it.
+pub(crate) const SHARE_OF_NOISE: f64 = 0.25;
+
+/// Share of the noise from which a line is structure if it is beyond doubt.
+///
+/// Chosen: no flaw of a noise model makes a line of a twelfth of the noise at
+/// [`CLEAR_LINE`](super::chance::CLEAR_LINE). Doubled: a gear of an eighth of the noise is not
+/// spoken of.
+pub(crate) const CLEAR_SHARE_OF_NOISE: f64 = 0.08;
+
+/// Share of the error before any effect below which nothing is looked for: no formula of the
+/// catalogue is better than that.
+///
+/// Measured: a capture without noise was called unexplained for 0.9 nm of 1.06 µm. Doubled: 2 nm of
+/// every µm are left alone.
+pub(crate) const SHARE_OF_ERROR: f64 = 1e-3;
+
+/// Variance by which a shape of many columns must exceed what it leaves, for such columns also
+/// follow slow noise.
+///
+/// Chosen: one and a half times in size. Doubled: a shape must be twice the noise.
+pub(crate) const FAR_ABOVE: f64 = 2.25;
+
+/// Swings of a loop that a jump must exceed to be none of them, with the noise of two samples.
+///
+/// Derived: a swing there and back is two, and a third for the noise. Doubled: jumps up to six
+/// swings pass for hunting.
+pub(crate) const LOOP_JUMP: f64 = 3.0;
+
+/// Largest swing that neighbouring samples may hide, against their median difference.
+///
+/// Derived: a filter at a third of the comparisons leaves a third of a swing, and half of all
+/// samples differ by less than half of that. Doubled: where neighbours differ little, effects up
+/// to twice as large are left to the hunting.
+pub(crate) const SWINGS: f64 = 6.0;
+
+/// Share of what structure shows that is set against a loop's swing: it may be any of its lines.
+///
+/// Derived: a swing of ±u is a sawtooth, u/√3 in all and u/√12 of it slow. Doubled: a line that
+/// is hunting is reported.
+pub(crate) const SLOW_SHARE_OF_HUNTING: f64 = 0.5;
+
+/// Finest that a sensor is taken to be, µm: a meter's clock is no finer, and a simulated record
+/// without noise would weigh so much that nothing else could be calculated.
+///
+/// Derived: 1.5 mm/s at 12 MHz are 0.125 nm a clock. Doubled: figures of simulated records without
+/// noise move, no measured one.
+pub(crate) const FINEST_SENSOR_UM: f64 = 1e-4;
+
+/// Separation below which an experiment is not proposed, µm (arcsec).
+///
+/// Chosen: a fifth of the noise of a good record. Doubled: experiments worth 10 to 20 nm are not
+/// proposed.
+pub(crate) const WORTHWHILE_UM: f64 = 0.01;
+
+/// Relative difference of speeds that is another speed already.
+///
+/// Chosen, far below any step of a gearbox. Doubled: nothing moves.
+pub(crate) const ANOTHER_SPEED: f64 = 1e-3;
+
+/// Share of a record that a pause must have to count as a dwell.
+///
+/// Chosen: a drift with the record's own time constant goes on by four tenths of its rest in it.
+/// Doubled: a pause must be as long as the record.
+pub(crate) const DWELL: f64 = 0.5;
