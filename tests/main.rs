@@ -17,6 +17,7 @@ mod digital_comparison;
 mod direction_discriminator;
 mod documentation;
 mod documented_waveforms;
+mod effects_by_card;
 mod effects_in_the_loop;
 mod example_data;
 mod examples;

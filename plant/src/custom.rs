@@ -4,7 +4,7 @@ mod operators;
 
 use exmex::{Express, FlatEx};
 
-use crate::{Basis, Card, Columns, Effect, EffectError, Entry, Instant, Parameter, Role};
+use crate::{Basis, Card, Columns, Effect, EffectError, Entry, Instant, Nature, Parameter, Role};
 use operators::Operators;
 
 type Expression = FlatEx<f64, Operators>;
@@ -26,6 +26,7 @@ pub(crate) const CARD: Card = Card {
     source: "the user",
     random: false,
     candidate: false,
+    nature: Nature::PLAIN,
     basis: |_, _| Ok(Basis::default()),
 };
 

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::fmt;
 use std::ops::RangeInclusive;
 
+use crate::nature::Nature;
 use crate::units::Unit;
 use crate::{EffectError, Instant, Machine, Record, record::Columns};
 
@@ -319,6 +320,8 @@ pub struct Card {
     pub random: bool,
     /// True when it must be looked for in data; false when it is a means of simulation only.
     pub candidate: bool,
+    /// What is special about it.
+    pub nature: Nature,
     /// The unit effects for given values of the nonlinear parameters, in their order.
     pub basis: fn(&Context<'_>, &[f64]) -> Result<Basis, EffectError>,
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::units::NUMBER;
-use crate::{Basis, Card, Effect, Entry, Instant, Machine, Parameter};
+use crate::{Basis, Card, Effect, Entry, Instant, Machine, Nature, Parameter};
 
 /// A measured curve, in the catalogue.
 pub(crate) const CARD: Card = Card {
@@ -20,6 +20,7 @@ pub(crate) const CARD: Card = Card {
     source: "the user",
     random: false,
     candidate: false,
+    nature: Nature::PLAIN,
     basis: |_, _| Ok(Basis::default()),
 };
 

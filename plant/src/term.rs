@@ -6,8 +6,8 @@
 use crate::custom::Custom;
 use crate::measured_curve::MeasuredCurve;
 use crate::{
-    Basis, CATALOGUE, Card, Columns, Context, Effect, EffectError, Entry, Instant, Machine,
-    Parameter, Record, Role,
+    Basis, CATALOGUE, Card, Columns, Context, Effect, EffectError, Entry, Instant, Machine, Nature,
+    Parameter, Record, Role, Search,
 };
 use std::sync::Arc;
 
@@ -86,6 +86,21 @@ impl Term {
             Formula::Custom(_) => "custom",
             Formula::Curve(_) => "measured-curve",
         }
+    }
+
+    /// What is special about it; nothing of the user's own.
+    #[must_use]
+    pub fn nature(&self) -> &'static Nature {
+        match &self.formula {
+            Formula::Card(card) => &card.nature,
+            Formula::Custom(_) | Formula::Curve(_) => &Nature::PLAIN,
+        }
+    }
+
+    /// True for a line of a shaft or a mesh that the machine file lists.
+    #[must_use]
+    pub fn is_of_a_gear(&self) -> bool {
+        self.parameters.iter().any(|what| what.search == Search::GearOrder)
     }
 
     /// Logged columns it cannot do without.

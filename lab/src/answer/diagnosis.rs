@@ -249,7 +249,8 @@ fn fitted(state: &State, covariance: &JointCovariance, index: usize) -> FittedEf
     let mut parameters = Vec::new();
     for estimate in component.estimates(used, &linear) {
         let what = &component.term.parameters[estimate.parameter];
-        let stderr = libm::hypot(estimate.stderr, systematic(&component.term) * estimate.value);
+        let stderr =
+            libm::hypot(estimate.stderr, component.term.nature().uncertainty * estimate.value);
         let warning = warning(estimate.value, stderr, &what.range);
         parameters.push(FittedParameter {
             key: what.key(),
@@ -262,7 +263,7 @@ fn fitted(state: &State, covariance: &JointCovariance, index: usize) -> FittedEf
         let what = &component.term.parameters[parameter];
         let stderr = covariance.nonlinear[index][place];
         let value = component.term.values[parameter];
-        if term.kind() == "wrong-setting" && value == 0.0 {
+        if term.nature().is_setting() && value == 0.0 {
             continue;
         }
         let value = if setting_counts(&term, what) { value.round() } else { value };
@@ -272,15 +273,9 @@ fn fitted(state: &State, covariance: &JointCovariance, index: usize) -> FittedEf
     FittedEffect { name: component.term.name.clone(), term, parameters }
 }
 
-/// Relative uncertainty of the known physics a parameter multiplies: the air's sensitivities are
-/// good to a percent and a half over a day's weather.
-fn systematic(term: &helixlock_plant::Term) -> f64 {
-    if term.kind() == "dead-path" { 0.015 } else { 0.0 }
-}
-
-/// True for a setting that is a whole number: every one but the lead.
+/// True for a setting that is a whole number: every one that has no unit.
 fn setting_counts(term: &helixlock_plant::Term, what: &helixlock_plant::Parameter) -> bool {
-    term.kind() == "wrong-setting" && what.name != "lead"
+    term.nature().is_setting() && what.unit.suffix().is_empty()
 }
 
 fn warning(value: f64, stderr: f64, range: &std::ops::RangeInclusive<f64>) -> Option<&'static str> {

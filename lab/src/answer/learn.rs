@@ -25,18 +25,14 @@ pub fn written(file: &MachineFile, effects: &[FittedEffect]) -> Result<MachineFi
 /// Key and TOML value of the setting that an effect says is wrong.
 #[must_use]
 pub(crate) fn corrected_setting(term: &Term) -> Option<(&'static str, String)> {
-    if term.kind() != "wrong-setting" {
-        return None;
-    }
     let with_values = term.parameters.iter().zip(&term.values);
-    with_values.filter(|(_, value)| **value != 0.0).find_map(|(parameter, value)| {
-        match parameter.name.as_ref() {
-            "a" => Some(("dividers.a", format!("{value:.0}"))),
-            "b" => Some(("dividers.b", format!("{value:.0}"))),
-            "lines" => Some(("grating.lines", format!("{value:.0}"))),
-            "lead" => Some(("workpiece.lead", format!("\"{value} mm\""))),
-            _ => None,
-        }
+    with_values.filter(|(_, value)| **value != 0.0).find_map(|(what, value)| {
+        let (_, key) = term.nature().settings.iter().find(|(name, _)| *name == what.name)?;
+        let value = match what.unit.suffix().as_str() {
+            "" => format!("{value:.0}"),
+            unit => format!("\"{value} {unit}\""),
+        };
+        Some((*key, value))
     })
 }
 

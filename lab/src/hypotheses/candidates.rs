@@ -51,12 +51,12 @@ pub(crate) fn candidates(stage: &Stage<'_>, found: &[Component]) -> Vec<Candidat
 /// Adds the overtones of gears that the model has already: without its fundamental, a line at
 /// twice a gear's order is nobody's.
 fn with_overtones(mut candidate: Candidate, problem: &Problem, found: &[Component]) -> Candidate {
-    if candidate.term.kind() != "gear-error" {
+    if !candidate.term.is_of_a_gear() {
         return candidate;
     }
     let orders = gear_orders(&problem.model);
     let known = problem.model.effects.iter().chain(found.iter().map(|one| &one.term));
-    let known = known.filter(|term| term.kind() == "gear-error").flat_map(Term::nonlinear);
+    let known = known.filter(|term| term.is_of_a_gear()).flat_map(Term::nonlinear);
     let overtones = known
         .filter(|order| orders.contains(order))
         .flat_map(|order| (2..=OVERTONES).map(move |times| f64::from(times) * order))

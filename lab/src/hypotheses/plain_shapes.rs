@@ -14,9 +14,6 @@ use crate::noise::rms;
 use crate::numerics::count;
 use crate::policy::evidence::PLAIN_SHAPE;
 
-/// Effects that are smooth curves or stairs over the travel.
-const CURVES: [&str; 3] = ["screw-progressive", "steady-sag", "compensator-staircase"];
-
 /// Places tried for a plain shape before it is looked for nearby.
 const PLACES: usize = 100;
 
@@ -85,7 +82,7 @@ fn better_than(problem: &Problem, state: &State, group: &[usize]) -> Option<Stru
 fn imitates(component: &Component) -> bool {
     let term = &component.term;
     let placed = |what: &Parameter| matches!(what.search, Search::Position | Search::Time);
-    CURVES.contains(&term.kind()) || term.parameters.iter().any(placed)
+    term.nature().curve || term.parameters.iter().any(placed)
 }
 
 /// Linear and nonlinear numbers of an effect.

@@ -4,17 +4,18 @@
 //! as a plain factor. A slope that equals such a ratio to within its error is a setting, not
 //! physics.
 
-use helixlock_plant::{Machine, Term};
+use helixlock_plant::{CATALOGUE, Machine, Term};
 
 /// Leads taken for each other: inch for metric, two starts, π as 22/7.
 const LEAD_RATIOS: [f64; 5] =
     [25.4 / 25.0, 25.0 / 25.4, 2.0, 0.5, 22.0 / 7.0 / std::f64::consts::PI];
 
-/// The effect of every setting worth a look: digit slips and neighbours, counts of ten for counts of two, the
-/// other track, inch for metric.
+/// The effect of every setting worth a look: digit slips and neighbours, counts of ten for counts
+/// of two, the other track, inch for metric.
 #[must_use]
 pub(crate) fn alternatives(machine: &Machine) -> Vec<Term> {
-    let Some(card) = Term::card("wrong-setting").filter(|_| !machine.rotary) else {
+    let Some(card) = CATALOGUE.iter().find(|card| card.nature.is_setting() && !machine.rotary)
+    else {
         return Vec::new();
     };
     let lead_mm = machine.workpiece.lead.mm();

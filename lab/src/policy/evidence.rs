@@ -42,12 +42,6 @@ pub(crate) const SET_MARGIN: f64 = 10.0;
 /// 1350000 on); with it, none of 73 shapes in two fresh sets. Doubled: a small kink is named again.
 pub(crate) const PLAIN_SHAPE: f64 = 10.0;
 
-/// Lowest harmonic of the screw that does not come without the ones below it.
-///
-/// Derived: a screw runs out once a turn, its bearing twice. Doubled: the third to the fifth are
-/// as likely as the first.
-pub(crate) const HIGH_HARMONIC: f64 = 3.0;
-
 /// What a high harmonic without the lower ones must bring beyond a named shaft.
 ///
 /// Chosen: odds of one to a hundred, 2·ln 100. Doubled: one to ten thousand.

@@ -1,27 +1,25 @@
 //! Likenesses that physics knows beforehand, whatever the evidence says of them.
 
 use helixlock_plant::prediction::gain;
-use helixlock_plant::{Entry, Role, Search, Term};
+use helixlock_plant::{CATALOGUE, Entry, Role, Search, Term};
 
 use crate::model::{Component, Problem, State, pattern};
 use crate::noise::Whitener;
 use crate::numerics::least_squares::dot;
 use crate::numerics::{count, least_squares, spread};
-use crate::policy::evidence::{HIGH_HARMONIC, HIGH_HARMONIC_PRICE, SHAPE, WAVE};
+use crate::policy::evidence::{HIGH_HARMONIC_PRICE, SHAPE, WAVE};
 use crate::policy::reading::REVERSAL_REACH;
 
-/// True for a harmonic of the machine's screw of which the lower ones are not in the model.
-///
-/// A screw runs out once a turn, or twice by its bearing; its third and higher harmonics are small
-/// and come with the first two. A shaft that the machine file lists runs out once a turn.
+/// True for a high harmonic, such as one of the machine's screw, of which the lower ones are not in
+/// the model; a shaft that the machine file lists runs out once a turn.
 #[must_use]
 pub(crate) fn high_harmonic_alone(component: &Component, others: &[Component]) -> bool {
-    let screw = |term: &Term| term.kind() == "screw-periodic";
-    screw(&component.term)
-        && component.term.nonlinear().first().is_some_and(|harmonic| HIGH_HARMONIC <= *harmonic)
-        && !others
-            .iter()
-            .any(|other| screw(&other.term) && other.term.nonlinear() != component.term.nonlinear())
+    let term = &component.term;
+    let Some(high) = term.nature().high_harmonic else { return false };
+    term.nonlinear().first().is_some_and(|harmonic| high <= *harmonic)
+        && !others.iter().any(|other| {
+            other.term.kind() == term.kind() && other.term.nonlinear() != term.nonlinear()
+        })
 }
 
 /// Evidence an effect has to pay for being unlikely beforehand.
@@ -34,7 +32,7 @@ pub(crate) fn price(component: &Component, others: &[Component]) -> f64 {
 /// listed shaft happens to coincide with.
 #[must_use]
 pub(crate) fn far_fetched(rival: &Component, own: &Component, others: &[Component]) -> bool {
-    own.term.kind() == "gear-error" && high_harmonic_alone(rival, others)
+    own.term.is_of_a_gear() && high_harmonic_alone(rival, others)
 }
 
 /// Effects that look like one of a model by physics, though none was fitted to the data.
@@ -46,7 +44,8 @@ pub(crate) fn by_physics(problem: &Problem, state: &State, index: usize) -> Vec<
         alike.extend(slopes_like(problem, component));
     }
     if slips_at_reversal(problem, component) {
-        alike.push("backlash".to_owned());
+        let cards = CATALOGUE.iter().filter(|card| card.nature.at_reversal);
+        alike.extend(cards.map(|card| card.kind.to_owned()));
     }
     alike
 }
@@ -58,7 +57,7 @@ pub(crate) fn by_physics(problem: &Problem, state: &State, index: usize) -> Vec<
 fn is_slope(problem: &Problem, state: &State, index: usize) -> bool {
     let component = &state.components[index];
     let sized = component.term.parameters.iter().any(|w| matches!(w.role, Role::Known { .. }));
-    if sized || !component.term.needs().is_empty() || component.term.kind() == "wrong-setting" {
+    if sized || !component.term.needs().is_empty() || component.term.nature().is_setting() {
         return false;
     }
     let whitener = Whitener::new(&problem.layout, &state.fit.noises);
@@ -108,7 +107,7 @@ fn slips_at_reversal(problem: &Problem, component: &Component) -> bool {
 #[must_use]
 pub(crate) fn lets_motion_through(problem: &Problem, component: &Component) -> bool {
     let steps = problem.measurement.covariates.get("steps");
-    let (true, Some(steps)) = (component.term.kind() == "corrector-lost-motion", steps) else {
+    let (true, Some(steps)) = (component.term.nature().play, steps) else {
         return true;
     };
     let moved_um = spread(steps) * problem.model.drive.step_um;

@@ -69,7 +69,7 @@ fn confused(problem: &Problem, state: &State, index: usize, tried: &[Judged]) ->
             behind < MARGIN
                 || (behind < CLEAR_MARGIN
                     && judged.looks < COINCIDENCE * own.looks
-                    && name != "wrong-setting"
+                    && !component.term.nature().is_setting()
                     && INFLATION < inflation(problem, judged, &whitener, &shape))
         })
         .map(|judged| judged.component.term.name.clone())

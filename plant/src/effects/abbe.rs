@@ -9,7 +9,7 @@
 //! 50 mm and 2″ are 0.485 µm.
 
 use crate::units::MM;
-use crate::{Basis, Card, Covariate, Effect, Entry, Instant, Parameter};
+use crate::{Basis, Card, Covariate, Effect, Entry, Instant, Nature, Parameter};
 
 /// µm per mm and second of arc: π/648 000 rad times 1000.
 const UM_PER_MM_ARCSEC: f64 = std::f64::consts::PI / 648.0;
@@ -29,6 +29,7 @@ pub(super) const CARD: Card = Card {
     source: "Abbe's principle; 1″ = π/648000 rad",
     random: false,
     candidate: true,
+    nature: Nature::PLAIN,
     basis: |_, _| Ok(Basis::one(Pitch)),
 };
 

@@ -10,7 +10,7 @@
 
 use super::air_index::slope;
 use super::shape::polynomial;
-use crate::{Basis, Card, Covariate, Entry, Parameter};
+use crate::{Basis, Card, Covariate, Entry, Nature, Parameter};
 
 pub(super) const CARD: Card = Card {
     kind: "air-pressure",
@@ -32,6 +32,7 @@ pub(super) const CARD: Card = Card {
     source: "Ciddor, Applied Optics 35 (1996) 1566",
     random: false,
     candidate: true,
+    nature: Nature::PLAIN,
     basis: |context, _| {
         let laser = context.machine.laser.clone();
         Ok(Basis::one(polynomial(move |now| {

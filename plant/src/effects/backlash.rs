@@ -10,7 +10,7 @@
 
 use super::shape::polynomial;
 use crate::units::UM;
-use crate::{Basis, Card, Entry, Parameter};
+use crate::{Basis, Card, Entry, Nature, Parameter};
 
 pub(super) const CARD: Card = Card {
     kind: "backlash",
@@ -26,5 +26,6 @@ pub(super) const CARD: Card = Card {
     source: "kinematics; the sign is that of the entry: forward is ahead",
     random: false,
     candidate: true,
+    nature: Nature { at_reversal: true, ..Nature::PLAIN },
     basis: |_, _| Ok(Basis::one(polynomial(|now| now.direction / 2.0))),
 };

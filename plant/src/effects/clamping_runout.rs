@@ -10,7 +10,7 @@
 
 use super::wave::{Run, indexed};
 use crate::units::UM;
-use crate::{Basis, Card, Covariate, Entry, Parameter};
+use crate::{Basis, Card, Covariate, Entry, Nature, Parameter};
 
 pub(super) const CARD: Card = Card {
     kind: "clamping-runout",
@@ -31,6 +31,7 @@ pub(super) const CARD: Card = Card {
     source: "geometry of the drunken thread",
     random: false,
     candidate: true,
+    nature: Nature::PLAIN,
     basis: |_, _| {
         let wave = |order| {
             let index = Some((Covariate::ClampingIndex, order));

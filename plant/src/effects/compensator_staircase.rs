@@ -11,7 +11,7 @@
 use super::shape::rough;
 use crate::compensation::stairs_um;
 use crate::units::UM_PER_M;
-use crate::{Basis, Card, Entry, Parameter, Search};
+use crate::{Basis, Card, Entry, Nature, Parameter, Search};
 
 pub(super) const CARD: Card = Card {
     kind: "compensator-staircase",
@@ -33,6 +33,7 @@ pub(super) const CARD: Card = Card {
     source: "document 1, figure 9",
     random: false,
     candidate: true,
+    nature: Nature { curve: true, ..Nature::PLAIN },
     basis: |context, nonlinear| {
         let (rate, fringe_um) = (nonlinear[0], context.machine.fringe_um());
         let stairs = rough(move |now| stairs_um(rate, fringe_um, now.position_mm));

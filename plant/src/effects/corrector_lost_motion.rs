@@ -9,7 +9,9 @@
 //! w = 0.1 µm is 8 steps of 0.0125 µm that a reversal loses; the loop hunts that much wider.
 
 use crate::units::UM;
-use crate::{Basis, Card, Covariate, Effect, Entry, Instant, Parameter, Play, Record, Search};
+use crate::{
+    Basis, Card, Covariate, Effect, Entry, Instant, Nature, Parameter, Play, Record, Search,
+};
 
 pub(super) const CARD: Card = Card {
     kind: "corrector-lost-motion",
@@ -27,6 +29,7 @@ pub(super) const CARD: Card = Card {
     source: "play operator of hysteresis theory",
     random: false,
     candidate: true,
+    nature: Nature { play: true, ..Nature::PLAIN },
     basis: |context, nonlinear| {
         let step_um = context.machine.drive.step_um;
         Ok(Basis::fixed(LostMotion { width_um: nonlinear[0], step_um }))

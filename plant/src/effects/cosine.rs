@@ -10,7 +10,7 @@
 
 use super::shape::polynomial;
 use crate::units::MRAD;
-use crate::{Basis, Card, Entry, Parameter};
+use crate::{Basis, Card, Entry, Nature, Parameter};
 
 pub(super) const CARD: Card = Card {
     kind: "cosine",
@@ -26,5 +26,6 @@ pub(super) const CARD: Card = Card {
     source: "geometry",
     random: false,
     candidate: true,
+    nature: Nature::PLAIN,
     basis: |_, _| Ok(Basis::one(polynomial(|now| 0.5 * now.position_m()))),
 };

@@ -11,7 +11,7 @@
 use super::air_index::{logged, slope};
 use super::shape::polynomial;
 use crate::units::M;
-use crate::{Basis, Card, Covariate, Entry, Parameter};
+use crate::{Basis, Card, Covariate, Entry, Nature, Parameter};
 
 pub(super) const CARD: Card = Card {
     kind: "dead-path",
@@ -28,6 +28,8 @@ pub(super) const CARD: Card = Card {
     source: "Ciddor, Applied Optics 35 (1996) 1566",
     random: false,
     candidate: true,
+    // The air's sensitivities are good to a percent and a half over a day's weather.
+    nature: Nature { uncertainty: 0.015, ..Nature::PLAIN },
     basis: |context, _| {
         let laser = context.machine.laser.clone();
         Ok(Basis::one(polynomial(move |now| {

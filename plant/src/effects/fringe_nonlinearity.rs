@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 
 use super::shape::feedback;
 use crate::units::NUMBER;
-use crate::{Basis, Card, Entry, Parameter};
+use crate::{Basis, Card, Entry, Nature, Parameter};
 
 pub(super) const CARD: Card = Card {
     kind: "fringe-nonlinearity",
@@ -30,6 +30,7 @@ pub(super) const CARD: Card = Card {
     source: "periodic nonlinearity of homodyne interferometers, first order",
     random: false,
     candidate: true,
+    nature: Nature::PLAIN,
     basis: |context, _| {
         let wavelength_um = context.machine.laser.wavelength_um;
         Ok(Basis::one(feedback(move |now| {

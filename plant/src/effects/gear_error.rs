@@ -10,7 +10,7 @@
 
 use super::wave::{Run, pair};
 use crate::units::{NUMBER, UM};
-use crate::{Card, Entry, Parameter, Search};
+use crate::{Card, Entry, Nature, Parameter, Search};
 
 pub(super) const CARD: Card = Card {
     kind: "gear-error",
@@ -31,5 +31,6 @@ pub(super) const CARD: Card = Card {
     source: "kinematics of the train",
     random: false,
     candidate: true,
+    nature: Nature::PLAIN,
     basis: |_, nonlinear| Ok(pair(Run::Spindle { order: nonlinear[0] }, 1.0)),
 };

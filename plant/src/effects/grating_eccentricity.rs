@@ -14,7 +14,7 @@
 
 use super::wave::{Run, indexed};
 use crate::units::UM;
-use crate::{Card, Covariate, Entry, Parameter};
+use crate::{Card, Covariate, Entry, Nature, Parameter};
 
 pub(super) const CARD: Card = Card {
     kind: "grating-eccentricity",
@@ -34,6 +34,7 @@ pub(super) const CARD: Card = Card {
     source: "geometry; agrees with 412·e/D seconds of arc of the encoder makers",
     random: false,
     candidate: true,
+    nature: Nature::PLAIN,
     basis: |context, _| {
         let per_micrometre =
             context.machine.delta_per_rad() * 2.0 / (1000.0 * context.machine.grating.diameter_mm);

@@ -10,7 +10,7 @@
 
 use super::wave::{Run, indexed};
 use crate::units::{NUMBER, UM};
-use crate::{Card, Covariate, Entry, Parameter, Search};
+use crate::{Card, Covariate, Entry, Nature, Parameter, Search};
 
 pub(super) const CARD: Card = Card {
     kind: "grating-graduation",
@@ -32,6 +32,7 @@ pub(super) const CARD: Card = Card {
     source: "division errors of circular scales",
     random: false,
     candidate: true,
+    nature: Nature::PLAIN,
     basis: |_, nonlinear| {
         let order = nonlinear[0];
         Ok(indexed(Run::Spindle { order }, 1.0, Some((Covariate::GratingIndex, order))))

@@ -10,7 +10,7 @@
 
 use super::shape::polynomial;
 use crate::units::UM_PER_N;
-use crate::{Basis, Card, Covariate, Entry, Parameter};
+use crate::{Basis, Card, Covariate, Entry, Nature, Parameter};
 
 pub(super) const CARD: Card = Card {
     kind: "grinding-force",
@@ -28,5 +28,6 @@ pub(super) const CARD: Card = Card {
     source: "Hooke's law",
     random: false,
     candidate: true,
+    nature: Nature::PLAIN,
     basis: |_, _| Ok(Basis::one(polynomial(|now| now.covariate(Covariate::Force)))),
 };

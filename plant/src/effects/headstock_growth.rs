@@ -10,7 +10,7 @@
 
 use super::shape::banded;
 use crate::units::{S, UM};
-use crate::{Basis, Card, Entry, Parameter, Search, Smoothness};
+use crate::{Basis, Card, Entry, Nature, Parameter, Search, Smoothness};
 
 pub(super) const CARD: Card = Card {
     kind: "headstock-growth",
@@ -30,6 +30,7 @@ pub(super) const CARD: Card = Card {
     source: "first-order warming up",
     random: false,
     candidate: true,
+    nature: Nature::PLAIN,
     basis: |_, nonlinear| {
         let constant_s = nonlinear[0];
         let growth = banded(

@@ -11,7 +11,7 @@
 
 use super::shape::{polynomial, rough, since};
 use crate::units::{PPM, PPM_PER_H, S};
-use crate::{Basis, Card, Entry, Parameter, Search};
+use crate::{Basis, Card, Entry, Nature, Parameter, Search};
 
 pub(super) const CARD: Card = Card {
     kind: "laser-drift",
@@ -35,6 +35,7 @@ pub(super) const CARD: Card = Card {
     source: "δ = x·Δλ/λ; Δλ/λ = −Δν/ν",
     random: false,
     candidate: true,
+    nature: Nature::PLAIN,
     basis: |_, nonlinear| {
         let hop_s = nonlinear[0];
         let ramp = polynomial(|now| now.position_m() * now.time_s / 3600.0);

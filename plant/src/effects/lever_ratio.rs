@@ -11,7 +11,7 @@
 
 use super::shape::polynomial;
 use crate::units::NUMBER;
-use crate::{Basis, Card, Covariate, Entry, Parameter};
+use crate::{Basis, Card, Covariate, Entry, Nature, Parameter};
 
 pub(super) const CARD: Card = Card {
     kind: "lever-ratio",
@@ -29,6 +29,7 @@ pub(super) const CARD: Card = Card {
     source: "geometry of the lever",
     random: false,
     candidate: true,
+    nature: Nature::PLAIN,
     basis: |context, _| {
         let step_um = context.machine.drive.step_um;
         let commanded = move |now: &crate::Instant<'_>| step_um * now.covariate(Covariate::Steps);

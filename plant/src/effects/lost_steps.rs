@@ -10,7 +10,7 @@
 
 use super::shape::{rough, since};
 use crate::units::{NUMBER, S};
-use crate::{Basis, Card, Entry, Parameter, Search};
+use crate::{Basis, Card, Entry, Nature, Parameter, Search};
 
 pub(super) const CARD: Card = Card {
     kind: "lost-steps",
@@ -29,6 +29,7 @@ pub(super) const CARD: Card = Card {
     source: "document 1, counting channels",
     random: false,
     candidate: true,
+    nature: Nature::PLAIN,
     basis: |context, nonlinear| {
         let time_s = nonlinear[0];
         let size_um = context.machine.drive.step_um;

@@ -11,7 +11,7 @@
 
 use super::shape::feedback;
 use crate::units::UM;
-use crate::{Basis, Card, Covariate, Entry, Parameter, Search};
+use crate::{Basis, Card, Covariate, Entry, Nature, Parameter, Search};
 
 pub(super) const CARD: Card = Card {
     kind: "meter-dead-zone",
@@ -33,6 +33,7 @@ pub(super) const CARD: Card = Card {
     source: "document 1, phase meter: two complementary outputs",
     random: false,
     candidate: true,
+    nature: Nature::PLAIN,
     basis: |context, nonlinear| {
         let (width_um, turn_um) = (nonlinear[0], context.machine.full_scale_um());
         let fringe_um = context.machine.fringe_um();

@@ -10,7 +10,7 @@
 
 use super::shape::polynomial;
 use crate::units::UM_PER_H;
-use crate::{Basis, Card, Entry, Parameter};
+use crate::{Basis, Card, Entry, Nature, Parameter};
 
 pub(super) const CARD: Card = Card {
     kind: "phase-drift",
@@ -28,5 +28,6 @@ pub(super) const CARD: Card = Card {
     source: "engineering judgement",
     random: false,
     candidate: true,
+    nature: Nature::PLAIN,
     basis: |_, _| Ok(Basis::one(polynomial(|now| now.time_s / 3600.0))),
 };

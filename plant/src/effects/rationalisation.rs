@@ -9,7 +9,7 @@
 //! A 110, B 150 at 6 mm, 13906 lines and λ = 0.63281983 µm leave −0.846 µm/m. It follows from the
 //! machine file and is always in the prediction; as an effect of its own it adds nothing.
 
-use crate::{Basis, Card, Entry};
+use crate::{Basis, Card, Entry, Nature};
 
 pub(super) const CARD: Card = Card {
     kind: "rationalisation",
@@ -25,5 +25,6 @@ pub(super) const CARD: Card = Card {
     source: "document 1, decimal rationalisation",
     random: false,
     candidate: false,
+    nature: Nature::PLAIN,
     basis: |_, _| Ok(Basis::default()),
 };

@@ -10,7 +10,7 @@
 //! so it leaves table and counter alone: in a run it is [`crate::Model::recorder_lags_s`].
 
 use crate::units::S;
-use crate::{Basis, Card, Effect, Entry, Instant, LowPass, Parameter, Record, Search};
+use crate::{Basis, Card, Effect, Entry, Instant, LowPass, Nature, Parameter, Record, Search};
 
 pub(super) const CARD: Card = Card {
     kind: "recorder-lag",
@@ -27,6 +27,7 @@ pub(super) const CARD: Card = Card {
     source: "first-order lag",
     random: false,
     candidate: true,
+    nature: Nature::PLAIN,
     basis: |_, nonlinear| Ok(Basis::fixed(Lag { time_constant_s: nonlinear[0] })),
 };
 

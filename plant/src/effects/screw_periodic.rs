@@ -10,7 +10,7 @@
 
 use super::wave::{Run, pair};
 use crate::units::{NUMBER, UM};
-use crate::{Card, EffectError, Entry, Parameter, Search};
+use crate::{Card, EffectError, Entry, Nature, Parameter, Search};
 
 pub(super) const CARD: Card = Card {
     kind: "screw-periodic",
@@ -32,6 +32,9 @@ pub(super) const CARD: Card = Card {
     source: "document 1, results: 3 µm periodic error of the machine",
     random: false,
     candidate: true,
+    // Derived: a screw runs out once a turn, its bearing twice; what is higher is small and comes
+    // with those. Doubled: the third to the fifth are as likely as the first.
+    nature: Nature { high_harmonic: Some(3.0), ..Nature::PLAIN },
     basis: |context, nonlinear| {
         let turns_per_mm = context.machine.screw_turns_per_mm().ok_or_else(|| {
             EffectError::MissingSection { effect: "screw-periodic".into(), section: "[lead_screw]" }

@@ -9,7 +9,7 @@
 //! c1 = 35 µm/m over 1 m: 35 µm at the end, the cumulative error of document 1.
 
 use crate::units::{UM_PER_M, UM_PER_M2, UM_PER_M3};
-use crate::{Basis, Card, Effect, Entry, Instant, Parameter, Smoothness};
+use crate::{Basis, Card, Effect, Entry, Instant, Nature, Parameter, Smoothness};
 
 pub(super) const CARD: Card = Card {
     kind: "screw-progressive",
@@ -31,6 +31,7 @@ pub(super) const CARD: Card = Card {
     source: "document 1, results: 30 to 40 µm cumulative error of the machine",
     random: false,
     candidate: true,
+    nature: Nature { curve: true, ..Nature::PLAIN },
     basis: |_, _| {
         let power = |exponent| -> Box<dyn Effect> { Box::new(Power { exponent }) };
         Ok(Basis { columns: [1, 2, 3].map(power).into(), fixed: None })

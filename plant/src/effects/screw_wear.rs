@@ -10,7 +10,7 @@
 
 use super::shape::banded;
 use crate::units::{MM, UM};
-use crate::{Basis, Card, Entry, Parameter, Search, Smoothness};
+use crate::{Basis, Card, Entry, Nature, Parameter, Search, Smoothness};
 
 pub(super) const CARD: Card = Card {
     kind: "screw-wear",
@@ -32,6 +32,7 @@ pub(super) const CARD: Card = Card {
     source: "engineering judgement: wear is where the machine works most",
     random: false,
     candidate: true,
+    nature: Nature::PLAIN,
     basis: |_, nonlinear| {
         let (position_mm, width_mm) = (nonlinear[0], nonlinear[1]);
         let bump = banded(

@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 
 use super::shape::banded;
 use crate::units::{MM, UM};
-use crate::{Basis, Card, Entry, Parameter, Search, Smoothness};
+use crate::{Basis, Card, Entry, Nature, Parameter, Search, Smoothness};
 
 pub(super) const CARD: Card = Card {
     kind: "steady-sag",
@@ -32,6 +32,7 @@ pub(super) const CARD: Card = Card {
     source: "shape by engineering judgement, zero at the rests",
     random: false,
     candidate: true,
+    nature: Nature { curve: true, ..Nature::PLAIN },
     basis: |_, nonlinear| {
         let spacing_mm = nonlinear[0];
         let sag = banded(

@@ -15,7 +15,7 @@
 
 use super::shape::rough;
 use crate::units::{RPM, UM};
-use crate::{Basis, Card, Entry, Parameter, Search};
+use crate::{Basis, Card, Entry, Nature, Parameter, Search};
 
 pub(super) const CARD: Card = Card {
     kind: "stick-slip",
@@ -36,6 +36,7 @@ pub(super) const CARD: Card = Card {
     source: "relaxation oscillation of a sliding mass, drive slow against the jump",
     random: true,
     candidate: true,
+    nature: Nature::PLAIN,
     basis: |_, nonlinear| {
         let (jump_um, critical_rpm) = (nonlinear[0], nonlinear[1]);
         let sawtooth = rough(move |now| {

@@ -17,7 +17,7 @@ use std::f64::consts::TAU;
 
 use super::shape::rough;
 use crate::units::{NUMBER, UM};
-use crate::{Basis, Card, Entry, Parameter, Search};
+use crate::{Basis, Card, Entry, Nature, Parameter, Search};
 
 pub(super) const CARD: Card = Card {
     kind: "turbulence",
@@ -38,6 +38,7 @@ pub(super) const CARD: Card = Card {
     source: "growth with L^0.9 and 1/f: measured in workshops, order of magnitude",
     random: true,
     candidate: true,
+    nature: Nature::PLAIN,
     basis: |_, nonlinear| {
         let waves = waves(nonlinear[0]);
         Ok(Basis::one(rough(move |now| {

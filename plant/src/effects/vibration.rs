@@ -11,7 +11,7 @@
 
 use super::wave::{Run, pair};
 use crate::units::{HZ, UM};
-use crate::{Card, Entry, Parameter, Search};
+use crate::{Card, Entry, Nature, Parameter, Search};
 
 pub(super) const CARD: Card = Card {
     kind: "vibration",
@@ -32,5 +32,6 @@ pub(super) const CARD: Card = Card {
     source: "sampling theorem; document 1, filter: fφ = M/A·n/60",
     random: false,
     candidate: true,
+    nature: Nature::PLAIN,
     basis: |_, nonlinear| Ok(pair(Run::Time { hz: nonlinear[0] }, 1.0)),
 };

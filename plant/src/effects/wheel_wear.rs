@@ -10,7 +10,7 @@
 
 use super::shape::polynomial;
 use crate::units::UM_PER_M;
-use crate::{Basis, Card, Entry, Parameter};
+use crate::{Basis, Card, Entry, Nature, Parameter};
 
 pub(super) const CARD: Card = Card {
     kind: "wheel-wear",
@@ -26,5 +26,6 @@ pub(super) const CARD: Card = Card {
     source: "engineering judgement: wear goes with the way ground",
     random: false,
     candidate: true,
+    nature: Nature::PLAIN,
     basis: |_, _| Ok(Basis::one(polynomial(|now| -now.travelled_mm / 1000.0))),
 };

@@ -11,7 +11,7 @@
 
 use super::shape::banded;
 use crate::units::{MM, UM_PER_N};
-use crate::{Basis, Card, Covariate, Entry, Parameter, Search, Smoothness};
+use crate::{Basis, Card, Covariate, Entry, Nature, Parameter, Search, Smoothness};
 
 pub(super) const CARD: Card = Card {
     kind: "wind-up",
@@ -32,6 +32,7 @@ pub(super) const CARD: Card = Card {
     source: "pre-sliding friction after Dahl, to its first exponential",
     random: false,
     candidate: true,
+    nature: Nature::PLAIN,
     basis: |_, nonlinear| {
         let sliding_mm = nonlinear[0];
         let wound = banded(

@@ -9,7 +9,7 @@
 //! Steel of 11.5 ppm/K, 1 m, 2 K too warm: 23 µm too short. Physics fixes the coefficient to 5 %.
 
 use super::shape::polynomial;
-use crate::{Basis, Card, Covariate, Entry, Parameter};
+use crate::{Basis, Card, Covariate, Entry, Nature, Parameter};
 
 pub(super) const CARD: Card = Card {
     kind: "workpiece-expansion",
@@ -25,6 +25,7 @@ pub(super) const CARD: Card = Card {
     source: "definition of thermal expansion; reference temperature of ISO 1",
     random: false,
     candidate: true,
+    nature: Nature::PLAIN,
     basis: |context, _| {
         let expansion = context.machine.workpiece.expansion_ppm_per_k;
         Ok(Basis::one(polynomial(move |now| {

@@ -18,7 +18,7 @@
 use super::shape::polynomial;
 use crate::rationalisation::implied_um_per_m;
 use crate::units::{MM, NUMBER};
-use crate::{Basis, Card, Entry, Parameter, Search};
+use crate::{Basis, Card, Entry, Nature, Parameter, Search};
 
 pub(super) const CARD: Card = Card {
     kind: "wrong-setting",
@@ -53,6 +53,15 @@ pub(super) const CARD: Card = Card {
     source: "arithmetic of the channels",
     random: false,
     candidate: false,
+    nature: Nature {
+        settings: &[
+            ("a", "dividers.a"),
+            ("b", "dividers.b"),
+            ("lines", "grating.lines"),
+            ("lead", "workpiece.lead"),
+        ],
+        ..Nature::PLAIN
+    },
     basis: |context, nonlinear| {
         let machine = context.machine;
         let ratio = |value: f64, says: f64| if value == 0.0 { 1.0 } else { value / says };

@@ -1,0 +1,37 @@
+//! What is special about an effect beside its formula.
+
+/// What a diagnosis may take for granted of an effect before it has seen any data.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nature {
+    /// True for a smooth curve or stairs over the travel: with others, it makes up any shape.
+    pub curve: bool,
+    /// True for a jump wherever the table turns back.
+    pub at_reversal: bool,
+    /// True when its nonlinear values are plays, µm, that the corrector's moves get through.
+    pub play: bool,
+    /// Lowest harmonic that does not come without those below it.
+    pub high_harmonic: Option<f64>,
+    /// Relative uncertainty of the known physics that its parameters multiply.
+    pub uncertainty: f64,
+    /// Its parameters that are numbers of the machine file, with their keys there; an effect that
+    /// has any is a wrong setting, to be put right and not to be modelled.
+    pub settings: &'static [(&'static str, &'static str)],
+}
+
+impl Nature {
+    /// Nothing special.
+    pub const PLAIN: Self = Self {
+        curve: false,
+        at_reversal: false,
+        play: false,
+        high_harmonic: None,
+        uncertainty: 0.0,
+        settings: &[],
+    };
+
+    /// True for a number of the machine file that is other than the file says.
+    #[must_use]
+    pub fn is_setting(&self) -> bool {
+        !self.settings.is_empty()
+    }
+}
