@@ -13,4 +13,4 @@ pub(crate) use analysis::{Step, search};
 pub(crate) use polish::polished;
 pub(crate) use pruning::pruned;
 pub(crate) use refusal::Refusal;
-pub(crate) use rivals::{Found, rivals};
+pub(crate) use rivals::{Rivals, rivals};

@@ -11,7 +11,7 @@ use crate::noise::rms;
 use crate::numerics::least_squares::covariance_rows;
 use crate::policy::chance::{AT_AN_END, STANDARD_ERRORS};
 use crate::policy::extent::SEARCHED_ROWS;
-use crate::search::{Found, Refusal, Step, polished, pruned, rivals, search};
+use crate::search::{Refusal, Rivals, Step, polished, pruned, rivals, search};
 
 /// What can be said about a model and a measurement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -183,7 +183,7 @@ fn pruned_again(problem: &Problem, small: &Problem, last: &State) -> Option<(Ste
     Some((Step::to(thin, None, dropped), state))
 }
 
-fn verdict(state: &State, found: &[Found], residual: &[Structure]) -> Verdict {
+fn verdict(state: &State, found: &[Rivals], residual: &[Structure]) -> Verdict {
     if !residual.is_empty() {
         return Verdict::Unexplained;
     }
@@ -297,7 +297,12 @@ fn warning_at_bound(
         .then_some("at the bound of its plausible range")
 }
 
-fn ranked(state: &State, found: &[Found], first: &[Judged], experiments: &[Advice]) -> Vec<Ranked> {
+fn ranked(
+    state: &State,
+    found: &[Rivals],
+    first: &[Judged],
+    experiments: &[Advice],
+) -> Vec<Ranked> {
     let best = first.iter().map(|judged| judged.evidence).fold(f64::NEG_INFINITY, f64::max);
     let mut all: Vec<Ranked> = Vec::new();
     for found in found {
@@ -324,7 +329,7 @@ fn ranked(state: &State, found: &[Found], first: &[Judged], experiments: &[Advic
 }
 
 /// Confusion is mutual: a rival names the effect it is confused with.
-fn mirror(one: &mut Ranked, state: &State, found: &[Found], experiments: &[Advice]) {
+fn mirror(one: &mut Ranked, state: &State, found: &[Rivals], experiments: &[Advice]) {
     for found in found.iter().filter(|found| found.confused.contains(&one.name)) {
         let component: &Component = &state.components[found.index];
         one.confounded_with.push(component.term.name.clone());

@@ -7,7 +7,7 @@ use crate::model::{Component, Problem, State};
 use crate::noise::rms;
 use crate::numerics::spread;
 use crate::policy::size::{ANOTHER_SPEED, DWELL, WORTHWHILE_UM};
-use crate::search::Found;
+use crate::search::Rivals;
 
 /// An experiment with what it is expected to separate.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,7 +61,7 @@ const EXPERIMENTS: [Experiment; 5] = [
 
 /// Experiments not done yet, by how far they would drive confused effects apart.
 #[must_use]
-pub(crate) fn advice(problem: &Problem, state: &State, found: &[Found]) -> Vec<Advice> {
+pub(crate) fn advice(problem: &Problem, state: &State, found: &[Rivals]) -> Vec<Advice> {
     let mut all = Vec::new();
     for found in found {
         let own = &state.components[found.index];

@@ -9,9 +9,9 @@ use crate::numerics::least_squares;
 use crate::numerics::least_squares::dot;
 use crate::policy::evidence::{CLEAR_MARGIN, COINCIDENCE, INFLATION, MARGIN};
 
-/// An effect that was found, and those that cannot be told from it.
+/// What was judged in the place of a component, and what the data cannot tell from it.
 #[derive(Debug, Clone)]
-pub(crate) struct Found {
+pub(crate) struct Rivals {
     /// Its place among the components.
     pub(crate) index: usize,
     /// All effects tried in its place, best evidence first.
@@ -24,7 +24,7 @@ pub(crate) struct Found {
 ///
 /// `first` are the effects tried on the bare model; they save the work for a single effect.
 #[must_use]
-pub(crate) fn rivals(problem: &Problem, state: &State, first: &[Judged]) -> Vec<Found> {
+pub(crate) fn rivals(problem: &Problem, state: &State, first: &[Judged]) -> Vec<Rivals> {
     (0..state.components.len())
         .map(|index| {
             let tried = if state.components.len() == 1 {
@@ -38,7 +38,7 @@ pub(crate) fn rivals(problem: &Problem, state: &State, first: &[Judged]) -> Vec<
                     confused.push(name);
                 }
             }
-            Found { index, tried, confused }
+            Rivals { index, tried, confused }
         })
         .collect()
 }
