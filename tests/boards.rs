@@ -148,3 +148,18 @@ fn a_missing_tool_is_named_with_its_package() {
     );
     assert!(!folder.path().join("out").exists(), "nothing is left behind");
 }
+
+#[test]
+fn the_help_names_the_boards_of_the_folder() {
+    let help = Command::new(env!("CARGO_BIN_EXE_helixlock"))
+        .args(["gen", "--help"])
+        .output()
+        .expect("helixlock starts");
+    let help = String::from_utf8(help.stdout).expect("help is text");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/constraints");
+    for entry in fs::read_dir(folder).expect("the folder is there") {
+        let text = fs::read_to_string(entry.expect("it can be listed").path()).expect("text");
+        let name = text.lines().find_map(|line| line.strip_prefix("# board:")).expect("a name");
+        assert!(help.contains(name.trim()), "{name}: {help}");
+    }
+}

@@ -56,3 +56,21 @@ fn libraries_leave_json_to_the_command() {
         }
     }
 }
+
+/// A command's folder uses nothing of another's, and what lies beside `mod.rs` not the command.
+#[test]
+fn commands_stand_apart() {
+    let cli = concat!(env!("CARGO_MANIFEST_DIR"), "/cli");
+    let folders = |path: &str| std::fs::read_dir(path).expect("a folder").map(Result::unwrap);
+    for folder in folders(cli).filter(|entry| entry.path().is_dir()) {
+        for file in folders(folder.path().to_str().expect("a plain name")) {
+            let path = file.path();
+            let text = std::fs::read_to_string(&path).expect("a source file");
+            let mut used = text.split("crate::").skip(1);
+            assert!(used.all(|rest| rest.starts_with("shared")), "{}", path.display());
+            let mut above = text.split("super::").skip(1);
+            let beside = above.all(|rest| !rest.starts_with(|first: char| first.is_uppercase()));
+            assert!(file.file_name() == "mod.rs" || beside, "{}", path.display());
+        }
+    }
+}

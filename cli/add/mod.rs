@@ -6,13 +6,14 @@ use std::process::ExitCode;
 
 use anyhow::{Context, bail};
 use clap::Args;
-use helixlock_lab::{Added, FittedEffect, add, written};
+use helixlock_lab::{Added, add, written};
 use helixlock_plant::{MachineFile, Term};
-use serde_json::json;
 
 use crate::shared::captured::Signals;
+use crate::shared::diagnosis_json::{EffectJson, effects};
 use crate::shared::effect_file::{effect_text, own_effects};
-use crate::shared::{diagnosis_json, diagnosis_text, measured, output};
+use crate::shared::keys::keys;
+use crate::shared::{diagnosis_text, measured, output};
 
 /// Put an effect into a machine file, its parameters fitted to data
 #[derive(Debug, Args)]
@@ -62,7 +63,7 @@ impl Add {
         self.write(&written(&base, &added.effects)?)?;
         let unit = problem.measurement.unit_word();
         if self.json {
-            writeln!(out, "{}", serde_json::to_string_pretty(&as_json(&added, unit))?)?;
+            output::print_json(out, &AddedJson::new(&added, unit))?;
         } else {
             print(out, &added, problem.measurement.unit())?;
         }
@@ -114,24 +115,16 @@ fn stripped(file: &MachineFile) -> anyhow::Result<(MachineFile, Vec<Term>)> {
     Ok((bare, terms))
 }
 
-fn as_json(added: &Added, unit: &str) -> serde_json::Value {
-    let effects: Vec<_> = added.effects.iter().map(effect_json).collect();
-    json!({
-        "effects": effects,
-        "unit": unit,
-        "rms_before_um": added.rms_um[0],
-        "rms_um": added.rms_um[1],
-        "holdout_rms_before_um": added.holdout_rms_um[0],
-        "holdout_rms_um": added.holdout_rms_um[1],
-        "evidence": added.gain,
-    })
-}
-
-fn effect_json(effect: &FittedEffect) -> serde_json::Value {
-    json!({
-        "effect": effect.name,
-        "parameters": diagnosis_json::parameters(&effect.parameters),
-    })
+keys! {
+    AddedJson<'a>(added: &'a Added, unit: &'static str) {
+        effects: Vec<EffectJson<'a>> = effects(&added.effects),
+        unit: &'static str = unit,
+        rms_before_um: f64 = added.rms_um[0],
+        rms_um: f64 = added.rms_um[1],
+        holdout_rms_before_um: f64 = added.holdout_rms_um[0],
+        holdout_rms_um: f64 = added.holdout_rms_um[1],
+        evidence: f64 = added.gain,
+    }
 }
 
 fn print(out: &mut impl Write, added: &Added, unit: &str) -> anyhow::Result<()> {

@@ -1,21 +1,18 @@
 //! `helixlock challenge`: a machine with something hidden, or how well many of them are solved.
 
-mod score;
+mod json;
+mod text;
 
-use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use helixlock_lab::{
-    Challenge as Task, Hidden, Measurement, Nominal, Problem, challenge, diagnose,
-};
+use helixlock_lab::{Challenge as Task, Measurement, Nominal, Problem, Score, challenge, diagnose};
 use helixlock_traces::csv::write_csv;
-use serde_json::{Value, json};
 
-use self::score::Score;
-use crate::shared::output::Batch;
+use self::json::{AnswerJson, ScoreJson};
+use crate::shared::output::{Batch, print_json};
 use crate::shared::progress;
 
 /// Make a machine and data with something hidden, or score the diagnosis on many of them
@@ -45,9 +42,9 @@ impl Challenge {
         if let Some(number) = self.score {
             let score = score(self.seed, number)?;
             if self.json {
-                writeln!(out, "{}", serde_json::to_string_pretty(&score.json())?)?;
+                print_json(out, &ScoreJson::new(&score))?;
             } else {
-                score.print(out)?;
+                text::print(&score, out)?;
             }
         }
         Ok(ExitCode::SUCCESS)
@@ -58,31 +55,8 @@ fn write(task: &Task, seed: u64, folder: &Path) -> anyhow::Result<()> {
     let mut files = Batch::new(folder)?;
     files.write_content("machine.toml", task.machine.text())?;
     files.write("data.csv", |mut file| Ok(write_csv(&task.table, &mut file)?))?;
-    files.write_json("answer.json", &answer(task, seed))?;
+    files.write_json("answer.json", &AnswerJson::new(task, seed))?;
     files.keep()
-}
-
-fn answer(task: &Task, seed: u64) -> Value {
-    let effects: Vec<Value> = task
-        .terms
-        .iter()
-        .map(|term| {
-            let pairs = term.parameters.iter().zip(&term.values);
-            let values: BTreeMap<String, f64> = pairs.map(|(p, v)| (p.key(), *v)).collect();
-            json!({ "effect": term.name, "parameters": values })
-        })
-        .collect();
-    let outside = match &task.hidden {
-        Hidden::Outside(name) => Some(*name),
-        _ => None,
-    };
-    json!({
-        "seed": seed,
-        "effects": effects,
-        "outside_the_catalogue": outside,
-        "noise_um": task.noise_um,
-        "hidden_rms_um": task.hidden_um,
-    })
 }
 
 fn score(seed: u64, number: u64) -> anyhow::Result<Score> {

@@ -1,9 +1,10 @@
 //! Report of `helixlock compare`: the residual, its spectrum, and where it fails.
 
 use helixlock_lab::{Comparison, Problem, SensorResidual, sensor_column};
-use helixlock_report::{Colour, Figure, Page, Part, Series, Style, Table};
+use helixlock_report::{Colour, Page, Part, Series, Style, Table};
 
-use crate::shared::residual_picture::{panel, points, x_axis};
+use crate::shared::page_pieces::{panel, picture};
+use crate::shared::residual_picture::{points, x_axis};
 use crate::shared::spectrum;
 use crate::shared::words::{chance, with_error};
 
@@ -23,9 +24,9 @@ pub(crate) fn page(problem: &Problem, comparison: &Comparison) -> Page {
                 points(problem, index, &comparison.residual),
             )],
         );
-        let mut spectrum = panel(
+        let spectrum = panel(
             "Order spectrum",
-            "cycles a spindle turn".into(),
+            "",
             &format!("amplitude in {unit}"),
             vec![Series::new(
                 "residual",
@@ -34,13 +35,12 @@ pub(crate) fn page(problem: &Problem, comparison: &Comparison) -> Page {
                 sensor.spectrum.iter().copied(),
             )],
         );
-        spectrum.labels = spectrum::labels(&comparison.lines, index, problem.model.rotary);
-        spectrum.x = spectrum::axis(problem.model.rotary);
-        let svg = Figure { width_px: 900, panels: vec![residual, spectrum] }.svg();
-        parts.push(Part::Picture {
-            svg,
-            caption: "Above, what the model leaves, each pass about its own zero. Below, its spectrum; lines that the machine file cannot name carry a question mark.".into(),
-        });
+        let spectrum = spectrum::named(spectrum, &comparison.lines, index, problem.model.rotary);
+        parts.push(picture(
+            vec![residual, spectrum],
+            "Above, what the model leaves, each pass about its own zero. Below, its spectrum; \
+             lines that the machine file cannot name carry a question mark.",
+        ));
     }
     parts.push(Part::Heading("Where it fails".into()));
     parts.push(Part::Table(along(comparison, unit)));

@@ -7,10 +7,11 @@ use std::process::ExitCode;
 use clap::Args;
 use helixlock_lab::diagnose;
 
-use crate::shared::diagnosis_json;
+use crate::shared::diagnosis_json::DiagnosisJson;
 use crate::shared::diagnosis_text::print;
 use crate::shared::effect_file::own_effects;
 use crate::shared::measured::Files;
+use crate::shared::output::print_json;
 
 /// Name the effects that a machine file lacks, with evidence, rivals, and the experiment that tells
 #[derive(Debug, Args)]
@@ -34,8 +35,7 @@ impl Diagnose {
         }
         let diagnosis = diagnose(&problem);
         if self.json {
-            let value = diagnosis_json::diagnosis(&diagnosis, &problem.measurement);
-            writeln!(out, "{}", serde_json::to_string_pretty(&value)?)?;
+            print_json(out, &DiagnosisJson::new(&diagnosis, &problem.measurement))?;
         } else {
             print(out, &diagnosis, problem.measurement.unit())?;
         }

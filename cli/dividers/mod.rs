@@ -1,5 +1,7 @@
 //! `helixlock dividers`: thumb wheels for a lead, line counts for a set of leads.
 
+mod json;
+
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -11,7 +13,9 @@ use helixlock_plant::dividers::{
 };
 use helixlock_plant::units::{UM, read_quantity};
 use helixlock_plant::{Lead, LeadUnit, Range};
-use serde_json::{Value, json};
+
+use self::json::{SettingsJson, TracksJson};
+use crate::shared::output::print_json;
 
 /// Thumb-wheel settings for a lead: A, B, F, initial phase, and the error they leave
 #[derive(Debug, clap::Args)]
@@ -61,55 +65,26 @@ pub(crate) struct Dividers {
     json: bool,
 }
 
-/// Leads of ordinary screws and worms.
-const USUAL: &[&str] = &[
-    "1 mm",
-    "1.5 mm",
-    "2 mm",
-    "2.5 mm",
-    "3 mm",
-    "4 mm",
-    "5 mm",
-    "6 mm",
-    "8 mm",
-    "10 mm",
-    "12 mm",
-    "16 mm",
-    "20 mm",
-    "1/2 in",
-    "1/3 in",
-    "1/4 in",
-    "1/5 in",
-    "1/6 in",
-    "1/8 in",
-    "1/10 in",
-    "1/12 in",
-    "0.5 pi mm",
-    "1 pi mm",
-    "1.5 pi mm",
-    "2 pi mm",
-    "2.5 pi mm",
-    "3 pi mm",
-    "4 pi mm",
-];
+/// Leads of ordinary screws and worms: metric, inch, module.
+const USUAL: &str = "1 mm, 1.5 mm, 2 mm, 2.5 mm, 3 mm, 4 mm, 5 mm, 6 mm, 8 mm, 10 mm, 12 mm, 16 mm, \
+    20 mm, 1/2 in, 1/3 in, 1/4 in, 1/5 in, 1/6 in, 1/8 in, 1/10 in, 1/12 in, 0.5 pi mm, 1 pi mm, \
+    1.5 pi mm, 2 pi mm, 2.5 pi mm, 3 pi mm, 4 pi mm";
 
 impl Dividers {
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
-        let usual = || USUAL.iter().filter_map(|lead| lead.parse().ok()).collect();
+        let usual = || USUAL.split(", ").filter_map(|lead| lead.parse().ok()).collect();
         let leads: Vec<Lead> = if self.lead.is_empty() { usual() } else { self.lead.clone() };
         if self.find_lines {
             return self.line_counts(out, &leads);
         }
-        let found: Vec<_> = leads.iter().map(|lead| (*lead, solve(&self.task(*lead)))).collect();
+        let solved = |task: Task| (solve(&task), task);
+        let found: Vec<_> = leads.iter().map(|lead| solved(self.task(*lead))).collect();
         if self.json {
-            let settings: Vec<_> =
-                found.iter().map(|(lead, setting)| self.as_json(*lead, *setting)).collect();
-            serde_json::to_writer_pretty(&mut *out, &json!({ "settings": settings }))?;
-            writeln!(out)?;
-        } else if let [(lead, Some(setting))] = found.as_slice() {
-            self.describe(out, *lead, setting)?;
-        } else if found.iter().any(|(_, setting)| setting.is_some()) {
-            writeln!(out, "{}", self.as_table(&found))?;
+            print_json(out, &SettingsJson::new(&found))?;
+        } else if let [(Some(setting), task)] = found.as_slice() {
+            describe(out, task, setting)?;
+        } else if found.iter().any(|(setting, _)| setting.is_some()) {
+            writeln!(out, "{}", as_table(&found))?;
         }
         self.refusals(out, &found)
     }
@@ -128,13 +103,13 @@ impl Dividers {
     fn refusals(
         &self,
         out: &mut impl Write,
-        found: &[(Lead, Option<Setting>)],
+        found: &[(Option<Setting>, Task)],
     ) -> anyhow::Result<ExitCode> {
         let mut code = ExitCode::SUCCESS;
-        for (lead, _) in found.iter().filter(|(_, setting)| setting.is_none()) {
+        for (_, task) in found.iter().filter(|(setting, _)| setting.is_none()) {
             code = ExitCode::FAILURE;
             if !self.json {
-                let lines = self.task(*lead).lines;
+                let Task { lead, lines, .. } = task;
                 writeln!(
                     out,
                     "lead {lead} with {lines} lines: no A and B from 1 to 999 come within \
@@ -143,98 +118,6 @@ impl Dividers {
             }
         }
         Ok(code)
-    }
-
-    /// One lead, in full.
-    fn describe(&self, out: &mut impl Write, lead: Lead, setting: &Setting) -> anyhow::Result<()> {
-        let task = self.task(lead);
-        writeln!(out, "lead {lead}, {} lines, λ {} µm", task.lines, task.wavelength_um)?;
-        writeln!(out, "  A               {}", setting.a)?;
-        writeln!(out, "  B               {}", setting.b)?;
-        for range in [Range::X1, Range::X2] {
-            let phase = centre_phase(setting.b, range);
-            writeln!(
-                out,
-                "  ×{}  range {:.2} µm, initial phase {phase} pulses ({:.2}°)",
-                range.factor(),
-                range_um(&task, setting, range),
-                phase_deg(phase, setting.b, range),
-            )?;
-        }
-        writeln!(out, "  left            {:+.4} ppm (µm/m)", setting.residual_ppm)?;
-        match setting.compensation() {
-            Some((rate, cycle)) => writeln!(
-                out,
-                "  compensate      {rate:+.4} µm/m: F {cycle}, {}; then {:+.4} ppm",
-                if rate < 0.0 { "insert" } else { "block" },
-                setting.residual_ppm + rate,
-            )?,
-            None => writeln!(out, "  compensate      nothing: less than F can be set to")?,
-        }
-        Ok(())
-    }
-
-    fn as_table(&self, found: &[(Lead, Option<Setting>)]) -> Table {
-        let mut table = Table::new();
-        table.load_style(presets::UTF8_FULL_CONDENSED).set_header([
-            "lead", "lines", "A", "B", "×1 µm", "m ×1", "×2 µm", "m ×2", "left ppm", "F",
-        ]);
-        for (lead, setting) in found {
-            let task = self.task(*lead);
-            let Some(setting) = setting else { continue };
-            let range = |range| format!("{:.2}", range_um(&task, setting, range));
-            let phase = |range| centre_phase(setting.b, range).to_string();
-            table.add_row([
-                lead.to_string(),
-                task.lines.to_string(),
-                setting.a.to_string(),
-                setting.b.to_string(),
-                range(Range::X1),
-                phase(Range::X1),
-                range(Range::X2),
-                phase(Range::X2),
-                format!("{:+.4}", setting.residual_ppm),
-                setting.compensation().map_or("–".into(), |(_, cycle)| cycle.to_string()),
-            ]);
-        }
-        table
-    }
-
-    fn as_json(&self, lead: Lead, setting: Option<Setting>) -> Value {
-        let task = self.task(lead);
-        let Some(setting) = setting else {
-            return json!({
-                "lead": lead.to_string(), "lead_mm": lead.mm(), "lines": task.lines,
-                "reachable": false,
-            });
-        };
-        let ranges: Vec<_> = [Range::X1, Range::X2]
-            .map(|range| {
-                let phase = centre_phase(setting.b, range);
-                json!({
-                    "range": range.factor(),
-                    "full_scale_um": range_um(&task, &setting, range),
-                    "initial_phase": phase,
-                    "initial_phase_deg": phase_deg(phase, setting.b, range),
-                })
-            })
-            .into();
-        let compensation = setting.compensation();
-        json!({
-            "lead": lead.to_string(),
-            "lead_mm": lead.mm(),
-            "lines": task.lines,
-            "wavelength_um": task.wavelength_um,
-            "reachable": true,
-            "a": setting.a,
-            "b": setting.b,
-            "ranges": ranges,
-            "residual_ppm": setting.residual_ppm,
-            "residual_um_per_m": setting.residual_ppm,
-            "compensation_f": compensation.map(|(_, cycle)| cycle),
-            "compensation_um_per_m": compensation.map(|(rate, _)| rate),
-            "compensated_ppm": compensation.map(|(rate, _)| setting.residual_ppm + rate),
-        })
     }
 
     fn line_counts(&self, out: &mut impl Write, leads: &[Lead]) -> anyhow::Result<ExitCode> {
@@ -248,7 +131,7 @@ impl Dividers {
         let kinds = [false, true].map(|kind| -> Vec<Lead> {
             leads.iter().filter(|lead| module(lead) == kind).copied().collect()
         });
-        let tracks: Vec<(&str, Vec<LineCount>)> = ["metric and inch", "module"]
+        let tracks: Vec<(&'static str, Vec<LineCount>)> = ["metric and inch", "module"]
             .into_iter()
             .zip(&kinds)
             .filter(|(_, leads)| !leads.is_empty())
@@ -258,10 +141,7 @@ impl Dividers {
             })
             .collect();
         if self.json {
-            let tracks: Vec<_> =
-                tracks.iter().map(|(name, found)| track_json(name, found)).collect();
-            serde_json::to_writer_pretty(&mut *out, &json!({ "tracks": tracks }))?;
-            writeln!(out)?;
+            print_json(out, &TracksJson::new(&tracks))?;
         } else {
             for (name, found) in &tracks {
                 track_table(out, name, found)?;
@@ -272,23 +152,58 @@ impl Dividers {
     }
 }
 
-fn range_um(task: &Task, setting: &Setting, range: Range) -> f64 {
-    f64::from(range.factor() * setting.b) * task.wavelength_um / 2.0
+/// One lead, in full.
+fn describe(out: &mut impl Write, task: &Task, setting: &Setting) -> anyhow::Result<()> {
+    let Task { lead, lines, wavelength_um, .. } = task;
+    writeln!(out, "lead {lead}, {lines} lines, λ {wavelength_um} µm")?;
+    writeln!(out, "  A               {}", setting.a)?;
+    writeln!(out, "  B               {}", setting.b)?;
+    for range in [Range::X1, Range::X2] {
+        let phase = centre_phase(setting.b, range);
+        writeln!(
+            out,
+            "  ×{}  range {:.2} µm, initial phase {phase} pulses ({:.2}°)",
+            range.factor(),
+            setting.full_scale_um(task, range),
+            phase_deg(phase, setting.b, range),
+        )?;
+    }
+    writeln!(out, "  left            {:+.4} ppm (µm/m)", setting.residual_ppm)?;
+    match setting.compensation() {
+        Some((rate, cycle)) => writeln!(
+            out,
+            "  compensate      {rate:+.4} µm/m: F {cycle}, {}; then {:+.4} ppm",
+            if rate < 0.0 { "insert" } else { "block" },
+            setting.residual_ppm + rate,
+        )?,
+        None => writeln!(out, "  compensate      nothing: less than F can be set to")?,
+    }
+    Ok(())
 }
 
-fn track_json(name: &str, found: &[LineCount]) -> Value {
-    let counts: Vec<_> = found
-        .iter()
-        .map(|count| {
-            json!({
-                "lines": count.lines,
-                "fringes_per_line": count.ratio.to_string(),
-                "residual_ppm": count.residual_ppm,
-                "largest_preset": count.largest_preset,
-            })
-        })
-        .collect();
-    json!({ "leads": name, "line_counts": counts })
+fn as_table(found: &[(Option<Setting>, Task)]) -> Table {
+    let mut table = Table::new();
+    table
+        .load_style(presets::UTF8_FULL_CONDENSED)
+        .set_header(["lead", "lines", "A", "B", "×1 µm", "m ×1", "×2 µm", "m ×2", "left ppm", "F"]);
+    for (setting, task) in found {
+        let Some(setting) = setting else { continue };
+        let range = |range| format!("{:.2}", setting.full_scale_um(task, range));
+        let phase = |range| centre_phase(setting.b, range).to_string();
+        table.add_row([
+            task.lead.to_string(),
+            task.lines.to_string(),
+            setting.a.to_string(),
+            setting.b.to_string(),
+            range(Range::X1),
+            phase(Range::X1),
+            range(Range::X2),
+            phase(Range::X2),
+            format!("{:+.4}", setting.residual_ppm),
+            setting.compensation().map_or("–".into(), |(_, cycle)| cycle.to_string()),
+        ]);
+    }
+    table
 }
 
 fn track_table(out: &mut impl Write, name: &str, found: &[LineCount]) -> anyhow::Result<()> {

@@ -3,11 +3,13 @@
 use std::io::Write;
 use std::process::ExitCode;
 
-use anyhow::{Context, bail};
+use anyhow::bail;
 use comfy_table::{Table, presets};
 use helixlock_plant::effects::page;
 use helixlock_plant::{CATALOGUE, Card, Parameter, Role};
-use serde_json::{Value, json};
+
+use crate::shared::keys::keys;
+use crate::shared::output::print_json;
 
 /// The catalogue of physical effects, or all about one of them
 #[derive(Debug, clap::Args)]
@@ -24,12 +26,9 @@ impl Effects {
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         match (self.effect.as_deref().map(named).transpose()?, self.json) {
             (Some(card), false) => write!(out, "{}", page(card))?,
-            (Some(card), true) => write_json(out, &card_json(card))?,
+            (Some(card), true) => print_json(out, &CardJson::new(card))?,
             (None, false) => writeln!(out, "{}", overview())?,
-            (None, true) => {
-                let cards: Vec<_> = CATALOGUE.iter().map(|card| card_json(card)).collect();
-                write_json(out, &json!({ "effects": cards }))?;
-            }
+            (None, true) => print_json(out, &CatalogueJson::new(CATALOGUE))?,
         }
         Ok(ExitCode::SUCCESS)
     }
@@ -52,40 +51,35 @@ fn overview() -> Table {
     table
 }
 
-fn card_json(card: &Card) -> Value {
-    let parameters: Vec<_> = card.parameters.iter().map(parameter_json).collect();
-    json!({
-        "effect": card.kind,
-        "entry": card.entry.word(),
-        "summary": card.summary,
-        "formula": card.formula,
-        "example": card.example,
-        "parameters": parameters,
-        "needs": card.needs,
-        "signature": card.signature,
-        "confused_with": card.confused_with,
-        "separated_by": card.separated_by,
-        "source": card.source,
-        "candidate": card.candidate,
-        "random": card.random,
-    })
-}
+keys! {
+    CatalogueJson(cards: &[&'static Card]) {
+        effects: Vec<CardJson> = cards.iter().map(|card| CardJson::new(card)).collect(),
+    }
 
-fn parameter_json(parameter: &Parameter) -> Value {
-    json!({
-        "name": parameter.name,
-        "key": parameter.key(),
-        "unit": parameter.unit.symbol,
-        "low": parameter.range.start(),
-        "high": parameter.range.end(),
-        "default": parameter.default,
-        "linear": parameter.role != Role::Nonlinear,
-        "meaning": parameter.meaning,
-    })
-}
+    CardJson(card: &'static Card) {
+        effect: &'static str = card.kind,
+        entry: &'static str = card.entry.word(),
+        summary: &'static str = card.summary,
+        formula: &'static str = card.formula,
+        example: &'static str = card.example,
+        parameters: Vec<ParameterJson> = card.parameters.iter().map(ParameterJson::new).collect(),
+        needs: &'static [&'static str] = card.needs,
+        signature: &'static str = card.signature,
+        confused_with: &'static [&'static str] = card.confused_with,
+        separated_by: &'static str = card.separated_by,
+        source: &'static str = card.source,
+        candidate: bool = card.candidate,
+        random: bool = card.random,
+    }
 
-fn write_json(out: &mut impl Write, value: &Value) -> anyhow::Result<()> {
-    serde_json::to_writer_pretty(&mut *out, value).context("standard output")?;
-    writeln!(out)?;
-    Ok(())
+    ParameterJson(parameter: &'static Parameter) {
+        name: &'static str = &parameter.name,
+        key: String = parameter.key(),
+        unit: &'static str = parameter.unit.symbol,
+        low: f64 = *parameter.range.start(),
+        high: f64 = *parameter.range.end(),
+        default: Option<f64> = parameter.default,
+        linear: bool = parameter.role != Role::Nonlinear,
+        meaning: &'static str = &parameter.meaning,
+    }
 }

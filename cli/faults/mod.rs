@@ -9,9 +9,9 @@ use clap::Args;
 use comfy_table::{Cell, CellAlignment, Table};
 use helixlock_plant::Model;
 use helixlock_sim::faults::{Faults, Outcome, Verdict, flip_everything, flip_flops};
-use serde_json::{Value, json};
 
-use crate::shared::output::write_whole;
+use crate::shared::keys::keys;
+use crate::shared::output::{print_json, write_whole};
 use crate::shared::progress;
 
 /// Flip every flip-flop of the running device: does it recover by itself, when, and at what cost
@@ -45,7 +45,7 @@ impl FaultsCommand {
             write_whole(output, |file| write_rows(file, &faults))?;
         }
         if self.json {
-            writeln!(out, "{}", serde_json::to_string_pretty(&json(&faults))?)?;
+            print_json(out, &FaultsJson::new(&faults))?;
         } else {
             print(out, &faults)?;
         }
@@ -182,29 +182,28 @@ fn write_rows(file: &mut dyn Write, faults: &Faults) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn json(faults: &Faults) -> Value {
-    let flips = faults.outcomes.iter().map(|outcome| {
-        json!({
-            "flip_flop": outcome.flip_flop,
-            "time_s": outcome.time_s,
-            "verdict": word(outcome.verdict),
-            "healed_clocks": outcome.healed_clocks,
-            "worst_um": outcome.worst_um,
-            "left_um": outcome.left_um,
-            "recovery_s": outcome.recovery_s,
-            "home_error_steps": outcome.home_error,
-            "ring_slip_steps": outcome.ring_slip,
-            "ring_illegal_clocks": outcome.ring_illegal_clocks,
-            "fault_shown": outcome.fault_shown,
-        })
-    });
-    json!({
-        "flip_flops": faults.flip_flops,
-        "instants_s": faults.instants_s,
-        "window_s": faults.window_s,
-        "band_um": faults.band_um,
-        "flips": flips.collect::<Vec<_>>(),
-    })
+keys! {
+    FaultsJson<'a>(faults: &'a Faults) {
+        flip_flops: usize = faults.flip_flops,
+        instants_s: &'a [f64] = &faults.instants_s,
+        window_s: f64 = faults.window_s,
+        band_um: f64 = faults.band_um,
+        flips: Vec<FlipJson<'a>> = faults.outcomes.iter().map(FlipJson::new).collect(),
+    }
+
+    FlipJson<'a>(flip: &'a Outcome) {
+        flip_flop: &'a str = &flip.flip_flop,
+        time_s: f64 = flip.time_s,
+        verdict: String = word(flip.verdict),
+        healed_clocks: Option<u64> = flip.healed_clocks,
+        worst_um: f64 = flip.worst_um,
+        left_um: f64 = flip.left_um,
+        recovery_s: Option<f64> = flip.recovery_s,
+        home_error_steps: i64 = flip.home_error,
+        ring_slip_steps: i64 = flip.ring_slip,
+        ring_illegal_clocks: u64 = flip.ring_illegal_clocks,
+        fault_shown: bool = flip.fault_shown,
+    }
 }
 
 fn word(verdict: Verdict) -> String {

@@ -18,7 +18,7 @@ use helixlock_sim::settings_for;
 
 use self::summary::Summary;
 use self::vectors::vectors;
-use crate::shared::output::Batch;
+use crate::shared::output::{Batch, print_json};
 
 /// Name of the top module.
 const TOP: &str = "board_shell";
@@ -32,8 +32,7 @@ pub(crate) struct Gen {
     /// Machine file
     #[arg(value_name = "MACHINE.toml")]
     machine: PathBuf,
-    /// icestick, icebreaker, hx8k, upduino or tinyfpga-bx [default: that of the machine file]
-    #[arg(long)]
+    #[arg(long, help = boards())]
     board: Option<String>,
     /// Folder for the files
     #[arg(short, long, value_name = "DIR")]
@@ -44,6 +43,17 @@ pub(crate) struct Gen {
     /// Print JSON
     #[arg(long)]
     json: bool,
+}
+
+/// The boards there are constraints for, as a help text.
+fn boards() -> String {
+    let boards = Board::all().unwrap_or_default();
+    let names: Vec<&str> = boards.iter().map(|board| board.name.as_str()).collect();
+    let names = match names.as_slice() {
+        [others @ .., last] if !others.is_empty() => format!("{} or {last}", others.join(", ")),
+        names => names.concat(),
+    };
+    format!("{names} [default: that of the machine file]")
 }
 
 impl Gen {
@@ -63,9 +73,9 @@ impl Gen {
         let vectors = vectors(Netlist::new(&design)?, &dialled.settings);
         let project = project(&design, &board, &vectors)?;
         let synthesis = self.build(&project, &board)?;
-        let summary = Summary::new(&project, &board, &dialled, file_clock_hz, synthesis);
+        let summary = Summary::new(&project, &board, &dialled, file_clock_hz, synthesis.as_ref());
         if self.json {
-            writeln!(out, "{}", serde_json::to_string_pretty(&summary)?)?;
+            print_json(out, &summary)?;
         } else {
             summary.print(&self.output, out)?;
         }

@@ -7,77 +7,49 @@ use comfy_table::presets::UTF8_FULL_CONDENSED;
 use comfy_table::{CellAlignment, Table};
 use helixlock_gen::{Board, Project, Synthesis};
 use helixlock_sim::Dialled;
-use serde::Serialize;
 
+use crate::shared::keys::keys;
 use crate::shared::wheels::Wheels;
 
-/// The project in plain numbers; the JSON of `--json`.
-#[derive(Debug, Serialize)]
-pub(crate) struct Summary {
-    board: String,
-    title: String,
-    device: String,
-    package: String,
-    clock_source: String,
-    clock_hz: u64,
-    machine_file_clock_hz: f64,
-    settings: Wheels,
-    notes: Vec<String>,
-    pins: Vec<Pin>,
-    files: Vec<String>,
-    synthesis: Option<Built>,
-}
+keys! {
+    /// The project in plain numbers; the JSON of `--json`.
+    Summary(
+        project: &Project, board: &Board, dialled: &Dialled, machine_file_clock_hz: f64,
+        synthesis: Option<&Synthesis>
+    ) {
+        board: String = board.name.clone(),
+        title: String = board.title.clone(),
+        device: String = board.device.clone(),
+        package: String = board.package.clone(),
+        clock_source: String = board.clock_source.clone(),
+        clock_hz: u64 = 1_000_000 * u64::from(board.clock_mhz),
+        machine_file_clock_hz: f64 = machine_file_clock_hz,
+        settings: Wheels = Wheels::new(dialled),
+        notes: Vec<String> = board.notes.clone(),
+        pins: Vec<Pin> = board.pins.iter().map(Pin::new).collect(),
+        files: Vec<String> = project.files.iter().map(|(name, _)| name.clone()).collect(),
+        synthesis: Option<Built> = synthesis.map(Built::new),
+    }
 
-#[derive(Debug, Serialize)]
-struct Pin {
-    port: String,
-    #[serde(rename = "pin")]
-    place: String,
-    note: String,
-}
+    Pin(place: &helixlock_gen::Pin) {
+        port: String = place.port.clone(),
+        pin: String = place.pin.clone(),
+        note: String = place.note.clone(),
+    }
 
-#[derive(Debug, Serialize)]
-struct Built {
-    cells: u32,
-    cells_available: u32,
-    lookup_tables: u32,
-    flip_flops: u32,
-    carry_cells: u32,
-    max_clock_mhz: f64,
-    meets_clock: bool,
-    files: Vec<String>,
+    Built(synthesis: &Synthesis) {
+        cells: u32 = synthesis.cells,
+        cells_available: u32 = synthesis.cells_available,
+        lookup_tables: u32 = synthesis.tables,
+        flip_flops: u32 = synthesis.flip_flops,
+        carry_cells: u32 = synthesis.carries,
+        max_clock_mhz: f64 = synthesis.max_mhz,
+        meets_clock: bool = f64::from(synthesis.clock_mhz) <= synthesis.max_mhz,
+        files: Vec<String> = synthesis.products.clone(),
+    }
 }
 
 impl Summary {
-    /// Gathers what there is to say.
-    pub(crate) fn new(
-        project: &Project,
-        board: &Board,
-        dialled: &Dialled,
-        machine_file_clock_hz: f64,
-        synthesis: Option<Synthesis>,
-    ) -> Self {
-        let pin = |pin: &helixlock_gen::Pin| Pin {
-            port: pin.port.clone(),
-            place: pin.pin.clone(),
-            note: pin.note.clone(),
-        };
-        Self {
-            board: board.name.clone(),
-            title: board.title.clone(),
-            device: board.device.clone(),
-            package: board.package.clone(),
-            clock_source: board.clock_source.clone(),
-            clock_hz: 1_000_000 * u64::from(board.clock_mhz),
-            machine_file_clock_hz,
-            settings: dialled.into(),
-            notes: board.notes.clone(),
-            pins: board.pins.iter().map(pin).collect(),
-            files: project.files.iter().map(|(name, _)| name.clone()).collect(),
-            synthesis: synthesis.map(built),
-        }
-    }
-
     /// False when the board's clock is faster than the logic.
     pub(crate) fn is_fast_enough(&self) -> bool {
         self.synthesis.as_ref().is_none_or(|built| built.meets_clock)
@@ -125,22 +97,9 @@ impl Summary {
         let mut table = Table::new();
         table.load_style(UTF8_FULL_CONDENSED).set_header(["port", "pin", "wire it to"]);
         for pin in &self.pins {
-            table.add_row([&pin.port, &pin.place, &pin.note]);
+            table.add_row([&pin.port, &pin.pin, &pin.note]);
         }
         table
-    }
-}
-
-fn built(synthesis: Synthesis) -> Built {
-    Built {
-        cells: synthesis.cells,
-        cells_available: synthesis.cells_available,
-        lookup_tables: synthesis.tables,
-        flip_flops: synthesis.flip_flops,
-        carry_cells: synthesis.carries,
-        max_clock_mhz: synthesis.max_mhz,
-        meets_clock: f64::from(synthesis.clock_mhz) <= synthesis.max_mhz,
-        files: synthesis.products,
     }
 }
 

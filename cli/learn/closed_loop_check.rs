@@ -4,7 +4,6 @@ use std::io::Write;
 
 use helixlock_lab::{FinalCheck, Problem, final_check, sensor_column};
 use helixlock_plant::Model;
-use serde_json::{Value, json};
 
 /// What became of the check.
 pub(crate) enum Checked {
@@ -59,24 +58,5 @@ impl Checked {
             writeln!(out, "{line}")?;
         }
         Ok(())
-    }
-
-    /// `null` where it was not asked for.
-    pub(crate) fn json(&self) -> Value {
-        match self {
-            Self::NotAsked => Value::Null,
-            Self::Impossible(why) => json!({ "not_run": why }),
-            Self::Done(check) => json!({
-                "pass": check.pass,
-                "hunting_um": check.hunting_um,
-                "left_out": check.left_out,
-                "sensors": check.sensors.iter().map(|one| json!({
-                    "sensor": sensor_column(one.sensor, false),
-                    "samples": one.samples,
-                    "rms_before_um": one.before_um,
-                    "rms_um": one.after_um,
-                })).collect::<Vec<_>>(),
-            }),
-        }
     }
 }

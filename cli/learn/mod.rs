@@ -1,6 +1,7 @@
 //! `helixlock learn`: compare, name, add, until nothing significant is left.
 
 mod closed_loop_check;
+mod json;
 mod page;
 mod pictures;
 mod undone_page;
@@ -11,16 +12,17 @@ use std::process::ExitCode;
 
 use anyhow::{Context, bail};
 use clap::Args;
-use helixlock_lab::{Diagnosis, Ledger, Problem, diagnose, fingerprint, ledger, written};
+use helixlock_lab::{Diagnosis, Ledger, Problem, diagnose, ledger, lines_left, spectra, written};
 use helixlock_plant::MachineFile;
 use helixlock_report::Page;
 use serde_json::Value;
 
 use self::closed_loop_check::Checked;
+use self::json::{LearnJson, LedgerJson};
 use crate::shared::captured::Signals;
 use crate::shared::effect_file::own_effects;
-use crate::shared::output::Batch;
-use crate::shared::{diagnosis_json, diagnosis_text, measured};
+use crate::shared::output::{Batch, print_json};
+use crate::shared::{diagnosis_text, measured};
 
 /// Find what a machine file lacks and write the better file, its ledger and a report
 #[derive(Debug, Args)]
@@ -76,18 +78,13 @@ impl Learn {
         let bytes = std::fs::read(data).with_context(|| format!("{}", data.display()))?;
         let book = ledger(&file, &diagnosis, &bytes)?;
         if let Some(folder) = folder {
-            let page = page::page(&file.model.title, &problem, &diagnosis, &check);
-            let mut value = diagnosis_json::ledger(&book, &diagnosis, data);
-            value["final_check"] = check.json();
-            value["title"] = Value::from(file.model.title.as_str());
-            value["unit"] = Value::from(problem.measurement.unit_word());
-            write_folder(folder, &book, &value, &page)?;
+            let spectra = (spectra(&problem, &diagnosis), lines_left(&problem));
+            let page = page::page(&problem, &diagnosis, &spectra, &check);
+            let json = LedgerJson::new(data, &diagnosis, &book, &check, &problem);
+            write_folder(folder, &book, &json, &page)?;
         }
         if self.json {
-            let mut value = diagnosis_json::diagnosis(&diagnosis, &problem.measurement);
-            value["data_hash"] = Value::from(fingerprint(&bytes));
-            value["final_check"] = check.json();
-            writeln!(out, "{}", serde_json::to_string_pretty(&value)?)?;
+            print_json(out, &LearnJson::new(&diagnosis, &book, &check, &problem))?;
         } else {
             diagnosis_text::print(out, &diagnosis, problem.measurement.unit())?;
             check.print(out)?;
@@ -96,11 +93,16 @@ impl Learn {
     }
 }
 
-fn write_folder(folder: &Path, book: &Ledger, value: &Value, page: &Page) -> anyhow::Result<()> {
+fn write_folder(
+    folder: &Path,
+    book: &Ledger,
+    json: &LedgerJson<'_>,
+    page: &Page,
+) -> anyhow::Result<()> {
     let mut files = Batch::new(folder)?;
     let last = book.entries.last().map(|entry| entry.machine.as_str()).unwrap_or_default();
     files.write_content("machine.toml", last)?;
-    files.write_json("ledger.json", value)?;
+    files.write_json("ledger.json", json)?;
     files.write_content("report.html", page.html())?;
     files.keep()
 }

@@ -4,11 +4,16 @@ use helixlock_lab::{Diagnosis, FittedEffect, Problem, Verdict};
 use helixlock_report::{Page, Part, Table};
 
 use super::closed_loop_check::Checked;
-use super::pictures::{Left, before_and_after, closed_loop, falling};
+use super::pictures::{Left, Spectra, before_and_after, closed_loop, falling};
 use crate::shared::words::chance;
 
 /// The page.
-pub(crate) fn page(title: &str, problem: &Problem, diagnosis: &Diagnosis, check: &Checked) -> Page {
+pub(crate) fn page(
+    problem: &Problem,
+    diagnosis: &Diagnosis,
+    spectra: &Spectra,
+    check: &Checked,
+) -> Page {
     let unit = problem.measurement.unit();
     let mut parts = vec![Part::Numbers(numbers(diagnosis, unit))];
     parts.extend(diagnosis.residual.iter().map(|left| {
@@ -23,7 +28,9 @@ pub(crate) fn page(title: &str, problem: &Problem, diagnosis: &Diagnosis, check:
     }));
     let left: Vec<Left> = diagnosis.rounds.iter().map(Left::from).collect();
     parts.push(falling(&left, unit));
-    parts.extend((0..problem.sensors.len()).map(|i| before_and_after(problem, diagnosis, i)));
+    parts.extend(
+        (0..problem.sensors.len()).map(|i| before_and_after(problem, diagnosis, spectra, i)),
+    );
     parts.extend(closed_loop(check));
     parts.extend(next(diagnosis, unit));
     parts.push(Part::Heading("Rounds".into()));
@@ -37,7 +44,7 @@ pub(crate) fn page(title: &str, problem: &Problem, diagnosis: &Diagnosis, check:
     }
     parts.extend(problem.measurement.notes.iter().cloned().map(Part::Text));
     let summary = sentence(diagnosis, unit);
-    Page { title: format!("{title}: what the model lacked"), summary, parts }
+    Page { title: format!("{}: what the model lacked", problem.model.title), summary, parts }
 }
 
 /// The verdict in words.

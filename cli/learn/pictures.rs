@@ -1,14 +1,18 @@
 //! Pictures of `helixlock learn`: the error falling, the model on the data, before and after.
 
-use helixlock_lab::{Diagnosis, Problem, Round, amplitude_spectrum, lines_left, sensor_column};
-use helixlock_report::{Axis, Colour, Figure, Label, Panel, Part, Series, Style};
+use helixlock_lab::{Diagnosis, NamedLine, Problem, Round, sensor_column};
+use helixlock_report::{Axis, Colour, Label, Panel, Part, Series, Style};
 
 use super::closed_loop_check::Checked;
-use crate::shared::residual_picture::{panel, points, x_axis};
+use crate::shared::page_pieces::{panel, picture};
+use crate::shared::residual_picture::{points, x_axis};
 use crate::shared::spectrum;
 
 /// Samples shown closely: few enough that dots and curve stay apart.
 const CLOSE: usize = 150;
+
+/// Spectra of each sensor, and the lines that are named in them.
+pub(crate) type Spectra = (Vec<helixlock_lab::Spectra>, Vec<NamedLine>);
 
 /// What a round's model leaves.
 pub(crate) struct Left<'a> {
@@ -42,8 +46,7 @@ pub(crate) fn falling(rounds: &[Left], unit: &str) -> Part {
     let highest = rounds().map(|(_, round)| round.rms_um.max(round.holdout_rms_um));
     let highest = highest.fold(f64::MIN_POSITIVE, f64::max);
     let last = rounds().last().map_or(0.0, |(n, _)| n);
-    let mut panel =
-        panel("The error falls", "round".into(), &format!("left, rms in {unit}"), series);
+    let mut panel = panel("The error falls", "round", &format!("left, rms in {unit}"), series);
     panel.x = Axis::counts("round").between(-0.5, last + 0.5);
     panel.y = panel.y.between(0.0, 1.2 * highest);
     panel.labels = rounds()
@@ -62,7 +65,12 @@ pub(crate) fn falling(rounds: &[Left], unit: &str) -> Part {
 }
 
 /// Measured and model, residual before and after, spectrum before and after, of one sensor.
-pub(crate) fn before_and_after(problem: &Problem, diagnosis: &Diagnosis, sensor: usize) -> Part {
+pub(crate) fn before_and_after(
+    problem: &Problem,
+    diagnosis: &Diagnosis,
+    spectra: &Spectra,
+    sensor: usize,
+) -> Part {
     let unit = problem.measurement.unit();
     let after = &diagnosis.left;
     let model = |left: &[f64]| -> Vec<f64> {
@@ -86,12 +94,12 @@ pub(crate) fn before_and_after(problem: &Problem, diagnosis: &Diagnosis, sensor:
         line("after", Colour::Blue, Style::Line, after),
     ];
     let column = sensor_column(problem.sensors[sensor], problem.measurement.rotary);
-    let axis = || x_axis(problem);
+    let axis = x_axis(problem);
     let panels = vec![
-        panel(&format!("{column}, measured and model"), axis(), unit, over()),
-        panel("The same closely, its beginning", axis(), unit, close),
-        panel("Residual", axis(), unit, left),
-        spectra(problem, diagnosis, sensor),
+        panel(&format!("{column}, measured and model"), axis, unit, over()),
+        panel("The same closely, its beginning", axis, unit, close),
+        panel("Residual", axis, unit, left),
+        spectrum(problem, spectra, sensor),
     ];
     picture(
         panels,
@@ -107,21 +115,17 @@ fn first_of(mut series: Series) -> Series {
     series
 }
 
-fn spectra(problem: &Problem, diagnosis: &Diagnosis, sensor: usize) -> Panel {
-    let spectrum = |name, colour, values: &[f64]| {
-        Series::new(name, colour, Style::Line, amplitude_spectrum(problem, values, sensor))
+fn spectrum(problem: &Problem, (sensors, lines): &Spectra, sensor: usize) -> Panel {
+    let line = |name, colour, points: &[[f64; 2]]| {
+        Series::new(name, colour, Style::Line, points.iter().copied())
     };
     let series = vec![
-        spectrum("before", Colour::Orange, &diagnosis.before),
-        spectrum("after", Colour::Blue, &diagnosis.left),
+        line("before", Colour::Orange, &sensors[sensor].before),
+        line("after", Colour::Blue, &sensors[sensor].after),
     ];
     let unit = format!("amplitude in {}", problem.measurement.unit());
-    let mut panel =
-        panel("Order spectrum of the residual", "cycles a spindle turn".into(), &unit, series);
-    let rotary = problem.model.rotary;
-    panel.labels = spectrum::labels(&lines_left(problem), sensor, rotary);
-    panel.x = spectrum::axis(rotary);
-    panel
+    let panel = panel("Order spectrum of the residual", "", &unit, series);
+    spectrum::named(panel, lines, sensor, problem.model.rotary)
 }
 
 /// Measured and simulated over each other, where the loop is closed.
@@ -138,15 +142,11 @@ pub(crate) fn closed_loop(check: &Checked) -> Vec<Part> {
             Series::new("simulated", Colour::Blue, Style::Line, column(2)),
         ];
         let title = format!("{}, pass {}", sensor_column(one.sensor, false), check.pass);
-        let panel = panel(&title, "position in mm".into(), "µm", series);
+        let panel = panel(&title, "position in mm", "µm", series);
         parts.push(picture(
             vec![panel],
             "The learned machine run clock by clock with its loop closed, and what was measured.",
         ));
     }
     parts
-}
-
-fn picture(panels: Vec<Panel>, caption: &str) -> Part {
-    Part::Picture { svg: Figure { width_px: 900, panels }.svg(), caption: caption.into() }
 }

@@ -9,14 +9,13 @@ use clap::Args;
 use helixlock_metrology::scale::{
     Detector, Direction, ModelledScale, Residual, Spread, residual_budget,
 };
-use helixlock_report::{Axis, Colour, Figure, Page, Panel, Part, Series, Style, Table};
+use helixlock_report::{Colour, Page, Panel, Part, Series, Style, Table};
 use helixlock_traces::csv::RowWriter;
-use serde_json::json;
 
-use super::spread_json;
-use crate::shared::output::Batch;
+use super::json::ModelJson;
+use crate::shared::output::{Batch, print_json};
+use crate::shared::page_pieces::{panel, picture};
 use crate::shared::quantity::{length_mm, length_um};
-use crate::shared::series::print_json;
 
 /// Pitch of an inductosyn, mm.
 const PITCH_MM: f64 = 2.0;
@@ -79,15 +78,7 @@ impl Model {
             self.write_files(output, &scale, &detector, &budget)?;
         }
         if self.json {
-            let left: Vec<_> = budget
-                .iter()
-                .map(|one| json!({ "without": one.without, "left": spread_json(&one.left) }))
-                .collect();
-            let after = budget.first().map(|whole| spread_json(&whole.left));
-            print_json(
-                out,
-                &json!({ "before": spread_json(&before), "after": after, "budget": left }),
-            )?;
+            print_json(out, &ModelJson::new(&before, &budget))?;
             return Ok(ExitCode::SUCCESS);
         }
         writeln!(out, "before  ±{:.2} µm", before.largest_um)?;
@@ -151,17 +142,18 @@ impl Model {
             title: "What limits the compensation of a scale".into(),
             summary: "Errors left after compensation, and what would be left without each of their causes.".into(),
             parts: vec![
-                Part::Picture {
-                    svg: self.figure(scale).svg(),
-                    caption: "A table with two places a pitch cannot tell the interpolation error from a constant or a line.".into(),
-                },
+                picture(
+                    self.panels(scale),
+                    "A table with two places a pitch cannot tell the interpolation error from a \
+                     constant or a line.",
+                ),
                 Part::Table(table),
             ],
         }
     }
 
     /// The true error over the scale, and over a few pitches with what a table of its step sees.
-    fn figure(&self, scale: &ModelledScale) -> Figure {
+    fn panels(&self, scale: &ModelledScale) -> Vec<Panel> {
         let error = |x: f64| [x, scale.error_um(x, Direction::Forward, PITCH_MM)];
         let along = |to_mm: f64, step_mm: f64| {
             (0..).map(move |k: u32| f64::from(k) * step_mm).take_while(move |x| *x <= to_mm)
@@ -173,24 +165,10 @@ impl Model {
         let places = along(few_mm, self.step).map(error);
         let seen = Series::new("places of the table", Colour::Orange, Style::Dots, places);
         let few = vec![line(few_mm, 0.02), seen];
-        Figure {
-            width_px: 900,
-            panels: vec![
-                panel("the scale, forward", vec![line(self.length, self.length / 5000.0)]),
-                panel("a few pitches: what the table sees is aliased", few),
-            ],
-        }
-    }
-}
-
-fn panel(title: &str, series: Vec<Series>) -> Panel {
-    Panel {
-        title: title.into(),
-        height_px: 260,
-        x: Axis::linear("position in mm"),
-        y: Axis::linear("error in µm"),
-        bands: Vec::new(),
-        series,
-        labels: Vec::new(),
+        let panel = |title, series| panel(title, "position in mm", "error in µm", series);
+        vec![
+            panel("the scale, forward", vec![line(self.length, self.length / 5000.0)]),
+            panel("a few pitches: what the table sees is aliased", few),
+        ]
     }
 }

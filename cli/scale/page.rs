@@ -1,9 +1,10 @@
 //! Report of `helixlock scale apply`.
 
 use helixlock_metrology::scale::{Corrected, Direction};
-use helixlock_report::{Axis, Colour, Figure, Page, Panel, Part, Series, Style, Table};
+use helixlock_report::{Colour, Figure, Page, Part, Series, Style, Table};
 
-use super::summary::Comparison;
+use super::comparison::Comparison;
+use crate::shared::page_pieces::{self, panel};
 
 /// The page: before and after, ISO 230-2.
 pub(crate) fn page(comparison: &Comparison) -> Page {
@@ -48,22 +49,17 @@ pub(crate) fn figure(comparison: &Comparison) -> Figure {
         points.sort_by(|a, b| a[0].total_cmp(&b[0]));
         Series::new(name, colour, Style::Line, points)
     };
-    let panel = |title: &str, direction| Panel {
-        title: title.into(),
-        height_px: 260,
-        x: Axis::linear("position in mm"),
-        y: Axis::linear("error in µm"),
-        bands: Vec::new(),
-        series: vec![
+    let panel = |title: &str, direction| {
+        let both = vec![
             series("before", Colour::Orange, direction, |one| one.sample.error_um),
             series("after", Colour::Blue, direction, |one| one.left_um),
-        ],
-        labels: Vec::new(),
+        ];
+        panel(title, "position in mm", "error in µm", both)
     };
     let backward = comparison.corrected.iter().any(|o| o.sample.direction == Direction::Backward);
     let mut panels = vec![panel("forward", Direction::Forward)];
     if backward {
         panels.push(panel("backward", Direction::Backward));
     }
-    Figure { width_px: 900, panels }
+    page_pieces::figure(panels)
 }

@@ -1,8 +1,9 @@
 //! Report of `helixlock screw`.
 
-use helixlock_report::{Axis, Band, Colour, Figure, Page, Panel, Part, Series, Style, Table};
+use helixlock_report::{Band, Colour, Figure, Page, Panel, Part, Series, Style, Table};
 
-use super::Evaluation;
+use super::evaluation::Evaluation;
+use crate::shared::page_pieces::{self, panel};
 
 /// The page: grade, curve, figures, limits.
 pub(crate) fn page(evaluation: &Evaluation) -> Page {
@@ -50,41 +51,16 @@ pub(crate) fn figure(evaluation: &Evaluation) -> Figure {
     let ends = [curve.first_mm(), curve.last_mm()].map(|x| [x, line.at(x)]);
     let measured = points().map(|(x, y)| [*x, *y]);
     let left = points().map(|(x, y)| [*x, y - line.at(*x)]);
-    Figure {
-        width_px: 900,
-        panels: vec![
-            panel(
-                "travel deviation",
-                "deviation in µm",
-                300,
-                vec![
-                    Series::new("measured", Colour::Blue, Style::Line, measured),
-                    Series::new("mean line", Colour::Orange, Style::Dashes, ends),
-                ],
-            ),
-            Panel {
-                bands: widest(evaluation),
-                ..panel(
-                    "parallel to the mean line",
-                    "deviation in µm",
-                    260,
-                    vec![Series::new("", Colour::Blue, Style::Line, left)],
-                )
-            },
-        ],
-    }
-}
-
-fn panel(title: &str, y: &str, height_px: u32, series: Vec<Series>) -> Panel {
-    Panel {
-        title: title.into(),
-        height_px,
-        x: Axis::linear("travel in mm"),
-        y: Axis::linear(y),
-        bands: Vec::new(),
-        series,
-        labels: Vec::new(),
-    }
+    let panel = |title, series| panel(title, "travel in mm", "deviation in µm", series);
+    let both = vec![
+        Series::new("measured", Colour::Blue, Style::Line, measured),
+        Series::new("mean line", Colour::Orange, Style::Dashes, ends),
+    ];
+    let left = vec![Series::new("", Colour::Blue, Style::Line, left)];
+    page_pieces::figure(vec![
+        Panel { height_px: 300, ..panel("travel deviation", both) },
+        Panel { bands: widest(evaluation), ..panel("parallel to the mean line", left) },
+    ])
 }
 
 /// Where the widest variation over 300 mm is reached.

@@ -1,116 +1,107 @@
 //! The keys of `diagnose --json` and `learn --json`; they do not change.
 
 use helixlock_lab::{
-    Diagnosis, FittedEffect, FittedParameter, Ledger, LedgerEntry, Measurement, Ranked, Round,
-    Structure,
+    Advice, Diagnosis, FittedEffect, FittedParameter, Line, Measurement, Ranked, Round, Structure,
 };
-use serde_json::{Map, Value, json};
-use std::path::Path;
+use serde::Serializer;
 
-/// A whole diagnosis.
-pub(crate) fn diagnosis(diagnosis: &Diagnosis, measurement: &Measurement) -> Value {
-    json!({
-        "verdict": diagnosis.verdict.word(),
-        "unit": measurement.unit_word(),
-        "noise_um": diagnosis.noise_um,
-        "rounds": diagnosis.rounds.iter().map(round).collect::<Vec<_>>(),
-        "effects": diagnosis.rounds.last().map(|r| effects(&r.effects)),
-        "candidates": diagnosis.candidates.iter().map(candidate).collect::<Vec<_>>(),
-        "residual": diagnosis.residual.iter().map(structure).collect::<Vec<_>>(),
-        "experiments": diagnosis.experiments.iter().take(5).map(|advice| json!({
-            "action": advice.action,
-            "between": [advice.between.0, advice.between.1],
-            "separation_um": advice.separation_um,
-        })).collect::<Vec<_>>(),
-        "notes": measurement.notes,
-    })
-}
+use super::keys::keys;
 
-/// One round; `parameters` are those of the effect it added.
-pub(crate) fn round(round: &Round) -> Value {
-    let own = round
-        .added
-        .as_ref()
-        .and_then(|added| round.effects.iter().rev().find(|effect| effect.name == *added));
-    json!({
-        "round": round.round,
-        "added": round.added,
-        "dropped": round.dropped,
-        "rms_um": round.rms_um,
-        "holdout_rms_um": round.holdout_rms_um,
-        "p_value": round.p_value,
-        "parameters": own.map_or_else(|| json!({}), |effect| parameters(&effect.parameters)),
-        "model": effects(&round.effects),
-        "rejected": round.rejected.iter().map(|(effect, reason)| json!({
-            "effect": effect, "reason": reason,
-        })).collect::<Vec<_>>(),
-    })
-}
-
-/// The ledger: every round with the machine file after it, so that each can be gone back to.
-pub(crate) fn ledger(ledger: &Ledger, diagnosis: &Diagnosis, data: &Path) -> Value {
-    let entry = |entry: &LedgerEntry| {
-        let mut value = round(&entry.round);
-        value["rms_before_um"] = json!(entry.rms_before_um);
-        value["holdout_rms_before_um"] = json!(entry.holdout_rms_before_um);
-        value["data_hash"] = json!(ledger.data_hash);
-        value["taken_back"] = json!(false);
-        value["machine"] = json!(entry.machine);
-        value
-    };
-    json!({
-        "data": data.display().to_string(),
-        "data_hash": ledger.data_hash,
-        "verdict": diagnosis.verdict.word(),
-        "rounds": ledger.entries.iter().map(entry).collect::<Vec<_>>(),
-    })
-}
-
-fn effects(effects: &[FittedEffect]) -> Value {
-    let of = |effect: &FittedEffect| json!({ "effect": effect.name, "parameters": parameters(&effect.parameters) });
-    effects.iter().map(of).collect()
-}
-
-/// Parameters by their keys, each with its value and standard error.
-pub(crate) fn parameters(parameters: &[FittedParameter]) -> Value {
-    let mut map = Map::new();
-    for parameter in parameters {
-        let mut entry = json!({ "value": parameter.value, "stderr": parameter.stderr });
-        if let Some(warning) = parameter.warning {
-            entry["warning"] = json!(warning);
-        }
-        map.insert(parameter.key.clone(), entry);
+keys! {
+    /// A whole diagnosis.
+    DiagnosisJson<'a>(found: &'a Diagnosis, measurement: &'a Measurement) {
+        verdict: &'static str = found.verdict.word(),
+        unit: &'static str = measurement.unit_word(),
+        noise_um: f64 = found.noise_um,
+        rounds: Vec<RoundJson<'a>> = found.rounds.iter().map(RoundJson::new).collect(),
+        effects: Option<Vec<EffectJson<'a>>> = found.rounds.last().map(|last| effects(&last.effects)),
+        candidates: Vec<CandidateJson<'a>> =
+            found.candidates.iter().map(CandidateJson::new).collect(),
+        residual: Vec<StructureJson<'a>> = found.residual.iter().map(StructureJson::new).collect(),
+        experiments: Vec<ExperimentJson<'a>> =
+            found.experiments.iter().take(5).map(ExperimentJson::new).collect(),
+        notes: &'a [String] = &measurement.notes,
     }
-    Value::Object(map)
+
+    /// One round; `parameters` are those of the effect it added.
+    RoundJson<'a>(one: &'a Round) {
+        round: usize = one.round,
+        added: Option<&'a str> = one.added.as_deref(),
+        dropped: &'a [String] = &one.dropped,
+        rms_um: f64 = one.rms_um,
+        holdout_rms_um: f64 = one.holdout_rms_um,
+        p_value: Option<f64> = one.p_value,
+        #[serde(serialize_with = "by_key")]
+        parameters: &'a [FittedParameter] = own_parameters(one),
+        model: Vec<EffectJson<'a>> = effects(&one.effects),
+        rejected: Vec<RejectedJson<'a>> = one.rejected.iter().map(RejectedJson::new).collect(),
+    }
+
+    RejectedJson<'a>(one: &'a (String, String)) {
+        effect: &'a str = &one.0,
+        reason: &'a str = &one.1,
+    }
+
+    /// An effect with its parameters by their keys.
+    EffectJson<'a>(one: &'a FittedEffect) {
+        effect: &'a str = &one.name,
+        #[serde(serialize_with = "by_key")]
+        parameters: &'a [FittedParameter] = &one.parameters,
+    }
+
+    ParameterJson(one: &FittedParameter) {
+        value: f64 = one.value,
+        stderr: Option<f64> = one.stderr,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        warning: Option<&'static str> = one.warning,
+    }
+
+    CandidateJson<'a>(one: &'a Ranked) {
+        effect: &'a str = &one.name,
+        accepted: bool = one.accepted,
+        rms_um: f64 = one.rms_um,
+        holdout_rms_um: f64 = one.holdout_rms_um,
+        p_value: f64 = one.p_value,
+        evidence_behind: f64 = one.behind,
+        confounded_with: &'a [String] = &one.confounded_with,
+        separate_by: Option<&'a str> = one.separate_by.as_deref(),
+    }
+
+    /// Something a model leaves.
+    StructureJson<'a>(one: &'a Structure) {
+        along: &'a str = &one.along,
+        shape: &'a str = &one.shape,
+        rms_um: f64 = one.rms_um,
+        p_value: f64 = one.p_value,
+        at: Option<f64> = one.at,
+        at_stderr: Option<f64> = one.at_stderr,
+        line: Option<LineJson> = one.line.as_ref().map(LineJson::new),
+    }
+
+    LineJson(line: &Line) {
+        frequency: f64 = line.frequency,
+        frequency_stderr: f64 = line.frequency_stderr,
+        amplitude_um: f64 = line.amplitude,
+        amplitude_stderr_um: f64 = line.amplitude_stderr,
+    }
+
+    ExperimentJson<'a>(advice: &'a Advice) {
+        action: &'a str = &advice.action,
+        between: &'a (String, String) = &advice.between,
+        separation_um: f64 = advice.separation_um,
+    }
 }
 
-fn candidate(candidate: &Ranked) -> Value {
-    json!({
-        "effect": candidate.name,
-        "accepted": candidate.accepted,
-        "rms_um": candidate.rms_um,
-        "holdout_rms_um": candidate.holdout_rms_um,
-        "p_value": candidate.p_value,
-        "evidence_behind": candidate.behind,
-        "confounded_with": candidate.confounded_with,
-        "separate_by": candidate.separate_by,
-    })
+/// Each effect with its parameters.
+pub(crate) fn effects(effects: &[FittedEffect]) -> Vec<EffectJson<'_>> {
+    effects.iter().map(EffectJson::new).collect()
 }
 
-/// Something a model leaves.
-pub(crate) fn structure(structure: &Structure) -> Value {
-    json!({
-        "along": structure.along,
-        "shape": structure.shape,
-        "rms_um": structure.rms_um,
-        "p_value": structure.p_value,
-        "at": structure.at,
-        "at_stderr": structure.at_stderr,
-        "line": structure.line.as_ref().map(|line| json!({
-            "frequency": line.frequency,
-            "frequency_stderr": line.frequency_stderr,
-            "amplitude_um": line.amplitude,
-            "amplitude_stderr_um": line.amplitude_stderr,
-        })),
-    })
+fn own_parameters(round: &Round) -> &[FittedParameter] {
+    let own = |added: &String| round.effects.iter().rev().find(|effect| effect.name == *added);
+    round.added.as_ref().and_then(own).map_or(&[], |effect| &effect.parameters)
+}
+
+fn by_key<S: Serializer>(parameters: &[FittedParameter], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(parameters.iter().map(|one| (&one.key, ParameterJson::new(one))))
 }

@@ -4,6 +4,7 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
+use helixlock_report::{Figure, Page};
 use serde::Serialize;
 use tempfile::NamedTempFile;
 
@@ -56,6 +57,18 @@ impl Batch {
         self.write_content(name, serde_json::to_string_pretty(value)? + "\n")
     }
 
+    /// Writes what every evaluation leaves: a figure, its numbers, and a page about both.
+    pub(crate) fn write_report(
+        &mut self,
+        figure: &Figure,
+        result: &impl Serialize,
+        page: &Page,
+    ) -> anyhow::Result<()> {
+        self.write_content("figure.svg", figure.svg())?;
+        self.write_json("result.json", result)?;
+        self.write_content("report.html", page.html())
+    }
+
     /// Gives every file its name.
     pub(crate) fn keep(self) -> anyhow::Result<()> {
         self.written.into_iter().try_for_each(Written::keep)
@@ -83,6 +96,11 @@ impl Written {
         file.persist(&path).with_context(|| format!("{}: cannot be written", path.display()))?;
         Ok(())
     }
+}
+
+/// Prints a result as JSON.
+pub(crate) fn print_json(out: &mut impl Write, value: &impl Serialize) -> anyhow::Result<()> {
+    Ok(writeln!(out, "{}", serde_json::to_string_pretty(value)?)?)
 }
 
 /// Writes one file through a temporary one beside it, so that nobody ever sees half of it.

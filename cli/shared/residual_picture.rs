@@ -1,24 +1,10 @@
 //! Residuals drawn over travel or time.
 
 use helixlock_lab::Problem;
-use helixlock_report::{Axis, Panel, Series};
-
-/// A panel of the usual height.
-pub(crate) fn panel(title: &str, x: String, y: &str, series: Vec<Series>) -> Panel {
-    Panel {
-        title: title.to_owned(),
-        height_px: 260,
-        x: Axis::linear(x),
-        y: Axis::linear(y),
-        bands: Vec::new(),
-        series,
-        labels: Vec::new(),
-    }
-}
 
 /// What residuals are drawn over: travel, or time for a rotary chain.
-pub(crate) fn x_axis(problem: &Problem) -> String {
-    if problem.model.rotary { "time in s".into() } else { "position in mm".into() }
+pub(crate) fn x_axis(problem: &Problem) -> &'static str {
+    if problem.model.rotary { "time in s" } else { "position in mm" }
 }
 
 /// Values of one sensor about the zero of each pass, the passes apart.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use anyhow::{Context, anyhow, bail};
+use anyhow::{anyhow, bail};
 use helixlock_metrology::Error;
 use helixlock_traces::{Table, read_table};
 
@@ -107,14 +107,4 @@ fn rows_of_pass(table: &Table, pass: Option<f64>) -> anyhow::Result<Vec<usize>> 
     };
     let chosen = passes.iter().enumerate().filter(|(_, pass)| **pass <= wanted && wanted <= **pass);
     Ok(chosen.map(|(row, _)| row).collect())
-}
-
-/// Prints a result as JSON.
-pub(crate) fn print_json(
-    out: &mut impl std::io::Write,
-    value: &serde_json::Value,
-) -> anyhow::Result<()> {
-    let text = serde_json::to_string_pretty(value).context("the result is no JSON")?;
-    writeln!(out, "{text}")?;
-    Ok(())
 }

@@ -20,6 +20,11 @@ pub(crate) fn with_p(p_value: f64) -> String {
     if chance.starts_with('<') { format!("p {chance}") } else { format!("p = {chance}") }
 }
 
+/// What is said of a limit.
+pub(crate) fn held(holds: bool) -> &'static str {
+    if holds { "holds" } else { "is exceeded" }
+}
+
 /// A value and its standard error, both to the error's second digit: `239.8 ± 2.2`.
 pub(crate) fn with_error(value: f64, stderr: f64) -> String {
     const MOST_DECIMALS: usize = 6;

@@ -15,7 +15,7 @@ use helixlock_sim::{Course, Error, Options, Simulation, simulate, write_vcd};
 use helixlock_traces::csv::write_csv;
 
 use self::summary::Summary;
-use crate::shared::output::Batch;
+use crate::shared::output::{Batch, print_json};
 use crate::shared::progress;
 use crate::shared::quantity::length_mm;
 
@@ -63,10 +63,10 @@ impl Sim {
         let mut progress = |clocks| bar.set_position(clocks);
         let simulation = simulate(&machine, &options, &mut progress).map_err(place)?;
         bar.finish_and_clear();
-        let summary = Summary::new(&self.machine, &machine, &simulation);
+        let summary = Summary::new(&self.machine, &machine, &simulation, &simulation.findings());
         write_files(&self.output, &machine, &simulation, &summary)?;
         if self.json {
-            writeln!(out, "{}", summary.json()?)?;
+            print_json(out, &summary)?;
         } else {
             summary.print(out)?;
             writeln!(out, "\n{}: report, trace, waveform", self.output.display())?;
@@ -98,7 +98,7 @@ fn write_files(
         files.write("wave.vcd", |file| Ok(write_vcd(file, waveform, clock_hz)?))?;
         files.write_content("wave.gtkw", table::gtkwave_view(waveform))?;
     }
-    files.write_content("summary.json", summary.json()? + "\n")?;
+    files.write_json("summary.json", summary)?;
     files.write_content("report.html", page)?;
     files.keep()
 }

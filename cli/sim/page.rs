@@ -1,14 +1,18 @@
 //! The report of `helixlock sim`: lead error before and after, then what the device did.
 
 use helixlock_plant::Machine;
-use helixlock_report::{Axis, Band, Colour, Figure, Page, Panel, Part, Series, Style, Table};
+use helixlock_report::{Band, Colour, Page, Panel, Part, Series, Style, Table};
 use helixlock_sim::{Simulation, Trace, illustrate};
 
 use super::summary::{PassSummary, Summary};
 use super::waveforms::{calibration_picture, comparison_picture};
+use crate::shared::page_pieces::{panel, picture, points};
 
 /// What the report of 1977 promises of periodic and cumulative error, µm.
 const PROMISED_UM: f64 = 1.0;
+
+/// What errors are drawn over.
+const POSITION: &str = "position in mm";
 
 /// Comparisons drawn singly, to show the hunting.
 const HUNTING_SHOWN: usize = 60;
@@ -24,11 +28,11 @@ pub(crate) fn page(
     let mut parts = vec![Part::Numbers(numbers(summary))];
     parts.extend(summary.notes.iter().cloned().map(Part::Note));
     parts.extend([
-        picture(&lead_error(simulation), LEAD_CAPTION),
+        picture(lead_error(simulation), LEAD_CAPTION),
         Part::Table(table(summary)),
         Part::Heading("Recorder, steps and hunting".into()),
-        picture(&recorder(simulation), RECORDER_CAPTION),
-        picture(&hunting(simulation), HUNTING_CAPTION),
+        picture(recorder(simulation), RECORDER_CAPTION),
+        picture(vec![hunting(simulation)], HUNTING_CAPTION),
         Part::Heading("Wave-forms of the simulated device".into()),
         Part::Picture {
             svg: comparison_picture(&illustrations.comparison, clock_hz),
@@ -137,11 +141,7 @@ fn table(summary: &Summary) -> Table {
     table
 }
 
-fn picture(figure: &Figure, caption: &str) -> Part {
-    Part::Picture { svg: figure.svg(), caption: caption.into() }
-}
-
-fn lead_error(simulation: &Simulation) -> Figure {
+fn lead_error(simulation: &Simulation) -> Vec<Panel> {
     let (open, closed) = (&simulation.open.trace, &simulation.closed.trace);
     let before = Series::new(
         "without correction",
@@ -155,19 +155,16 @@ fn lead_error(simulation: &Simulation) -> Figure {
         Style::Line,
         points(&closed.position_mm, &closed.lead_error_um),
     );
-    let mut corrected = panel("With correction", "lead error in µm", vec![after.clone()]);
+    let mut corrected = panel("With correction", POSITION, "lead error in µm", vec![after.clone()]);
     let half_um = PROMISED_UM / 2.0;
     corrected.bands.push(Band::Y { range: [-half_um, half_um], colour: Colour::Green });
-    Figure {
-        width_px: 900,
-        panels: vec![
-            panel("Without and with correction", "lead error in µm", vec![before, after]),
-            corrected,
-        ],
-    }
+    vec![
+        panel("Without and with correction", POSITION, "lead error in µm", vec![before, after]),
+        corrected,
+    ]
 }
 
-fn recorder(simulation: &Simulation) -> Figure {
+fn recorder(simulation: &Simulation) -> Vec<Panel> {
     let (open, closed) = (&simulation.open.trace, &simulation.closed.trace);
     let line = |name: &str, colour, trace: &Trace, values: &[f64]| {
         Series::new(name, colour, Style::Line, points(&trace.position_mm, values))
@@ -178,16 +175,13 @@ fn recorder(simulation: &Simulation) -> Figure {
         line("without correction", Colour::Orange, open, &open.filtered_error_um),
         line("with correction", Colour::Blue, closed, &closed.filtered_error_um),
     ];
-    Figure {
-        width_px: 900,
-        panels: vec![
-            panel("Recorder", "error in µm", shown),
-            panel("Counter", "net steps", vec![line("", Colour::Blue, closed, &steps)]),
-        ],
-    }
+    vec![
+        panel("Recorder", POSITION, "error in µm", shown),
+        panel("Counter", POSITION, "net steps", vec![line("", Colour::Blue, closed, &steps)]),
+    ]
 }
 
-fn hunting(simulation: &Simulation) -> Figure {
+fn hunting(simulation: &Simulation) -> Panel {
     let trace = &simulation.closed.trace;
     let first = (trace.time_s.len() / 2).saturating_sub(HUNTING_SHOWN / 2);
     let last = (first + HUNTING_SHOWN).min(trace.time_s.len());
@@ -197,23 +191,5 @@ fn hunting(simulation: &Simulation) -> Figure {
         Style::Step,
         points(&trace.time_s[first..last], &trace.error_um[first..last]),
     );
-    let mut panel = panel("Hunting", "recorder, raw, in µm", vec![series]);
-    panel.x = Axis::linear("time in s");
-    Figure { width_px: 900, panels: vec![panel] }
-}
-
-fn panel(title: &str, y: &str, series: Vec<Series>) -> Panel {
-    Panel {
-        title: title.into(),
-        height_px: 260,
-        x: Axis::linear("position in mm"),
-        y: Axis::linear(y),
-        bands: Vec::new(),
-        series,
-        labels: Vec::new(),
-    }
-}
-
-fn points(x: &[f64], y: &[f64]) -> Vec<[f64; 2]> {
-    x.iter().zip(y).map(|(x, y)| [*x, *y]).collect()
+    panel("Hunting", "time in s", "recorder, raw, in µm", vec![series])
 }

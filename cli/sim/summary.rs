@@ -4,122 +4,79 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use helixlock_plant::Machine;
-use helixlock_sim::{Findings, Pass, PassFindings, Simulation};
-use serde::Serialize;
+use helixlock_sim::{Course, Findings, Hunting, Pass, PassFindings, Playback, Simulation};
 
+use crate::shared::keys::keys;
 use crate::shared::wheels::Wheels;
 
-/// `summary.json`: keys are stable, units are in the names.
-#[derive(Debug, Serialize)]
-pub(crate) struct Summary {
-    pub(crate) title: String,
-    machine_file: String,
-    pub(crate) run: Run,
-    settings: Wheels,
-    pub(crate) without_correction: PassSummary,
-    pub(crate) with_correction: PassSummary,
-    pub(crate) hunting: Option<HuntingSummary>,
-    pub(crate) slew: Slew,
-    pub(crate) playback: Option<PlaybackSummary>,
-    pub(crate) notes: Vec<String>,
-}
+keys! {
+    /// `summary.json`: keys are stable, units are in the names.
+    Summary(file: &Path, machine: &Machine, simulation: &Simulation, findings: &Findings) {
+        title: String = machine.title.clone(),
+        machine_file: String = file.display().to_string(),
+        run: Run = Run::new(simulation),
+        settings: Wheels = Wheels::new(&simulation.course.dialled),
+        without_correction: PassSummary = PassSummary::new(&simulation.open, &findings.open),
+        with_correction: PassSummary = PassSummary::new(&simulation.closed, &findings.closed),
+        hunting: Option<HuntingSummary> = hunting(simulation, findings),
+        slew: Slew = Slew::new(&simulation.course, findings),
+        playback: Option<PlaybackSummary> = simulation.closed.playback.map(PlaybackSummary::new),
+        notes: Vec<String> = notes(machine, simulation, findings),
+    }
 
-/// What was run.
-#[derive(Debug, Serialize)]
-pub(crate) struct Run {
-    pub(crate) length_mm: f64,
-    pub(crate) duration_s: f64,
-    pub(crate) clock_hz: u64,
-    pub(crate) clocks: u64,
-    pub(crate) comparisons: usize,
-    comparison_hz: f64,
-    pub(crate) range_um: f64,
-}
+    /// What was run.
+    Run(simulation: &Simulation) {
+        length_mm: f64 = simulation.course.length_mm,
+        duration_s: f64 = simulation.course.duration_s,
+        clock_hz: u64 = simulation.course.clock_hz,
+        clocks: u64 = simulation.open.clocks + simulation.closed.clocks,
+        comparisons: usize = simulation.closed.trace.time_s.len(),
+        comparison_hz: f64 = simulation.course.comparison_hz,
+        range_um: f64 = simulation.course.full_scale_um,
+    }
 
-/// One pass.
-#[derive(Debug, Serialize)]
-pub(crate) struct PassSummary {
-    pub(crate) periodic_error_um: f64,
-    pub(crate) cumulative_error_um: f64,
-    pub(crate) lead_error_peak_to_peak_um: f64,
-    pub(crate) recorder_peak_to_peak_um: f64,
-    filtered_recorder_peak_to_peak_um: f64,
-    pub(crate) recorder_jumps: usize,
-    pub(crate) steps_taken: u64,
-    pub(crate) steps_net: i64,
-    pub(crate) counter_fault: bool,
-}
+    /// One pass.
+    PassSummary(pass: &Pass, findings: &PassFindings) {
+        periodic_error_um: f64 = findings.lead.periodic_um,
+        cumulative_error_um: f64 = findings.lead.cumulative_um,
+        lead_error_peak_to_peak_um: f64 = findings.lead.total_um,
+        recorder_peak_to_peak_um: f64 = findings.recorder_um,
+        filtered_recorder_peak_to_peak_um: f64 = findings.filtered_um,
+        recorder_jumps: usize = pass.jumps,
+        steps_taken: u64 = pass.steps_taken,
+        steps_net: i64 = pass.steps_net,
+        counter_fault: bool = pass.fault,
+    }
 
-/// The limit cycle.
-#[derive(Debug, Serialize)]
-pub(crate) struct HuntingSummary {
-    pub(crate) frequency_hz: f64,
-    pub(crate) comparison_hz: f64,
-    pub(crate) ratio: f64,
-    pub(crate) swing_um: f64,
-    pub(crate) expected_swing_um: f64,
-}
+    /// The limit cycle.
+    HuntingSummary(hunting: Hunting, expected_swing_um: f64) {
+        frequency_hz: f64 = hunting.frequency_hz,
+        comparison_hz: f64 = hunting.comparison_hz,
+        ratio: f64 = hunting.frequency_hz / hunting.comparison_hz,
+        swing_um: f64 = hunting.swing_um,
+        expected_swing_um: f64 = expected_swing_um,
+    }
 
-/// What the motor can follow and what it had to.
-#[derive(Debug, Serialize)]
-pub(crate) struct Slew {
-    pub(crate) limit_um_per_s: f64,
-    pub(crate) needed_um_per_s: f64,
-    pub(crate) limited: bool,
-    outrun_share: Option<f64>,
-}
+    /// What the motor can follow and what it had to.
+    Slew(course: &Course, findings: &Findings) {
+        limit_um_per_s: f64 = course.slew_limit_um_per_s,
+        needed_um_per_s: f64 = findings.needed_um_per_s,
+        limited: bool = findings.slew_limited,
+        outrun_share: Option<f64> = findings.hunting.map(|hunting| hunting.outrun_share),
+    }
 
-/// The way home.
-#[derive(Debug, Serialize)]
-pub(crate) struct PlaybackSummary {
-    pub(crate) steps: u64,
-    pub(crate) duration_s: f64,
-    pub(crate) steps_left: i64,
+    /// The way home.
+    PlaybackSummary(playback: Playback) {
+        steps: u64 = playback.steps,
+        duration_s: f64 = playback.duration_s,
+        steps_left: i64 = playback.left,
+    }
 }
 
 /// A number of a pass.
 type Quantity = fn(&PassSummary) -> f64;
 
 impl Summary {
-    pub(crate) fn new(file: &Path, machine: &Machine, simulation: &Simulation) -> Self {
-        let findings = simulation.findings();
-        let (course, closed) = (&simulation.course, &simulation.closed);
-        Self {
-            title: machine.title.clone(),
-            machine_file: file.display().to_string(),
-            run: Run {
-                length_mm: course.length_mm,
-                duration_s: course.duration_s,
-                clock_hz: course.clock_hz,
-                clocks: simulation.open.clocks + closed.clocks,
-                comparisons: closed.trace.time_s.len(),
-                comparison_hz: course.comparison_hz,
-                range_um: course.full_scale_um,
-            },
-            settings: Wheels::from(&course.dialled),
-            without_correction: pass(&simulation.open, &findings.open),
-            with_correction: pass(closed, &findings.closed),
-            hunting: hunting(simulation, &findings),
-            slew: Slew {
-                limit_um_per_s: course.slew_limit_um_per_s,
-                needed_um_per_s: findings.needed_um_per_s,
-                limited: findings.slew_limited,
-                outrun_share: findings.hunting.map(|hunting| hunting.outrun_share),
-            },
-            playback: closed.playback.map(|playback| PlaybackSummary {
-                steps: playback.steps,
-                duration_s: playback.duration_s,
-                steps_left: playback.left,
-            }),
-            notes: notes(machine, simulation, &findings),
-        }
-    }
-
-    /// As text for `summary.json` and `--json`.
-    pub(crate) fn json(&self) -> serde_json::Result<String> {
-        serde_json::to_string_pretty(self)
-    }
-
     /// For people.
     pub(crate) fn print(&self, out: &mut impl Write) -> io::Result<()> {
         let run = &self.run;
@@ -165,31 +122,11 @@ impl Summary {
     }
 }
 
-fn pass(pass: &Pass, findings: &PassFindings) -> PassSummary {
-    PassSummary {
-        periodic_error_um: findings.lead.periodic_um,
-        cumulative_error_um: findings.lead.cumulative_um,
-        lead_error_peak_to_peak_um: findings.lead.total_um,
-        recorder_peak_to_peak_um: findings.recorder_um,
-        filtered_recorder_peak_to_peak_um: findings.filtered_um,
-        recorder_jumps: pass.jumps,
-        steps_taken: pass.steps_taken,
-        steps_net: pass.steps_net,
-        counter_fault: pass.fault,
-    }
-}
-
 fn hunting(simulation: &Simulation, findings: &Findings) -> Option<HuntingSummary> {
-    let expected_swing_um = simulation.course.swing_um;
     let hunts = !findings.slew_limited && !simulation.closed.fault;
     // A motor that never catches up does not hunt.
-    findings.hunting.filter(|_| hunts).map(|hunting| HuntingSummary {
-        frequency_hz: hunting.frequency_hz,
-        comparison_hz: hunting.comparison_hz,
-        ratio: hunting.frequency_hz / hunting.comparison_hz,
-        swing_um: hunting.swing_um,
-        expected_swing_um,
-    })
+    let hunting = findings.hunting.filter(|_| hunts);
+    hunting.map(|hunting| HuntingSummary::new(hunting, simulation.course.swing_um))
 }
 
 /// What a user should not have to find out alone.

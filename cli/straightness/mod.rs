@@ -1,27 +1,28 @@
 //! `helixlock straightness`: a guideway and a workpiece apart, from three probes.
 
+mod evaluation;
+mod json;
 mod page;
 mod readings;
-mod summary;
+mod text;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{anyhow, bail};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use helixlock_metrology::straightness::{
-    Combined, CompensationModel, CompensationOutcome, CorrectionPoint, Plan, Readings, Separated,
-    Spacing, StraightnessLines, correction_table, plan, propose, separate_by_fourier,
-    separate_by_least_squares, simulate_compensation, straightness,
+    Combined, CompensationModel, Readings, Separated, Spacing, correction_table, plan, propose,
+    separate_by_fourier, separate_by_least_squares, simulate_compensation,
 };
 use helixlock_traces::csv::RowWriter;
 
+use self::evaluation::{By, Evaluation, Outcome};
+use self::json::{PlansJson, StraightnessJson};
 use self::readings::read_readings;
-use self::summary::{json_of, plan_json, print, print_plan};
-use crate::shared::output::Batch;
+use crate::shared::output::{Batch, print_json};
 use crate::shared::quantity::{length_mm, length_um};
-use crate::shared::series::print_json;
 
 /// Separate a guideway and a workpiece by three probes
 ///
@@ -89,57 +90,6 @@ pub(crate) struct StraightnessCommand {
     json: bool,
 }
 
-/// Methods on the command line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum By {
-    /// Fourier series: the bar's form repeats with the stroke
-    Fourier,
-    /// Least squares: the bar is smooth, nothing repeats
-    LeastSquares,
-}
-
-/// One method's result with its straightness.
-pub(crate) struct Outcome {
-    /// Bar and carriage.
-    pub(crate) separated: Separated,
-    /// Straightness of the bar.
-    pub(crate) workpiece: StraightnessLines,
-    /// Straightness of the carriage motion.
-    pub(crate) carriage: StraightnessLines,
-}
-
-/// Everything a run of the command found.
-pub(crate) struct Evaluation {
-    /// The file.
-    pub(crate) path: PathBuf,
-    /// Runs in it.
-    pub(crate) repeats: usize,
-    /// The combined readings.
-    pub(crate) combined: Combined,
-    /// What the spacings do.
-    pub(crate) plan: Plan,
-    /// By Fourier series.
-    pub(crate) fourier: Outcome,
-    /// By least squares.
-    pub(crate) least_squares: Outcome,
-    /// Which one counts.
-    pub(crate) method: By,
-    /// The correction table.
-    pub(crate) correction: Vec<CorrectionPoint>,
-    /// The simulated compensation with its parameters.
-    pub(crate) compensation: Option<(CompensationModel, CompensationOutcome)>,
-}
-
-impl Evaluation {
-    /// The result that counts.
-    pub(crate) fn chosen(&self) -> &Outcome {
-        match self.method {
-            By::Fourier => &self.fourier,
-            By::LeastSquares => &self.least_squares,
-        }
-    }
-}
-
 impl StraightnessCommand {
     /// Plans, or separates, writes and prints.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
@@ -160,17 +110,15 @@ impl StraightnessCommand {
         let evaluation = self
             .evaluate(path, &readings, spacing)
             .map_err(|error| anyhow!("{}: {error}", path.display()))?;
-        let exceeded = self
-            .limit
-            .is_some_and(|limit| limit < evaluation.chosen().workpiece.minimum_zone.error_um);
-        let result = json_of(&evaluation, self.limit);
+        let exceeded = self.limit.is_some_and(|limit| !evaluation.keeps(limit));
+        let result = StraightnessJson::new(&evaluation, self.limit);
         if let Some(output) = &self.output {
             write_files(output, &evaluation, &result)?;
         }
         if self.json {
             print_json(out, &result)?;
         } else {
-            print(out, &evaluation, self.limit)?;
+            text::print(out, &evaluation, self.limit)?;
         }
         Ok(if exceeded { ExitCode::from(1) } else { ExitCode::SUCCESS })
     }
@@ -193,9 +141,9 @@ impl StraightnessCommand {
         };
         let proposals = propose(samples, longest, 5);
         if self.json {
-            print_json(out, &plan_json(samples, step_mm, asked.as_ref(), &proposals))?;
+            print_json(out, &PlansJson::new(samples, step_mm, asked.as_ref(), &proposals))?;
         } else {
-            print_plan(out, step_mm, asked.as_ref(), &proposals)?;
+            text::print_plan(out, step_mm, asked.as_ref(), &proposals)?;
         }
         Ok(ExitCode::SUCCESS)
     }
@@ -217,8 +165,8 @@ impl StraightnessCommand {
         let combined = readings.combine(spacing)?;
         let least_squares = separate_by_least_squares(&combined, self.zeros_matched)?;
         let fourier = separate_by_fourier(&combined, self.accept_lost_harmonics)?;
-        let fourier = outcome(fourier.with_difference_from(&least_squares))?;
-        let least_squares = outcome(least_squares)?;
+        let fourier = Outcome::new(fourier.with_difference_from(&least_squares))?;
+        let least_squares = Outcome::new(least_squares)?;
         let chosen = match self.method {
             By::Fourier => &fourier.separated,
             By::LeastSquares => &least_squares.separated,
@@ -233,6 +181,7 @@ impl StraightnessCommand {
             repeats: readings.repeats.len(),
             plan: plan(spacing, combined.z_um.len()),
             method: self.method,
+            rms_difference_um: fourier.separated.rms_difference_um(&least_squares.separated),
             combined,
             fourier,
             least_squares,
@@ -262,15 +211,6 @@ impl StraightnessCommand {
     }
 }
 
-fn outcome(separated: Separated) -> Result<Outcome, helixlock_metrology::Error> {
-    let lines = |heights: &[f64]| {
-        let found = straightness(&separated.position_mm, heights);
-        found.ok_or(helixlock_metrology::Error::TooFewSamples { found: heights.len(), expected: 2 })
-    };
-    let (workpiece, carriage) = (lines(&separated.workpiece_um)?, lines(&separated.carriage_um)?);
-    Ok(Outcome { separated, workpiece, carriage })
-}
-
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -283,14 +223,11 @@ fn whole_steps(steps: f64) -> usize {
 fn write_files(
     output: &Path,
     evaluation: &Evaluation,
-    result: &serde_json::Value,
+    result: &StraightnessJson<'_>,
 ) -> anyhow::Result<()> {
     let page = page::page(evaluation);
-    let figure = page::figure(evaluation).svg();
     let mut files = Batch::new(output)?;
-    files.write_content("figure.svg", figure)?;
-    files.write_json("result.json", result)?;
-    files.write_content("report.html", page.html())?;
+    files.write_report(&page::figure(evaluation), result, &page)?;
     files.write("separated.csv", |file| write_separated(file, evaluation.chosen()))?;
     files.write("correction.csv", |file| {
         let mut rows = RowWriter::new(file, &["position_mm", "correction_um"])?;

@@ -1,9 +1,10 @@
 //! Report of `helixlock straightness`.
 
+use helixlock_metrology::straightness::Separated;
 use helixlock_report::{Axis, Colour, Figure, Page, Panel, Part, Series, Style, Table};
 
-use super::summary::rms_difference;
-use super::{Evaluation, Outcome};
+use super::evaluation::{Evaluation, Outcome};
+use crate::shared::page_pieces::{self, panel, points};
 
 /// The page: bar, carriage, gain of the harmonics, figures.
 pub(crate) fn page(evaluation: &Evaluation) -> Page {
@@ -15,7 +16,7 @@ pub(crate) fn page(evaluation: &Evaluation) -> Page {
             format!("{:.3} µm", chosen.carriage.minimum_zone.error_um),
             "of the carriage motion".into(),
         ),
-        (format!("{:.3} µm", rms_difference(evaluation)), "between the two methods, rms".into()),
+        (format!("{:.3} µm", evaluation.rms_difference_um), "between the two methods, rms".into()),
     ];
     if let Some(sigma) = evaluation.combined.sigma_um {
         numbers.push((format!("{:.3} µm", 3.0 * sigma), "±3σ of the combined signal".into()));
@@ -56,16 +57,17 @@ pub(crate) fn page(evaluation: &Evaluation) -> Page {
 
 /// The figure of the page.
 pub(crate) fn figure(evaluation: &Evaluation) -> Figure {
-    let points = |values: &[f64]| -> Vec<[f64; 2]> {
-        let positions = &evaluation.fourier.separated.position_mm;
-        positions.iter().zip(values).map(|(x, y)| [*x, *y]).collect()
-    };
+    let positions = &evaluation.fourier.separated.position_mm;
     let (fourier, squares) = (&evaluation.fourier.separated, &evaluation.least_squares.separated);
-    let both = |a: &[f64], b: &[f64]| {
-        vec![
-            Series::new("Fourier series", Colour::Orange, Style::Line, points(a)),
-            Series::new("least squares", Colour::Blue, Style::Line, points(b)),
-        ]
+    let both = |title, y, values: fn(&Separated) -> &Vec<f64>| {
+        let line = |name, colour, found| {
+            Series::new(name, colour, Style::Line, points(positions, values(found)))
+        };
+        let lines = vec![
+            line("Fourier series", Colour::Orange, fourier),
+            line("least squares", Colour::Blue, squares),
+        ];
+        panel(title, "position in mm", y, lines)
     };
     #[expect(clippy::cast_precision_loss, reason = "harmonics are few")]
     let number = |count: usize| count as f64;
@@ -74,45 +76,16 @@ pub(crate) fn figure(evaluation: &Evaluation) -> Figure {
     let gains = vec![Series::new("", Colour::Blue, Style::Stems, stems)];
     // Room beside the last stem.
     let beyond = number(harmonics.len() + 1);
-    Figure {
-        width_px: 900,
-        panels: vec![
-            panel(
-                "bar",
-                "position in mm",
-                "height in µm",
-                both(&fourier.workpiece_um, &squares.workpiece_um),
-            ),
-            panel(
-                "carriage motion",
-                "position in mm",
-                "δ in µm",
-                both(&fourier.carriage_um, &squares.carriage_um),
-            ),
-            panel(
-                "tilt of the carriage",
-                "position in mm",
-                "β in µrad",
-                both(&fourier.tilt_urad, &squares.tilt_urad),
-            ),
-            Panel {
-                x: Axis::linear("harmonic of the stroke").between(0.0, beyond),
-                ..panel("gain of the probes", "", "gain", gains)
-            },
-        ],
-    }
-}
-
-fn panel(title: &str, x: &str, y: &str, series: Vec<Series>) -> Panel {
-    Panel {
-        title: title.into(),
-        height_px: 230,
-        x: Axis::linear(x),
-        y: Axis::linear(y),
-        bands: Vec::new(),
-        series,
-        labels: Vec::new(),
-    }
+    let panels = [
+        both("bar", "height in µm", |found| &found.workpiece_um),
+        both("carriage motion", "δ in µm", |found| &found.carriage_um),
+        both("tilt of the carriage", "β in µrad", |found| &found.tilt_urad),
+        Panel {
+            x: Axis::linear("harmonic of the stroke").between(0.0, beyond),
+            ..panel("gain of the probes", "", "gain", gains)
+        },
+    ];
+    page_pieces::figure(panels.map(|panel| Panel { height_px: 230, ..panel }).into())
 }
 
 fn lines(evaluation: &Evaluation) -> Table {

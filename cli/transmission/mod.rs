@@ -1,8 +1,11 @@
 //! `helixlock transmission`: transmission error from two pulse trains, by five methods.
 
+mod evaluation;
+mod json;
 mod page;
 mod pulses;
-mod summary;
+mod text;
+mod truth;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -11,20 +14,17 @@ use std::process::ExitCode;
 use anyhow::{anyhow, bail};
 use clap::{Args, ValueEnum};
 use helixlock_metrology::transmission::{
-    Gearing, Method, OrderSpectrum, Peak, Pulses, Reading, Setup, Shaft, error_against, measure,
-    order_spectrum, peaks,
+    Gearing, Method, Reading, Setup, Shaft, error_against, measure, order_spectrum, peaks,
 };
 use helixlock_plant::Model;
 use helixlock_traces::csv::RowWriter;
 
+use self::evaluation::{ARCSEC, Evaluation, Found, MethodResult};
+use self::json::TransmissionJson;
 use self::pulses::{Names, read_pulses};
-use self::summary::{json_of, print};
-use crate::shared::output::Batch;
+use self::truth::read_truth;
+use crate::shared::output::{Batch, print_json};
 use crate::shared::quantity::{frequency_hz, lead_mm, time_s};
-use crate::shared::series::{Series, print_json};
-
-/// Radians to arc seconds.
-pub(crate) const ARCSEC: f64 = 180.0 * 3600.0 / std::f64::consts::PI;
 
 /// Measure a transmission error from two pulse trains
 ///
@@ -104,75 +104,18 @@ enum By {
     SubdividedCounting,
 }
 
-/// One method's result.
-pub(crate) struct MethodResult {
-    /// The method.
-    pub(crate) method: Method,
-    /// What it found, or why it cannot work here.
-    pub(crate) found: Result<Found, String>,
-}
-
-/// What a method found.
-pub(crate) struct Found {
-    /// The error along the run.
-    pub(crate) reading: Reading,
-    /// Its spectrum, when there are samples enough.
-    pub(crate) spectrum: Option<OrderSpectrum>,
-    /// Its tallest lines.
-    pub(crate) peaks: Vec<Peak>,
-    /// Largest and rms difference from the truth, rad.
-    pub(crate) against_truth: Option<(f64, f64)>,
-}
-
-/// Everything a run of the command found.
-pub(crate) struct Evaluation {
-    /// The file.
-    pub(crate) path: PathBuf,
-    /// The pulses.
-    pub(crate) pulses: Pulses,
-    /// The setting.
-    pub(crate) setup: Setup,
-    /// Each method asked for.
-    pub(crate) results: Vec<MethodResult>,
-    /// Largest peak-to-peak error allowed, arcsec.
-    pub(crate) limit_arcsec: Option<f64>,
-}
-
-impl Found {
-    /// Highest less lowest error, rad.
-    pub(crate) fn peak_to_peak_rad(&self) -> f64 {
-        let errors = || self.reading.samples.iter().map(|sample| sample.error_rad);
-        let (low, high) =
-            (errors().fold(f64::INFINITY, f64::min), errors().fold(f64::NEG_INFINITY, f64::max));
-        if low <= high { high - low } else { 0.0 }
-    }
-}
-
-impl Evaluation {
-    /// The best method that worked: subdivided counting before the others.
-    pub(crate) fn best(&self) -> Option<&Found> {
-        self.results.iter().rev().find_map(|result| result.found.as_ref().ok())
-    }
-
-    /// True when there is no limit or the best method keeps it.
-    pub(crate) fn holds(&self) -> bool {
-        let limit_rad = self.limit_arcsec.map(|limit| limit / ARCSEC);
-        limit_rad.is_none_or(|limit| self.best().is_some_and(|f| f.peak_to_peak_rad() <= limit))
-    }
-}
-
 impl TransmissionCommand {
     /// Measures, writes, prints.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         let evaluation = self.evaluate()?;
-        let result = json_of(&evaluation);
+        let result = TransmissionJson::new(&evaluation);
         if let Some(output) = &self.output {
             self.write_files(output, &evaluation, &result)?;
         }
         if self.json {
             print_json(out, &result)?;
         } else {
-            print(out, &evaluation)?;
+            text::print(out, &evaluation)?;
         }
         Ok(if evaluation.holds() { ExitCode::SUCCESS } else { ExitCode::from(1) })
     }
@@ -244,14 +187,11 @@ impl TransmissionCommand {
         &self,
         output: &Path,
         evaluation: &Evaluation,
-        result: &serde_json::Value,
+        result: &TransmissionJson<'_>,
     ) -> anyhow::Result<()> {
         let page = page::page(evaluation);
-        let figure = page::figure(evaluation).svg();
         let mut files = Batch::new(output)?;
-        files.write_content("figure.svg", figure)?;
-        files.write_json("result.json", result)?;
-        files.write_content("report.html", page.html())?;
+        files.write_report(&page::figure(evaluation), result, &page)?;
         if let Some(best) = evaluation.best() {
             files.write("error.csv", |file| write_error(file, &best.reading))?;
             files.write("compare.csv", |file| self.hand_over(file, &best.reading))?;
@@ -284,39 +224,6 @@ fn write_error(file: &mut dyn Write, reading: &Reading) -> anyhow::Result<()> {
         rows.row(&[one.time_s, one.output_turns, one.error_rad * ARCSEC])?;
     }
     Ok(())
-}
-
-/// The true error, linear between its rows.
-struct Truth {
-    turns: Vec<f64>,
-    error_rad: Vec<f64>,
-}
-
-impl Truth {
-    fn at(&self, turns: f64) -> f64 {
-        let after = self.turns.partition_point(|x| *x < turns).clamp(1, self.turns.len() - 1);
-        let (x0, x1) = (self.turns[after - 1], self.turns[after]);
-        let part = ((turns - x0) / (x1 - x0)).clamp(0.0, 1.0);
-        self.error_rad[after - 1] + (self.error_rad[after] - self.error_rad[after - 1]) * part
-    }
-}
-
-fn read_truth(path: &Path) -> anyhow::Result<Truth> {
-    let series = Series::read_all(path)?;
-    let (turns, error) = (series.column("output_turns")?, series.column("delta_arcsec")?);
-    if turns.len() < 2 {
-        bail!("{}: {} rows, expected two or more", path.display(), turns.len());
-    }
-    let falls = |pair: &[f64]| pair[1].partial_cmp(&pair[0]) != Some(std::cmp::Ordering::Greater);
-    if let Some(row) = turns.windows(2).position(falls) {
-        bail!(
-            "{}: {} turns after {}, expected increasing turns",
-            series.place(row + 1),
-            turns[row + 1],
-            turns[row]
-        );
-    }
-    Ok(Truth { turns, error_rad: error.iter().map(|arcsec| arcsec / ARCSEC).collect() })
 }
 
 /// `36`, `5/2` or `2.5` as numerator and denominator.

@@ -3,7 +3,8 @@
 use helixlock_metrology::transmission::Method;
 use helixlock_report::{Axis, Colour, Figure, Label, Page, Panel, Part, Series, Style, Table};
 
-use super::{ARCSEC, Evaluation, Found, MethodResult};
+use super::evaluation::{ARCSEC, Evaluation, Found, MethodResult};
+use crate::shared::page_pieces::{self, panel};
 
 const COLOURS: [Colour; 5] =
     [Colour::Orange, Colour::Purple, Colour::Green, Colour::Grey, Colour::Blue];
@@ -13,7 +14,7 @@ pub(crate) fn page(evaluation: &Evaluation) -> Page {
     let mut parts = Vec::new();
     if let Some(best) = evaluation.best() {
         parts.push(Part::Numbers(vec![(
-            format!("{:.2} ″", best.peak_to_peak_rad() * ARCSEC),
+            format!("{:.2} ″", best.reading.peak_to_peak_rad() * ARCSEC),
             format!("peak to peak by {}", best.reading.method.name()),
         )]));
     }
@@ -51,30 +52,20 @@ pub(crate) fn figure(evaluation: &Evaluation) -> Figure {
     // Counting, which jumps by whole pulses, lies behind the others.
     let (counted, fine): (Vec<_>, Vec<_>) = drawn.into_iter().partition(|(r, _)| by_pulses(r));
     let all = counted.iter().chain(&fine).filter_map(series).collect();
-    let mut panels = vec![panel("transmission error", all)];
+    let errors = |title, all| panel(title, "turns of the output", "δ in arcsec", all);
+    let mut panels = vec![errors("transmission error", all)];
     if !counted.is_empty() && !fine.is_empty() {
-        panels.push(panel("without direct counting", fine.iter().filter_map(series).collect()));
+        panels.push(errors("without direct counting", fine.iter().filter_map(series).collect()));
     }
     panels.extend(evaluation.best().and_then(spectrum));
-    Figure { width_px: 900, panels }
+    let higher = |panel| Panel { height_px: 280, ..panel };
+    page_pieces::figure(panels.into_iter().map(higher).collect())
 }
 
 fn series((result, colour): &(&MethodResult, Colour)) -> Option<Series> {
     let found = result.found.as_ref().ok()?;
     let points = found.reading.samples.iter().map(|s| [s.output_turns, s.error_rad * ARCSEC]);
     Some(Series::new(result.method.name(), *colour, Style::Line, points))
-}
-
-fn panel(title: &str, series: Vec<Series>) -> Panel {
-    Panel {
-        title: title.into(),
-        height_px: 280,
-        x: Axis::linear("turns of the output"),
-        y: Axis::linear("δ in arcsec"),
-        bands: Vec::new(),
-        series,
-        labels: Vec::new(),
-    }
 }
 
 fn spectrum(found: &Found) -> Option<Panel> {
@@ -85,14 +76,11 @@ fn spectrum(found: &Found) -> Option<Panel> {
         at: [peak.line.order, peak.line.amplitude_rad * ARCSEC],
         text: peak.shafts.join(", "),
     };
+    let stems = vec![Series::new("", Colour::Blue, Style::Stems, points)];
     Some(Panel {
-        title: "order spectrum".into(),
-        height_px: 280,
         x: Axis::log("periods a turn of the output"),
-        y: Axis::linear("amplitude in arcsec"),
-        bands: Vec::new(),
-        series: vec![Series::new("", Colour::Blue, Style::Stems, points)],
         labels: named.map(label).collect(),
+        ..panel("order spectrum", "", "amplitude in arcsec", stems)
     })
 }
 

@@ -9,8 +9,8 @@ mod final_check;
 mod learn;
 
 pub use adding::{Added, add};
-pub use compare::{Comparison, PassSize, SensorResidual, compare};
+pub use compare::{Comparison, NoiseSize, PassSize, SensorResidual, SlowSize, compare};
 pub use diagnosis::{Diagnosis, FittedEffect, FittedParameter, Ranked, Round, Verdict, diagnose};
 pub use experiment::Advice;
 pub use final_check::{FinalCheck, SensorCheck, final_check};
-pub use learn::{Ledger, LedgerEntry, fingerprint, ledger, written};
+pub use learn::{Ledger, LedgerEntry, Spectra, fingerprint, ledger, spectra, written};

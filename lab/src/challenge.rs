@@ -4,7 +4,9 @@ mod error;
 mod outside;
 mod recipe;
 mod scene;
+mod score;
 mod task;
 
 pub use error::ChallengeError;
+pub use score::{Figure, Score, Share};
 pub use task::{Challenge, Hidden, Outcome, challenge, judge};

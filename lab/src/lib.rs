@@ -24,12 +24,14 @@ mod challenge;
 
 pub use answer::{
     Added, Advice, Comparison, Diagnosis, FinalCheck, FittedEffect, FittedParameter, Ledger,
-    LedgerEntry, PassSize, Ranked, Round, SensorCheck, SensorResidual, Verdict, add, compare,
-    diagnose, final_check, fingerprint, ledger, written,
+    LedgerEntry, NoiseSize, PassSize, Ranked, Round, SensorCheck, SensorResidual, SlowSize,
+    Spectra, Verdict, add, compare, diagnose, final_check, fingerprint, ledger, spectra, written,
 };
-pub use challenge::{Challenge, ChallengeError, Hidden, Outcome, challenge, judge};
+pub use challenge::{
+    Challenge, ChallengeError, Figure, Hidden, Outcome, Score, Share, challenge, judge,
+};
 pub use hypotheses::Structure;
 pub use measurement::{LabError, Measurement, Nominal, PulseTrains, Steps, sensor_column};
 pub use model::{Problem, Row};
 pub use noise::{Block, Layout, Noise, SlowPart};
-pub use spectrum::{Line, NamedLine, amplitude_spectrum, lines_left};
+pub use spectrum::{Line, NamedLine, lines_left};

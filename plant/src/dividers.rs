@@ -94,6 +94,12 @@ pub struct Setting {
 }
 
 impl Setting {
+    /// Table error that 360° of phase stand for, µm.
+    #[must_use]
+    pub fn full_scale_um(&self, task: &Task, range: Range) -> f64 {
+        f64::from(range.factor() * self.b) * task.wavelength_um / 2.0
+    }
+
     /// Compensation that takes the residual out, µm/m, and its cycle, as far as the wheels can.
     #[must_use]
     pub fn compensation(&self) -> Option<(f64, u32)> {

@@ -24,6 +24,24 @@ pub struct PassSize {
     pub peak_to_peak_um: f64,
 }
 
+/// Noise in the units of the chain.
+#[derive(Debug, Clone)]
+pub struct NoiseSize {
+    /// Standard deviation of its white part.
+    pub white_um: f64,
+    /// Its slow parts.
+    pub slow: Vec<SlowSize>,
+}
+
+/// A slow part of noise.
+#[derive(Debug, Clone, Copy)]
+pub struct SlowSize {
+    /// Standard deviation.
+    pub rms_um: f64,
+    /// Time over which it stays alike, s.
+    pub correlation_s: f64,
+}
+
 /// One sensor's residual.
 #[derive(Debug, Clone)]
 pub struct SensorResidual {
@@ -40,9 +58,7 @@ pub struct SensorResidual {
     /// Size in each pass.
     pub passes: Vec<PassSize>,
     /// The noise that fits best the samples looked at.
-    pub noise: Noise,
-    /// Interval of the samples looked at, s, which the noise's correlation lengths count.
-    pub interval_s: f64,
+    pub noise: NoiseSize,
     /// Samples looked at: all, or means of neighbours where there are very many.
     pub looked_at: usize,
     /// Outliers that were weighed down.
@@ -128,8 +144,7 @@ fn sensor_residual(
         rms_um,
         peak_to_peak_um: passes.iter().map(|pass| pass.peak_to_peak_um).fold(0.0, f64::max),
         passes,
-        noise: state.fit.noises[sensor].clone(),
-        interval_s: interval_s(small),
+        noise: noise_size(&state.fit.noises[sensor], interval_s(small)),
         looked_at: rows.len(),
         outliers: blocks()
             .flat_map(|block| block.rows.clone())
@@ -144,6 +159,14 @@ fn effective_samples(layout: &Layout, noise: &Noise) -> f64 {
     let whitener = Whitener::new(layout, std::slice::from_ref(noise));
     let ones = whitener.whiten_only(&vec![1.0; layout.len()]);
     noise.variance() * dot(&ones, &ones)
+}
+
+fn noise_size(noise: &Noise, interval_s: f64) -> NoiseSize {
+    let slow = noise.slow.iter().map(|part| SlowSize {
+        rms_um: part.variance.sqrt(),
+        correlation_s: part.length * interval_s,
+    });
+    NoiseSize { white_um: noise.white.sqrt(), slow: slow.collect() }
 }
 
 fn interval_s(problem: &Problem) -> f64 {

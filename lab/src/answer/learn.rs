@@ -3,6 +3,28 @@
 use helixlock_plant::{MachineError, MachineFile, Term};
 
 use super::diagnosis::{Diagnosis, FittedEffect, Round};
+use crate::model::Problem;
+use crate::spectrum::amplitude_spectrum;
+
+/// Order spectra of one sensor's residual.
+#[derive(Debug, Clone)]
+pub struct Spectra {
+    /// Before anything was added.
+    pub before: Vec<[f64; 2]>,
+    /// After the last round.
+    pub after: Vec<[f64; 2]>,
+}
+
+/// Spectra before and after, one entry a sensor.
+#[must_use]
+pub fn spectra(problem: &Problem, diagnosis: &Diagnosis) -> Vec<Spectra> {
+    let spectrum = |left, sensor| amplitude_spectrum(problem, left, sensor);
+    let sensor = |sensor| Spectra {
+        before: spectrum(&diagnosis.before, sensor),
+        after: spectrum(&diagnosis.left, sensor),
+    };
+    (0..problem.sensors.len()).map(sensor).collect()
+}
 
 /// A machine file with the effects of a round written into it, comments and order kept.
 ///

@@ -59,6 +59,14 @@ pub struct Combined {
     pub rejected: Vec<Rejected>,
 }
 
+impl Combined {
+    /// Standard deviation of one probe's reading, µm, if all three scatter alike.
+    #[must_use]
+    pub fn sigma_probe_um(&self) -> Option<f64> {
+        self.sigma_um.map(|sigma| sigma / self.spacing.combination_noise())
+    }
+}
+
 impl Readings {
     /// Samples of a run.
     #[must_use]

@@ -27,9 +27,7 @@ impl Separated {
     /// wrongly, such as that the bar repeats with the stroke.
     #[must_use]
     pub fn with_difference_from(mut self, other: &Self) -> Self {
-        let pairs = self.workpiece_um.iter().zip(&other.workpiece_um);
-        let squares: f64 = pairs.map(|(a, b)| (a - b) * (a - b)).sum();
-        let difference_um2 = squares / number(self.workpiece_um.len());
+        let difference_um2 = self.mean_square_difference_um2(other);
         let variance = |each: &Option<Vec<f64>>| each.as_deref().map_or(0.0, mean_square);
         let expected_um2 = (variance(&other.uncertainty_um) - variance(&self.uncertainty_um)).abs();
         let excess_um2 = (difference_um2 - expected_um2).max(0.0);
@@ -37,6 +35,18 @@ impl Separated {
             *u_um = libm::sqrt(*u_um * *u_um + excess_um2);
         }
         self
+    }
+
+    /// How far two separations of the same readings are apart over the bar, µm rms.
+    #[must_use]
+    pub fn rms_difference_um(&self, other: &Self) -> f64 {
+        self.mean_square_difference_um2(other).sqrt()
+    }
+
+    fn mean_square_difference_um2(&self, other: &Self) -> f64 {
+        let pairs = self.workpiece_um.iter().zip(&other.workpiece_um);
+        let squares: f64 = pairs.map(|(a, b)| (a - b) * (a - b)).sum();
+        squares / number(self.workpiece_um.len())
     }
 
     /// Puts the carriage beside a bar known at all places the three probes touch.

@@ -149,6 +149,17 @@ pub fn measure(pulses: &Pulses, setup: &Setup, method: Method) -> Result<Reading
     Ok(Reading { method, samples, limits, cost: method.cost() })
 }
 
+impl Reading {
+    /// Highest less lowest error, rad.
+    #[must_use]
+    pub fn peak_to_peak_rad(&self) -> f64 {
+        let errors = || self.samples.iter().map(|sample| sample.error_rad);
+        let (low, high) =
+            (errors().fold(f64::INFINITY, f64::min), errors().fold(f64::NEG_INFINITY, f64::max));
+        if low <= high { high - low } else { 0.0 }
+    }
+}
+
 impl Setup {
     fn check(&self) -> Result<(), Error> {
         self.gearing.check()?;

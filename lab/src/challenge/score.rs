@@ -1,31 +1,40 @@
 //! How well the diagnosis does on many challenges, against the figures it has to reach.
 
 use std::collections::BTreeMap;
-use std::io::Write;
 
-use helixlock_lab::{Challenge, Diagnosis, Hidden, Outcome, Verdict, judge};
 use helixlock_plant::Term;
-use serde_json::{Value, json};
+
+use super::{Challenge, Hidden, Outcome, judge};
+use crate::answer::{Diagnosis, Verdict};
 
 /// Counts over many challenges.
 #[derive(Debug, Default)]
-pub(crate) struct Score {
-    outcomes: BTreeMap<(&'static str, &'static str), u64>,
-    figures: BTreeMap<Figure, Share>,
+pub struct Score {
+    /// What was hidden and what was said of it, in words, and how often.
+    pub outcomes: BTreeMap<(&'static str, &'static str), u64>,
+    /// How often each figure was asked, and met.
+    pub figures: BTreeMap<Figure, Share>,
+    /// Seeds whose answer was false or missing.
+    pub wrong: Vec<u64>,
     before: f64,
     after: f64,
     number: f64,
-    wrong: Vec<u64>,
 }
 
 /// A share with a target.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Figure {
+pub enum Figure {
+    /// One effect hidden, and named.
     NamedRightly,
+    /// An effect named that is not there.
     FalselyNamed,
+    /// Nothing hidden, and so said.
     NothingMissing,
+    /// Something outside the catalogue, and so said.
     Unexplained,
+    /// Explained down to the noise on held-out data.
     HeldOut,
+    /// A true value within two standard errors of the fitted one.
     Parameters,
 }
 
@@ -33,7 +42,9 @@ enum Figure {
 const HELD_OUT: f64 = 1.1;
 
 impl Figure {
-    fn words(self) -> &'static str {
+    /// In words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
         match self {
             Self::NamedRightly => "one effect, named rightly",
             Self::FalselyNamed => "falsely named",
@@ -45,7 +56,8 @@ impl Figure {
     }
 
     /// Lowest and highest share wanted, %.
-    fn target_pct(self) -> [f64; 2] {
+    #[must_use]
+    pub fn target_pct(self) -> [f64; 2] {
         match self {
             Self::NamedRightly | Self::Unexplained => [95.0, 100.0],
             Self::FalselyNamed => [0.0, 2.0],
@@ -58,9 +70,11 @@ impl Figure {
 
 /// So many of so many.
 #[derive(Debug, Clone, Copy, Default)]
-struct Share {
-    yes: f64,
-    of: f64,
+pub struct Share {
+    /// So many.
+    pub yes: f64,
+    /// Of so many.
+    pub of: f64,
 }
 
 impl Share {
@@ -69,12 +83,15 @@ impl Share {
         self.yes += f64::from(u8::from(yes));
     }
 
-    fn pct(self) -> f64 {
+    /// The share, %.
+    #[must_use]
+    pub fn pct(self) -> f64 {
         100.0 * self.yes / self.of.max(1.0)
     }
 
     /// 95 % interval of the true share, % (Wilson 1927, J. Am. Stat. Assoc. 22:209).
-    fn interval_pct(self) -> [f64; 2] {
+    #[must_use]
+    pub fn interval_pct(self) -> [f64; 2] {
         const Z: f64 = 1.959_963_984_540_054;
         let (n, p) = (self.of.max(1.0), self.yes / self.of.max(1.0));
         let middle = p + Z * Z / (2.0 * n);
@@ -86,7 +103,7 @@ impl Share {
 
 impl Score {
     /// Counts one challenge with its diagnosis.
-    pub(crate) fn add(&mut self, seed: u64, task: &Challenge, diagnosis: &Diagnosis) {
+    pub fn add(&mut self, seed: u64, task: &Challenge, diagnosis: &Diagnosis) {
         let last = diagnosis.rounds.last();
         let names: Vec<String> = last
             .map(|round| round.effects.iter().map(|effect| effect.name.clone()).collect())
@@ -119,6 +136,12 @@ impl Score {
         }
     }
 
+    /// Mean error before the diagnosis, and after it on held-out data, µm rms.
+    #[must_use]
+    pub fn mean_rms_um(&self) -> [f64; 2] {
+        [self.before, self.after].map(|sum| sum / self.number.max(1.0))
+    }
+
     fn count(&mut self, figure: Figure, yes: bool) {
         self.figures.entry(figure).or_default().add(yes);
     }
@@ -140,55 +163,6 @@ impl Score {
                 self.count(Figure::Parameters, off <= 2.0 * stderr);
             }
         }
-    }
-
-    /// Prints the counts and each figure with its interval and target.
-    pub(crate) fn print(&self, out: &mut impl Write) -> anyhow::Result<()> {
-        for ((hidden, outcome), number) in &self.outcomes {
-            writeln!(out, "{hidden:<24} {outcome:<16} {number:>5}")?;
-        }
-        for (figure, share) in &self.figures {
-            let ([low, high], [least, most]) = (share.interval_pct(), figure.target_pct());
-            let words = figure.words();
-            writeln!(
-                out,
-                "{words:<40} {:>4} of {:<4} {:>5.1} %  (95 %: {low:.1} to {high:.1}; target {least} to {most})",
-                share.yes,
-                share.of,
-                share.pct()
-            )?;
-        }
-        let number = self.number.max(1.0);
-        writeln!(out, "mean error before        {:.4} µm rms", self.before / number)?;
-        writeln!(out, "mean error held out      {:.4} µm rms", self.after / number)?;
-        if !self.wrong.is_empty() {
-            writeln!(out, "seeds to look at: {:?}", self.wrong)?;
-        }
-        Ok(())
-    }
-
-    /// The same as JSON.
-    pub(crate) fn json(&self) -> Value {
-        let number = self.number.max(1.0);
-        let figures = self.figures.iter().map(|(figure, share)| {
-            json!({
-                "figure": figure.words(),
-                "yes": share.yes,
-                "of": share.of,
-                "share_pct": share.pct(),
-                "interval_pct": share.interval_pct(),
-                "target_pct": figure.target_pct(),
-            })
-        });
-        json!({
-            "outcomes": self.outcomes.iter().map(|((hidden, outcome), number)| json!({
-                "hidden": hidden, "outcome": outcome, "number": number,
-            })).collect::<Vec<_>>(),
-            "figures": figures.collect::<Vec<_>>(),
-            "mean_rms_before_um": self.before / number,
-            "mean_holdout_rms_um": self.after / number,
-            "seeds_to_look_at": self.wrong,
-        })
     }
 }
 

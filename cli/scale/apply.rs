@@ -1,0 +1,114 @@
+//! `helixlock scale apply`: what a table leaves of measured errors.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::{Args, ValueEnum};
+use helixlock_metrology::scale::{Detector, Direction, LookUp, Scheme, apply};
+use helixlock_traces::csv::RowWriter;
+
+use super::comparison::Comparison;
+use super::image::read_image;
+use super::json::AppliedJson;
+use super::samples::read_samples;
+use super::{page, text};
+use crate::shared::output::{Batch, print_json};
+use crate::shared::quantity::{length_um, position_mm};
+
+/// Take the errors off measured ones, by a table
+#[derive(Debug, Args)]
+pub(crate) struct Apply {
+    /// EEPROM image, Intel HEX or binary
+    #[arg(value_name = "IMAGE")]
+    image: PathBuf,
+    /// Measured errors
+    #[arg(value_name = "DATA")]
+    data: PathBuf,
+    /// Who takes the errors off
+    #[arg(long, value_enum, default_value = "step")]
+    scheme: By,
+    /// Motion of one step of the corrector, µm
+    #[arg(long, value_name = "UM", value_parser = length_um, default_value = "0.1 um")]
+    step_size: f64,
+    /// Resolution of the display, µm
+    #[arg(long, value_name = "UM", value_parser = length_um, default_value = "0.5 um")]
+    resolution: f64,
+    /// Read the table by straight lines between its places, not by the nearest place
+    #[arg(long)]
+    interpolate: bool,
+    /// Position of the origin pulse, mm
+    #[arg(long, value_name = "MM", value_parser = position_mm, allow_hyphen_values = true, default_value = "0")]
+    origin: f64,
+    /// Largest error that may be left, µm; exit status 1 beyond
+    #[arg(long, value_name = "UM", value_parser = length_um)]
+    limit: Option<f64>,
+    /// Folder for corrected.csv, report.html, figure.svg and result.json
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Schemes on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum By {
+    /// Scheme 1: step the tool
+    Step,
+    /// Scheme 2: correct the displayed value
+    Display,
+}
+
+impl Apply {
+    /// Does it.
+    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+        let table = read_image(&self.image)?;
+        let detector = Detector { pitch_mm: 2.0, lsb_um: table.lsb_um };
+        let samples = read_samples(&self.data, self.origin, &detector)?;
+        let scheme = match self.scheme {
+            By::Step => Scheme::Step { step_um: self.step_size },
+            By::Display => Scheme::Display { resolution_um: self.resolution },
+        };
+        let look_up = if self.interpolate { LookUp::Linear } else { LookUp::Nearest };
+        let corrected = apply(&table, &samples, scheme, look_up);
+        let comparison = Comparison::new(&self.data, corrected);
+        let result = AppliedJson::new(&comparison, self.limit);
+        if let Some(output) = &self.output {
+            write_applied(output, &comparison, &result)?;
+        }
+        if self.json {
+            print_json(out, &result)?;
+        } else {
+            text::print_applied(out, &comparison, self.limit)?;
+        }
+        let exceeded = self.limit.is_some_and(|limit| !comparison.keeps(limit));
+        Ok(if exceeded { ExitCode::from(1) } else { ExitCode::SUCCESS })
+    }
+}
+
+fn write_applied(
+    output: &Path,
+    comparison: &Comparison,
+    result: &AppliedJson<'_>,
+) -> anyhow::Result<()> {
+    let page = page::page(comparison);
+    let mut files = Batch::new(output)?;
+    files.write_report(&page::figure(comparison), result, &page)?;
+    files.write("corrected.csv", |file| write_corrected(file, comparison))?;
+    files.keep()
+}
+
+fn write_corrected(file: &mut dyn Write, comparison: &Comparison) -> anyhow::Result<()> {
+    let names = ["position_mm", "error_um", "direction", "correction_um", "steps", "left_um"];
+    let mut rows = RowWriter::new(file, &names)?;
+    for one in &comparison.corrected {
+        let direction = if one.sample.direction == Direction::Forward { 1.0 } else { -1.0 };
+        let correction = one.correction_um.unwrap_or(f64::NAN);
+        #[expect(clippy::cast_precision_loss, reason = "a correction holds few steps")]
+        let steps = one.steps as f64;
+        let (position, error) = (one.sample.position_mm, one.sample.error_um);
+        rows.row(&[position, error, direction, correction, steps, one.left_um])?;
+    }
+    Ok(())
+}

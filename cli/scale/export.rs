@@ -1,0 +1,56 @@
+//! `helixlock scale export`: a table for a machine control.
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, ValueEnum};
+use helixlock_metrology::scale::{linuxcnc_file, nominal_actual_csv, siemens_file};
+
+use super::image::read_image;
+use crate::shared::output::write_content;
+
+/// Write a table in the format of a machine control
+#[derive(Debug, Args)]
+pub(crate) struct Export {
+    /// EEPROM image, Intel HEX or binary
+    #[arg(value_name = "IMAGE")]
+    image: PathBuf,
+    /// Format
+    #[arg(long, value_enum)]
+    format: Format,
+    /// Axis, for Siemens
+    #[arg(long, value_name = "AXIS", default_value = "AX1")]
+    axis: String,
+    /// File to write
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+}
+
+/// Formats on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// Compensation file, `COMP_FILE_TYPE = 0`
+    Linuxcnc,
+    /// Nominal and actual positions, in the style of Heidenhain and Siemens
+    Csv,
+    /// `$AA_ENC_COMP` program
+    Siemens,
+}
+
+impl Export {
+    /// Does it.
+    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+        let table = read_image(&self.image)?;
+        let (text, every) = match self.format {
+            Format::Linuxcnc => linuxcnc_file(&table),
+            Format::Csv => (nominal_actual_csv(&table), 1),
+            Format::Siemens => (siemens_file(&table, &self.axis), 1),
+        };
+        write_content(&self.output, text)?;
+        if 1 < every {
+            writeln!(out, "note: every {every}th place, as this control takes no more rows")?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}

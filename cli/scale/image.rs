@@ -1,0 +1,31 @@
+//! EEPROM images as files.
+
+use std::path::Path;
+
+use anyhow::{Context, anyhow, bail};
+use helixlock_metrology::scale::{CorrectionTable, from_hex, from_image, to_hex, to_image};
+
+use crate::shared::output::write_content;
+
+/// Writes an image: Intel HEX by the name, binary otherwise.
+pub(crate) fn write_image(path: &Path, table: &CorrectionTable) -> anyhow::Result<()> {
+    let image = to_image(table)?;
+    if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("hex")) {
+        return write_content(path, to_hex(&image)?);
+    }
+    write_content(path, image)
+}
+
+/// Reads an image, Intel HEX or binary by its first byte.
+pub(crate) fn read_image(path: &Path) -> anyhow::Result<CorrectionTable> {
+    let place = path.display();
+    let bytes = std::fs::read(path).with_context(|| format!("{place}: cannot be read"))?;
+    let refused = |error| anyhow!("{place}: {error}");
+    if bytes.first() != Some(&b':') {
+        return from_image(&bytes).map_err(refused);
+    }
+    let Ok(text) = std::str::from_utf8(&bytes) else {
+        bail!("{place}: found other than text after a colon, expected Intel HEX")
+    };
+    from_image(&from_hex(text).map_err(refused)?).map_err(refused)
+}

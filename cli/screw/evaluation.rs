@@ -1,0 +1,69 @@
+//! What `helixlock screw` finds.
+
+use std::path::PathBuf;
+
+use helixlock_metrology::screw::{
+    Characteristic, Curve, FAITHFUL_PER_TURN, Gap, Grading, MeanLine, Status,
+};
+
+/// A screw evaluated by either standard.
+pub(crate) struct Evaluation {
+    /// The file.
+    pub(crate) path: PathBuf,
+    /// Name of the standard.
+    pub(crate) standard: String,
+    /// The useful travel.
+    pub(crate) curve: Curve,
+    /// Lead, mm.
+    pub(crate) lead_mm: f64,
+    /// Mean line; the helix of JB/T 2886 is judged without it.
+    pub(crate) mean_line: MeanLine,
+    /// Samples a turn.
+    pub(crate) samples_per_turn: f64,
+    /// Sampling intervals in 300 mm.
+    pub(crate) intervals_in_300_mm: Option<usize>,
+    /// The characteristics.
+    pub(crate) characteristics: Vec<Characteristic>,
+    /// Stretches without samples.
+    pub(crate) gaps: Vec<Gap>,
+    /// The grades.
+    pub(crate) grading: Grading,
+    /// Standard uncertainty, µm.
+    pub(crate) uncertainty_um: Option<f64>,
+}
+
+impl Evaluation {
+    /// True when the grade holds.
+    pub(crate) fn meets(&self, grade: &str) -> bool {
+        self.grading.verdicts.iter().any(|verdict| verdict.grade == grade && verdict.holds)
+    }
+
+    /// What a reader of the result must know.
+    pub(crate) fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        for one in &self.characteristics {
+            if let Err(why) = &one.reached {
+                notes.push(format!("{} has no value: {why}", one.symbol));
+            }
+        }
+        if self.samples_per_turn < FAITHFUL_PER_TURN {
+            let found = self.samples_per_turn;
+            notes.push(format!("{found:.1} samples a turn: what varies within a turn is a lower bound, expected {FAITHFUL_PER_TURN} or more"));
+        }
+        for gap in &self.gaps {
+            let (from, to) = (gap.from_mm, gap.to_mm);
+            notes.push(format!(
+                "no samples from {from:.3} mm to {to:.3} mm: a variation across it is a lower bound"
+            ));
+        }
+        if self.grading.status != Status::Verified {
+            let status = self.grading.status.name();
+            notes.push(format!("the limits of this grade are {status}: see the source of each"));
+        }
+        if let Some(status) = self.grading.refused_by.filter(|s| *s != Status::Verified) {
+            let status = status.name();
+            notes.push(format!("a better grade is refused by limits, some of them {status}"));
+        }
+        notes
+    }
+}
