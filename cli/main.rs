@@ -9,6 +9,7 @@ mod dividers;
 mod effects;
 mod faults;
 mod r#gen;
+mod import;
 mod learn;
 mod scale;
 mod screw;
@@ -36,6 +37,7 @@ enum Command {
     Effects(effects::Effects),
     Faults(faults::FaultsCommand),
     Gen(r#gen::Gen),
+    Import(import::Import),
     Learn(learn::Learn),
     Scale(Box<scale::ScaleCommand>),
     Screw(screw::Screw),
@@ -69,6 +71,7 @@ fn run(command: Command, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         Command::Effects(command) => command.run(out),
         Command::Faults(faults) => faults.run(out),
         Command::Gen(command) => command.run(out),
+        Command::Import(command) => command.run(out),
         Command::Learn(command) => command.run(out),
         Command::Scale(scale) => scale.run(out),
         Command::Screw(screw) => screw.run(out),

@@ -5,6 +5,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("rtl", &[]),
     ("netlist", &[]),
     ("traces", &[]),
+    ("import", &["traces"]),
     ("metrology", &[]),
     ("report", &[]),
     ("plant", &["traces"]),

@@ -1,0 +1,229 @@
+//! Channels with clocks of their own, laid side by side.
+//!
+//! Two channels of one motion that were stamped by different clocks are shifted against each other. The shift
+//! is the one at which their rates of change agree best (their cross-correlation is largest).
+
+use crate::decide::Decisions;
+use crate::error::{ImportError, Place};
+use crate::grid::Grid;
+use crate::limits;
+use crate::recipe::Value;
+
+/// A channel: when, and what.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Channel {
+    pub(crate) name: String,
+    pub(crate) time_s: Vec<f64>,
+    pub(crate) values: Vec<f64>,
+}
+
+impl Channel {
+    /// The value at a time, straight between samples; NaN outside of them.
+    fn at(&self, time_s: f64) -> f64 {
+        let next = self.time_s.partition_point(|sample| *sample < time_s);
+        if self.time_s.get(next).is_some_and(|sample| *sample <= time_s) {
+            return self.values[next];
+        }
+        let Some(before) = next.checked_sub(1).filter(|_| next < self.time_s.len()) else {
+            return f64::NAN;
+        };
+        let (from, to) = (self.time_s[before], self.time_s[next]);
+        let share = (time_s - from) / (to - from);
+        self.values[before] + share * (self.values[next] - self.values[before])
+    }
+}
+
+/// A grid with a column of time and one a channel, on the clock of the busiest one.
+pub(crate) fn grid(
+    mut channels: Vec<Channel>,
+    decisions: &mut Decisions<'_>,
+) -> Result<Grid, ImportError> {
+    let file = decisions.file();
+    channels.retain(|channel| 2 < channel.values.len());
+    if channels.is_empty() {
+        return Err(ImportError::found(
+            Place::file(file),
+            "no channel of numbers",
+            "channels with three samples and more",
+        ));
+    }
+    for channel in &mut channels {
+        sort(channel);
+    }
+    let busiest = channels
+        .iter()
+        .enumerate()
+        .max_by_key(|(index, channel)| (channel.values.len(), usize::MAX - index));
+    let lead = busiest.map_or(0, |(index, _)| index);
+    let others: Vec<usize> = (0..channels.len()).filter(|index| *index != lead).collect();
+    let named = format!("the clock of `{}`", channels[lead].name);
+    decisions.text("channels", "clock", || {
+        (channels[lead].name.clone(), "it has the most samples".into())
+    });
+    if let [other] = others.as_slice() {
+        let found = latency_s(&channels[lead], &channels[*other]);
+        let latency = if let Some(Value::Number(latency)) = decisions.given("channels", "latency_s")
+        {
+            *latency
+        } else {
+            let (latency, likeness) = found.unwrap_or((0.0, 0.0));
+            let reason = if likeness < 0.5 {
+                "the two do not move alike: not shifted".to_owned()
+            } else {
+                format!(
+                    "`{}` comes that much later than `{}`: there their rates agree best (correlation {likeness:.3})",
+                    channels[*other].name, channels[lead].name
+                )
+            };
+            let latency = if likeness < 0.5 { 0.0 } else { latency };
+            decisions.made.set("channels", "latency_s", Value::Number(latency), reason);
+            latency
+        };
+        decisions
+            .note(format!("`{}` is taken {latency} s earlier, on {named}", channels[*other].name));
+        channels[*other].time_s.iter_mut().for_each(|time| *time -= latency);
+    }
+    if limits::CELLS < channels[lead].values.len() * (1 + channels.len()) {
+        return Err(ImportError::found(
+            Place::file(file),
+            "more cells",
+            format!("up to {}", limits::CELLS),
+        ));
+    }
+    side_by_side(file, &channels, lead)
+}
+
+fn side_by_side(file: &str, channels: &[Channel], lead: usize) -> Result<Grid, ImportError> {
+    let mut grid = Grid::of_text(file);
+    grid.start_row(0, false);
+    grid.push("time [s]", 1)?;
+    for (index, channel) in channels.iter().enumerate() {
+        grid.push(&channel.name, index + 2)?;
+    }
+    for time in &channels[lead].time_s {
+        let values: Vec<f64> = channels.iter().map(|channel| channel.at(*time)).collect();
+        if values.iter().any(|value| !value.is_finite()) {
+            continue; // a channel had not begun, or was over
+        }
+        grid.start_row(0, false);
+        grid.push(&digits(*time), 1)?;
+        for (index, value) in values.iter().enumerate() {
+            grid.push(&digits(*value), index + 2)?;
+        }
+    }
+    Ok(grid)
+}
+
+/// Nine decimals: a nanosecond, a picometre.
+fn digits(value: f64) -> String {
+    let text = format!("{value:.9}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+fn sort(channel: &mut Channel) {
+    let mut order: Vec<usize> = (0..channel.time_s.len()).collect();
+    order.sort_by(|a, b| channel.time_s[*a].total_cmp(&channel.time_s[*b]));
+    order.dedup_by(|a, b| channel.time_s[*a] <= channel.time_s[*b]);
+    channel.time_s = order.iter().map(|index| channel.time_s[*index]).collect::<Vec<_>>();
+    let values = order.iter().map(|index| channel.values[*index]).collect();
+    channel.values = values;
+}
+
+/// How much later `other` comes than `lead`, and how alike they are then (−1 to 1).
+fn latency_s(lead: &Channel, other: &Channel) -> Option<(f64, f64)> {
+    const GRID: usize = 2048;
+    let start = lead.time_s.first()?.max(*other.time_s.first()?);
+    let end = lead.time_s.last()?.min(*other.time_s.last()?);
+    let span = end - start;
+    if span <= 0.0 || !span.is_finite() {
+        return None;
+    }
+    #[expect(clippy::cast_precision_loss, reason = "a few thousand steps")]
+    let step = span / GRID as f64;
+    let rates = |channel: &Channel| -> Vec<f64> {
+        #[expect(clippy::cast_precision_loss, reason = "a few thousand steps")]
+        let value = |index: usize| channel.at(start + step * index as f64);
+        (1..GRID)
+            .map(|index| value(index) - value(index - 1))
+            .map(|rate| if rate.is_finite() { rate } else { 0.0 })
+            .collect()
+    };
+    let (first, second) = (centred(rates(lead)), centred(rates(other)));
+    let likeness = |shift: isize| correlation(&first, &second, shift);
+    let most = isize::try_from(GRID / 8).ok()?;
+    let best = (-most..=most).max_by(|a, b| likeness(*a).total_cmp(&likeness(*b)))?;
+    #[expect(clippy::cast_precision_loss, reason = "a few hundred steps")]
+    let coarse_s = step * best as f64;
+    Some(((refined_s(lead, other, coarse_s) * 1e6).round() / 1e6, likeness(best)))
+}
+
+/// The shift near `coarse_s` at which one channel is best a straight function of the other.
+fn refined_s(lead: &Channel, other: &Channel, coarse_s: f64) -> f64 {
+    const STEPS: i32 = 60;
+    let spacing_s = (lead.time_s[lead.time_s.len() - 1] - lead.time_s[0]) / f64::from(STEPS);
+    let spacing_s = spacing_s.min(4.0 * typical_step_s(other)) / f64::from(STEPS);
+    let unlike = |step: i32| {
+        let shift_s = coarse_s + spacing_s * f64::from(step);
+        let pairs = lead
+            .time_s
+            .iter()
+            .zip(&lead.values)
+            .map(|(time, value)| (*value, other.at(time + shift_s)));
+        let (first, second): (Vec<f64>, Vec<f64>) =
+            pairs.filter(|(_, value)| value.is_finite()).unzip();
+        1.0 - correlation(&centred(first), &centred(second), 0)
+    };
+    let best = (-STEPS..=STEPS).min_by(|a, b| unlike(*a).total_cmp(&unlike(*b))).unwrap_or(0);
+    let (before, at, after) = (unlike(best - 1), unlike(best), unlike(best + 1));
+    let curve = before - 2.0 * at + after;
+    let within = if 0.0 < curve { 0.5 * (before - after) / curve } else { 0.0 };
+    coarse_s + spacing_s * (f64::from(best) + within.clamp(-0.5, 0.5))
+}
+
+fn typical_step_s(channel: &Channel) -> f64 {
+    #[expect(clippy::cast_precision_loss, reason = "samples are few beside 2⁵³")]
+    let steps = (channel.time_s.len() - 1).max(1) as f64;
+    (channel.time_s[channel.time_s.len() - 1] - channel.time_s[0]) / steps
+}
+
+fn centred(mut values: Vec<f64>) -> Vec<f64> {
+    #[expect(clippy::cast_precision_loss, reason = "a few thousand values")]
+    let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
+    for value in &mut values {
+        *value -= mean;
+    }
+    values
+}
+
+/// Likeness of `first` now and `second` `shift` steps later.
+fn correlation(first: &[f64], second: &[f64], shift: isize) -> f64 {
+    let pairs = first.iter().enumerate().filter_map(|(index, a)| {
+        let later = index.checked_add_signed(shift)?;
+        second.get(later).map(|b| (a, b))
+    });
+    let (product, a2, b2) = pairs.fold((0.0, 0.0, 0.0), |(product, a2, b2), (a, b)| {
+        (product + a * b, a2 + a * a, b2 + b * b)
+    });
+    let size = (a2 * b2).sqrt();
+    if 0.0 < size { product / size } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A sine that comes 0.125 s late is found late by that.
+    #[test]
+    fn a_known_latency_is_found() {
+        let channel = |late: f64, rate: f64| {
+            let time_s: Vec<f64> = (0..2000).map(|n| f64::from(n) / rate).collect();
+            let values = time_s
+                .iter()
+                .map(|t| libm::sin(3.0 * (t - late)) + 0.3 * libm::sin(7.3 * (t - late)))
+                .collect();
+            Channel { name: String::new(), time_s, values }
+        };
+        let (latency, likeness) = latency_s(&channel(0.0, 100.0), &channel(0.125, 83.0)).unwrap();
+        assert!((latency - 0.125).abs() < 0.002 && likeness > 0.99, "{latency} {likeness}");
+    }
+}

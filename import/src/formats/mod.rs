@@ -1,0 +1,96 @@
+//! Formats with a mark of their own, each in a file.
+
+pub(crate) mod camonitor;
+mod channels;
+pub(crate) mod iso230;
+pub(crate) mod linuxcnc;
+pub(crate) mod npy;
+pub(crate) mod parquet;
+pub(crate) mod phd2;
+pub(crate) mod renishaw;
+pub(crate) mod spreadsheet;
+pub(crate) mod twincat;
+
+use crate::error::{ImportError, Place};
+
+/// The format of bytes that are no text; `None` for text.
+pub(crate) fn binary(
+    name: &str,
+    bytes: &[u8],
+) -> Result<Option<(&'static str, &'static str)>, ImportError> {
+    let begins = |mark: &[u8]| bytes.starts_with(mark);
+    let holds = |word: &[u8]| bytes.windows(word.len()).any(|window| window == word);
+    if begins(b"PK\x03\x04") {
+        let sigrok = bytes.get(30..37) == Some(b"version");
+        return match () {
+            () if sigrok => Err(refused(
+                name,
+                "a sigrok session",
+                "`sigrok-cli -i FILE.sr -O vcd -o FILE.vcd` makes a capture that `compare` and `diagnose` read",
+            )),
+            () if holds(b"xl/") => {
+                Ok(Some(("spreadsheet", "a ZIP archive with `xl/` in it: an Excel workbook")))
+            }
+            () if holds(b"opendocument") => {
+                Ok(Some(("spreadsheet", "a ZIP archive of OpenDocument")))
+            }
+            () => Err(refused(name, "a ZIP archive", "unpack it, and import what is in it")),
+        };
+    }
+    let kinds: [(&[u8], &str, &str); 3] = [
+        (b"\xD0\xCF\x11\xE0", "spreadsheet", "an old Excel workbook"),
+        (b"\x93NUMPY", "npy", "the mark of NumPy"),
+        (b"PAR1", "parquet", "the mark of Parquet"),
+    ];
+    if let Some((_, format, reason)) = kinds.iter().find(|(mark, ..)| begins(mark)) {
+        return Ok(Some((format, reason)));
+    }
+    let foreign: [(&[u8], &str, &str); 6] = [
+        (b"ARROW1", "an Arrow file", "`pandas.read_feather(f).to_parquet(g)` makes it Parquet"),
+        (b"MATLAB 5.0", "a MATLAB file", "`writematrix(x, 'x.csv')` in MATLAB makes it a table"),
+        (
+            b"\x89HDF",
+            "an HDF5 file or MATLAB 7.3",
+            "`writematrix(x, 'x.csv')` in MATLAB, or `pandas.read_hdf(f).to_csv(g)`, makes it a table",
+        ),
+        (b"\x1F\x8B", "a gzip archive", "`gunzip` unpacks it"),
+        (b"%PDF", "a PDF", "export the table as text from the program that made it"),
+        (b"\x50\x4B", "a broken ZIP archive", "fetch it again"),
+    ];
+    match foreign.iter().find(|(mark, ..)| begins(mark)) {
+        Some((_, found, hint)) => Err(refused(name, found, hint)),
+        None => Ok(None),
+    }
+}
+
+fn refused(name: &str, found: &str, hint: &str) -> ImportError {
+    ImportError::found(Place::file(name), found, "a table of measured data").hinted(hint)
+}
+
+/// The format of a text, by the words in it.
+pub(crate) fn textual(name: &str, lines: &[&str]) -> (&'static str, &'static str) {
+    let head = || lines.iter().take(400);
+    let any = |fits: &dyn Fn(&str) -> bool| head().any(|line| fits(line.trim()));
+    let ending = name.rsplit('.').next().unwrap_or_default().to_lowercase();
+    if any(&|line| line.starts_with("Guiding Begins at") || line.starts_with("Frame,Time,mount,")) {
+        ("phd2", "the words of a PHD2 guide log")
+    } else if any(&|line| line.starts_with("DEVIATIONS::") || line.starts_with("TARGET DATA::")) {
+        ("renishaw", "sections such as `DEVIATIONS::`")
+    } else if any(&|line| {
+        line.starts_with("REF_DATA_FWD[")
+            || line.starts_with("TGT_DATA[")
+            || line.contains("ref_pos(i,1)")
+    }) {
+        ("iso230", "target and reference positions of an ISO 230-2 test")
+    } else if camonitor::fits(lines) {
+        ("camonitor", "a name, a date, a time and a value in each line")
+    } else if twincat::fits(lines) {
+        ("twincat", "the header of a TwinCAT scope")
+    } else if ending == "comp" && linuxcnc::is_comp(lines) {
+        ("linuxcnc-comp", "the ending `.comp` and three numbers a line")
+    } else if linuxcnc::is_sampler(lines) {
+        ("halsampler", "a number that counts samples begins each line, and there is no header")
+    } else {
+        ("table", "text with cells in lines")
+    }
+}

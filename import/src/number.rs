@@ -1,0 +1,105 @@
+//! Numbers as instruments write them.
+
+/// How a cell reads.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Reading {
+    Number(f64),
+    /// Nothing, or a word for it.
+    Missing,
+    /// Neither.
+    Words,
+}
+
+/// Words for a missing value, in lower case; empty cells are missing anyway.
+pub(crate) const MISSING: [&str; 14] =
+    ["nan", "-nan", "na", "n/a", "n.a.", "#n/a", "null", "none", "-", "--", "---", "…", "无", "—"];
+
+/// Reads a cell with the decimal sign of the file.
+pub(crate) fn read(cell: &str, decimal: char, missing: &[String]) -> Reading {
+    let cell = cell.trim();
+    if cell.is_empty() || missing.iter().any(|word| word.eq_ignore_ascii_case(cell)) {
+        return Reading::Missing;
+    }
+    number(cell, decimal).map_or(Reading::Words, Reading::Number)
+}
+
+/// A finite number; `+`, a real minus sign, groups of three and a blank before the exponent are
+/// taken, units and words are not.
+pub(crate) fn number(cell: &str, decimal: char) -> Option<f64> {
+    let plain = |cell: &str| {
+        let digits = cell.bytes().any(|byte| byte.is_ascii_digit());
+        let allowed = |byte: u8| byte.is_ascii_digit() || b"+-.eE".contains(&byte);
+        let value: f64 = cell.parse().ok().filter(|_| digits && cell.bytes().all(allowed))?;
+        value.is_finite().then_some(value)
+    };
+    if decimal == '.' {
+        // Almost every cell of almost every file.
+        if let Some(value) = plain(cell) {
+            return Some(value);
+        }
+    }
+    plain(&standard(cell, decimal)?)
+}
+
+/// The cell with `.` for the decimal sign and without groups.
+fn standard(cell: &str, decimal: char) -> Option<String> {
+    let cell = cell.trim().replace(['\u{2212}', '\u{2013}'], "-");
+    let (whole, fraction) = match cell.find(decimal) {
+        Some(at) => cell.split_at(at),
+        None => match cell.find(['e', 'E']) {
+            Some(at) => cell.split_at(at),
+            None => (cell.as_str(), ""),
+        },
+    };
+    let fraction = fraction.replacen(decimal, ".", 1);
+    let whole = without_groups(whole, decimal)?;
+    Some(whole + &fraction.replace(['D', 'd'], "e"))
+}
+
+/// `1 234`, `1'234` and, beside a decimal comma, `1.234` hold groups of three.
+fn without_groups(whole: &str, decimal: char) -> Option<String> {
+    let other = if decimal == ',' { '.' } else { ',' };
+    let marks = ['\'', '\u{2019}', '\u{a0}', '\u{202f}', ' ', other];
+    let Some(mark) = whole.chars().find(|c| marks.contains(c)) else {
+        return Some(whole.to_owned());
+    };
+    let mut groups = whole.split(mark);
+    let first = groups.next().unwrap_or_default().trim_start_matches(['+', '-']);
+    let whole_group = |group: &str| group.len() == 3 && group.bytes().all(|b| b.is_ascii_digit());
+    let fits = (1..=3).contains(&first.len()) && groups.all(whole_group);
+    fits.then(|| whole.replace(mark, ""))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn signs_groups_and_exponents_are_read() {
+        for (cell, decimal, value) in [
+            ("1.5", '.', 1.5),
+            ("-1,5", ',', -1.5),
+            ("+0,5E-3", ',', 0.0005),
+            ("1.234,5", ',', 1234.5),
+            ("1'234.5", '.', 1234.5),
+            ("1,234", '.', 1234.0),
+            ("1\u{a0}234,5", ',', 1234.5),
+            ("\u{2212}2", '.', -2.0),
+            ("1.5D+02", '.', 150.0),
+            (".5", '.', 0.5),
+        ] {
+            assert_eq!(number(cell, decimal), Some(value), "{cell}");
+        }
+    }
+
+    #[test]
+    fn words_units_and_infinities_are_none() {
+        for cell in
+            ["", "abc", "1.5 mm", "inf", "NaN", "1e999", "1.2.3", "1,23,4", "--1", "e5", "0x1"]
+        {
+            assert_eq!(number(cell, '.'), None, "{cell}");
+        }
+        assert_eq!(read("nan", '.', &["nan".into()]), Reading::Missing);
+        assert_eq!(read("nan", '.', &[]), Reading::Words);
+    }
+}

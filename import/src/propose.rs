@@ -1,0 +1,178 @@
+//! A recipe for a file, and a table by a recipe.
+
+use helixlock_traces::Table;
+
+use crate::build::{self, Built, Understood};
+use crate::data;
+use crate::decide::Decisions;
+use crate::delimited;
+use crate::encoding;
+use crate::error::{ImportError, Place};
+use crate::formats;
+use crate::grid::Grid;
+use crate::header;
+use crate::limits;
+use crate::outline::{Outline, outline};
+use crate::question::Question;
+use crate::recipe::Recipe;
+use crate::rules;
+use crate::samples::samples;
+use crate::text;
+
+/// A file in memory.
+#[derive(Clone, Copy, Debug)]
+pub struct Source<'a> {
+    /// Its name, for messages and for what the ending tells.
+    pub name: &'a str,
+    /// What it holds.
+    pub bytes: &'a [u8],
+}
+
+/// How a file would be read.
+#[derive(Clone, Debug)]
+pub struct Proposal {
+    /// Every decision, those given and those found out.
+    pub recipe: Recipe,
+    /// What is open; the recipe holds the likelier answer meanwhile.
+    pub questions: Vec<Question>,
+    /// What the user should know.
+    pub notes: Vec<String>,
+    /// The table by that recipe.
+    pub table: Table,
+}
+
+/// Reads files of one kind by what `given` says, and finds out the rest from the first of them.
+///
+/// # Errors
+///
+/// [`ImportError`] with the place of what cannot be read.
+pub fn propose(sources: &[Source<'_>], given: &Recipe) -> Result<Proposal, ImportError> {
+    let mut recipe = given.clone();
+    let (mut parts, mut questions, mut notes) = (Vec::new(), Vec::new(), Vec::new());
+    for (index, source) in sources.iter().enumerate() {
+        let mut decisions = Decisions::new(source.name, &recipe);
+        let part = read(*source, &mut decisions)?;
+        if decisions.questions.is_empty() {
+            build::check(&part.columns, source.name)?;
+        }
+        parts.push(part);
+        notes.append(&mut decisions.notes);
+        questions.append(&mut decisions.questions);
+        let made = decisions.made;
+        if index == 0 {
+            recipe = made;
+        }
+    }
+    Ok(Proposal { recipe, questions, notes, table: build::joined(parts) })
+}
+
+/// Reads files by a recipe.
+///
+/// # Errors
+///
+/// [`ImportError`] with the place of what cannot be read; [`ImportError::Unanswered`] when the
+/// recipe leaves something open that the file does not tell.
+pub fn apply(sources: &[Source<'_>], recipe: &Recipe) -> Result<Table, ImportError> {
+    let mut proposal = propose(sources, recipe)?;
+    if proposal.questions.is_empty() {
+        Ok(proposal.table)
+    } else {
+        Err(ImportError::Unanswered(Box::new(proposal.questions.swap_remove(0))))
+    }
+}
+
+fn read(source: Source<'_>, decisions: &mut Decisions<'_>) -> Result<Built, ImportError> {
+    if limits::BYTES < source.bytes.len() {
+        let place = Place::file(source.name);
+        let found = format!("{} bytes", source.bytes.len());
+        return Err(ImportError::found(place, found, format!("up to {}", limits::BYTES)));
+    }
+    if let Some((format, reason)) = formats::binary(source.name, source.bytes)? {
+        decisions.text("file", "format", || (format.into(), reason.into()));
+        let grid = match format {
+            "spreadsheet" => formats::spreadsheet::grid(source.bytes, decisions)?,
+            "npy" => formats::npy::grid(source.name, source.bytes)?,
+            _ => formats::parquet::grid(source.name, source.bytes)?,
+        };
+        return understand(&grid, '.', decisions);
+    }
+    let content = encoding::decode(source.bytes, decisions)?;
+    let lines = text::lines(&content);
+    let format = decisions.text("file", "format", || {
+        let (format, reason) = formats::textual(source.name, &lines);
+        (format.into(), reason.into())
+    });
+    match format.as_str() {
+        "phd2" => formats::phd2::read(&lines, decisions),
+        "renishaw" => formats::renishaw::read(&lines, decisions),
+        "iso230" => formats::iso230::read(&lines, decisions),
+        "linuxcnc-comp" => formats::linuxcnc::read_comp(&lines, decisions),
+        "halsampler" => sampled(&lines, decisions),
+        "camonitor" => understand(&formats::camonitor::grid(&lines, decisions)?, '.', decisions),
+        "twincat" => understand(&formats::twincat::grid(&lines, decisions)?, '.', decisions),
+        "table" => table(&lines, decisions),
+        other => {
+            let found = format!("text, while the recipe says `format = \"{other}\"`");
+            Err(ImportError::found(Place::file(source.name), found, "a file of that format"))
+        }
+    }
+}
+
+fn table(lines: &[&str], decisions: &mut Decisions<'_>) -> Result<Built, ImportError> {
+    let grid = delimited::grid(lines, decisions)?;
+    let decimal = decisions.text("text", "decimal", || (".".into(), String::new()));
+    understand(&grid, if decimal == "," { ',' } else { '.' }, decisions)
+}
+
+/// Samples that are counted: their number and the period of the thread give the time.
+fn sampled(lines: &[&str], decisions: &mut Decisions<'_>) -> Result<Built, ImportError> {
+    let period_s = decisions.number(
+        "halsampler",
+        "period_s",
+        "the period of the thread that sampled is not told, in seconds",
+        &["0.001", "0.0001", "0.01"],
+    );
+    let lines = formats::linuxcnc::sampler_lines(lines, period_s);
+    table(&lines.iter().map(String::as_str).collect::<Vec<_>>(), decisions)
+}
+
+/// From cells to a table.
+pub(crate) fn understand(
+    grid: &Grid,
+    decimal: char,
+    decisions: &mut Decisions<'_>,
+) -> Result<Built, ImportError> {
+    let outline = outline(grid, decimal, decisions)?;
+    if limits::COLUMNS < outline.width {
+        let place = Place::file(decisions.file());
+        let found = format!("{} columns", outline.width);
+        return Err(ImportError::found(place, found, format!("up to {}", limits::COLUMNS)));
+    }
+    let missing = delimited::missing_words(grid, decisions);
+    let headers = header::headers(grid, &outline)?;
+    let samples = samples(grid, &outline, decimal, &missing);
+    let unit = preamble_unit(grid, &outline);
+    let rules = rules::propose(&headers, &samples, unit.as_deref(), decisions);
+    decisions.made.columns.clone_from(&rules);
+    let understood = Understood {
+        grid,
+        outline: &outline,
+        headers: &headers,
+        samples: &samples,
+        rules: &rules,
+        missing: &missing,
+    };
+    understood.build(decisions)
+}
+
+/// The unit of `Unit: mm` above the table.
+fn preamble_unit(grid: &Grid, outline: &Outline) -> Option<String> {
+    const WORDS: [&str; 6] = ["unit", "units", "einheit", "einheiten", "单位", "unité"];
+    outline.preamble.iter().find_map(|row| {
+        let line =
+            grid.cells_of(*row).collect::<Vec<_>>().join(" ").to_lowercase().replace('：', ":");
+        let (word, rest) = line.split_once([':', '=']).or_else(|| line.split_once(' '))?;
+        let unit = rest.trim().trim_matches(['[', ']', '"']).trim();
+        (WORDS.contains(&word.trim()) && data::unit(unit, "").is_some()).then(|| unit.to_owned())
+    })
+}

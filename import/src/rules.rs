@@ -1,0 +1,495 @@
+//! What becomes of each column: from its name, its unit and what it holds.
+
+use crate::data::{self, Target, Word};
+use crate::decide::Decisions;
+use crate::error::quoted;
+use crate::header::{self, Header};
+use crate::question::Answer;
+use crate::recipe::ColumnRule;
+use crate::samples::{Holds, Samples};
+
+/// Our columns that a measurement needs one of.
+pub(crate) const OBSERVED: [&str; 4] = ["error_um", "error_arcsec", "lead_error_um", "steps"];
+/// Our columns that say where or when; it needs one of them, too.
+pub(crate) const COORDINATES: [&str; 3] = ["position_mm", "time_s", "angle_rev"];
+/// What leaves a column out.
+pub(crate) const NONE: &str = "none";
+
+/// A column with what is known of it.
+pub(crate) struct Candidate<'a> {
+    pub(crate) header: &'a Header,
+    pub(crate) samples: &'a Samples,
+    pub(crate) word: Option<Word>,
+    pub(crate) rule: ColumnRule,
+    given: bool,
+}
+
+impl Candidate<'_> {
+    fn meaning(&self) -> &'static str {
+        self.word.map_or("", |word| word.meaning)
+    }
+
+    fn is_angle(&self) -> bool {
+        self.header.unit.as_deref().is_some_and(|unit| {
+            data::unit(unit, "angle").is_some() && data::unit(unit, "length").is_none()
+        })
+    }
+
+    fn decide(&mut self, to: &str, reason: impl Into<String>) {
+        if self.rule.to.is_none() {
+            self.rule.to = Some(to.to_owned());
+        }
+        if self.rule.reason.is_empty() {
+            self.rule.reason = reason.into();
+        }
+    }
+
+    fn is(&self, to: &str) -> bool {
+        self.rule.to.as_deref() == Some(to)
+    }
+}
+
+/// Rules for all columns; `preamble_unit` is a unit named above the table.
+pub(crate) fn propose(
+    headers: &[Header],
+    samples: &[Samples],
+    preamble_unit: Option<&str>,
+    decisions: &mut Decisions<'_>,
+) -> Vec<ColumnRule> {
+    let mut candidates: Vec<Candidate> = headers
+        .iter()
+        .zip(samples)
+        .map(|(header, samples)| candidate(header, samples, decisions))
+        .collect();
+    candidates.iter_mut().for_each(by_content);
+    let runs = run_columns(&mut candidates);
+    positions(&mut candidates, runs, decisions);
+    candidates.iter_mut().for_each(by_word);
+    one_of_each(&mut candidates, decisions);
+    covariates(&mut candidates);
+    units(&mut candidates, preamble_unit, decisions);
+    observed(&candidates, decisions);
+    candidates.into_iter().map(|candidate| candidate.rule).collect()
+}
+
+fn candidate<'a>(
+    header: &'a Header,
+    samples: &'a Samples,
+    decisions: &Decisions<'_>,
+) -> Candidate<'a> {
+    let given = decisions.given_column(&header.name);
+    let rule = given
+        .cloned()
+        .unwrap_or_else(|| ColumnRule { from: header.name.clone(), ..ColumnRule::default() });
+    let given = given.is_some_and(|rule| rule.to.is_some());
+    let word = header::meaning(&header.bare);
+    // `target speed` is no position: the unit decides.
+    let kinds = word.and_then(|word| data::target(word.meaning)).map_or("", |target| target.kind);
+    let unit = header.unit.as_deref().filter(|_| !kinds.is_empty());
+    let fits = unit.is_none_or(|unit| {
+        data::unit(unit, kinds).is_some()
+            || kinds == "length" && data::unit(unit, "angle").is_some()
+    });
+    Candidate { header, samples, word: word.filter(|_| fits), rule, given }
+}
+
+/// Columns of ours, empty columns, words and instants.
+fn by_content(candidate: &mut Candidate<'_>) {
+    let name = candidate.header.name.as_str();
+    let known = data::targets().iter().any(|target| target.column == name);
+    let told = ["pass", "direction"].contains(&candidate.meaning());
+    match candidate.samples.holds {
+        Holds::Nothing => candidate.decide(NONE, "it is empty"),
+        Holds::Instants if candidate.meaning() == "clock" => {}
+        Holds::Instants => candidate.decide("time_s", "it holds instants"),
+        Holds::Words if told => {}
+        Holds::Words => candidate.decide(NONE, "it holds words"),
+        Holds::Numbers if known && candidate.rule.to.is_none() => {
+            candidate.rule.to = Some(name.to_owned());
+            "the name says it all".clone_into(&mut candidate.rule.reason);
+        }
+        Holds::Numbers => {}
+    }
+}
+
+/// Columns that each hold a run; true when there are some.
+fn run_columns(candidates: &mut [Candidate<'_>]) -> bool {
+    let open = |candidate: &Candidate<'_>| {
+        candidate.rule.to.is_none() && candidate.samples.holds == Holds::Numbers
+    };
+    let bare_number = |candidate: &Candidate<'_>| {
+        candidate.header.bare.parse::<i64>().ok().filter(|number| (0..10_000).contains(number))
+    };
+    let indexed = |candidate: &Candidate<'_>| index_of(&candidate.header.bare);
+    let mut found: Vec<(usize, Option<i64>, Option<i64>)> = Vec::new();
+    for (index, candidate) in candidates.iter().enumerate().filter(|(_, c)| open(c)) {
+        let run = candidate.header.run.filter(|_| {
+            !["pass", "direction"].contains(&candidate.meaning())
+                || candidate
+                    .header
+                    .run
+                    .is_some_and(|run| run.number.is_some() || run.direction.is_some())
+        });
+        let number = run
+            .and_then(|run| run.number)
+            .or_else(|| bare_number(candidate))
+            .or_else(|| indexed(candidate));
+        let direction = run.and_then(|run| run.direction);
+        if number.is_some() || direction.is_some() {
+            found.push((index, number, direction));
+        }
+    }
+    if found.len() < 2 {
+        return candidates.iter().any(|candidate| candidate.rule.pass.is_some());
+    }
+    let passes = passes(&found);
+    for ((index, _, direction), pass) in found.into_iter().zip(passes) {
+        let candidate = &mut candidates[index];
+        candidate.rule.pass = candidate.rule.pass.or(Some(pass));
+        candidate.rule.direction = candidate.rule.direction.or(direction);
+    }
+    true
+}
+
+/// The last number of `x(i,3)` or `ref_pos[3]`.
+fn index_of(bare: &str) -> Option<i64> {
+    let inside = bare.trim_end().strip_suffix([')', ']'])?;
+    let (_, last) = inside.rsplit_once([',', '(', '['])?;
+    last.trim().parse().ok().filter(|_| inside.contains(','))
+}
+
+/// Runs as they are numbered; there and back under numbers of their own make one run together.
+fn passes(found: &[(usize, Option<i64>, Option<i64>)]) -> Vec<i64> {
+    let numbers: Vec<i64> = found.iter().filter_map(|(_, number, _)| *number).collect();
+    let alternate = found.len().is_multiple_of(2)
+        && found.chunks(2).all(|pair| {
+            matches!((pair[0].2, pair[1].2), (Some(1), Some(-1)) | (Some(-1), Some(1)))
+        })
+        && numbers.windows(2).all(|pair| pair[0] != pair[1]);
+    let counted = |direction: Option<i64>, until: usize| {
+        1 + found[..until].iter().filter(|(_, _, other)| *other == direction).count()
+    };
+    let pass = |(place, (_, number, direction)): (usize, &(usize, Option<i64>, Option<i64>))| {
+        let number = number.filter(|number| 0 < *number && !alternate);
+        number.unwrap_or_else(|| i64::try_from(counted(*direction, place)).unwrap_or(1))
+    };
+    found.iter().enumerate().map(pass).collect()
+}
+
+/// Target and actual position: the one is the coordinate, their difference the error.
+fn positions(candidates: &mut [Candidate<'_>], runs: bool, decisions: &mut Decisions<'_>) {
+    let column =
+        |candidate: &Candidate<'_>| if candidate.is_angle() { "angle_rev" } else { "position_mm" };
+    let open = |candidate: &Candidate<'_>, meaning: &str| {
+        candidate.meaning() == meaning
+            && candidate.rule.to.is_none()
+            && candidate.rule.pass.is_none()
+    };
+    let taken = |candidates: &[Candidate<'_>]| {
+        candidates.iter().any(|candidate| candidate.is("position_mm") || candidate.is("angle_rev"))
+    };
+    let targets: Vec<usize> =
+        (0..candidates.len()).filter(|at| open(&candidates[*at], "target")).collect();
+    if let [target] = targets.as_slice()
+        && !taken(candidates)
+    {
+        let to = column(&candidates[*target]);
+        candidates[*target].decide(to, "the position aimed at");
+    }
+    if runs {
+        return run_values(candidates, decisions);
+    }
+    let Some(target) = targets.first().filter(|_| targets.len() == 1) else { return };
+    let target = candidates[*target].header.name.clone();
+    let found = candidates.iter().any(|candidate| {
+        matches!(candidate.meaning(), "error" | "angular error" | "lead error")
+            && candidate.rule.to.is_none()
+            || OBSERVED.iter().any(|name| candidate.is(name))
+    });
+    let found_at: Vec<usize> = (0..candidates.len())
+        .filter(|at| open(&candidates[*at], "actual") || open(&candidates[*at], "position"))
+        .collect();
+    for (place, at) in found_at.iter().enumerate() {
+        let candidate = &mut candidates[*at];
+        if found {
+            candidate
+                .decide(NONE, format!("where it came to; {} is the position", quoted(&target)));
+        } else if place == 0 && found_at.len() == 1 {
+            difference(candidate, &target);
+        }
+    }
+}
+
+/// Turns an actual position into an error.
+fn difference(candidate: &mut Candidate<'_>, target: &str) {
+    let to = if candidate.is_angle() { "error_arcsec" } else { "error_um" };
+    candidate.decide(
+        to,
+        format!("target minus actual: positive when the table is behind {}", quoted(target)),
+    );
+    candidate.rule.minus = candidate.rule.minus.take().or(Some(target.to_owned()));
+    candidate.rule.sign = candidate.rule.sign.or(Some(-1));
+}
+
+/// What the columns of runs hold: positions near the target, or deviations from it.
+fn run_values(candidates: &mut [Candidate<'_>], decisions: &mut Decisions<'_>) {
+    let coordinate = candidates
+        .iter()
+        .position(|candidate| candidate.is("position_mm") || candidate.is("angle_rev"));
+    let lone = || {
+        candidates.iter().position(|candidate| {
+            candidate.rule.to.is_none()
+                && candidate.rule.pass.is_none()
+                && matches!(candidate.meaning(), "position" | "actual" | "angle")
+        })
+    };
+    let Some(at) = coordinate.or_else(lone) else { return };
+    let to = if candidates[at].is_angle() { "angle_rev" } else { "position_mm" };
+    candidates[at].decide(to, "the position aimed at in every run");
+    let targets = candidates[at].samples.values.clone();
+    let name = candidates[at].header.name.clone();
+    let unit = candidates[at].header.unit.clone();
+    for candidate in candidates.iter_mut().filter(|candidate| candidate.rule.pass.is_some()) {
+        if candidate.rule.unit.is_none() && follows(&candidate.samples.values, &targets) {
+            candidate.rule.unit = candidate.header.unit.clone().or(unit.clone());
+        }
+        if follows(&candidate.samples.values, &targets) {
+            difference(candidate, &name);
+            continue;
+        }
+        let reversed = candidate.word.is_some_and(|word| word.reversed);
+        let to = if candidate.is_angle() { "error_arcsec" } else { "error_um" };
+        if reversed {
+            candidate.rule.sign = candidate.rule.sign.or(Some(-1));
+            candidate.decide(to, "a run; a deviation is actual minus target, the error is positive when the table is behind");
+        } else {
+            candidate
+                .decide(to, "a run; taken with its sign, `sign = -1` if it is actual minus target");
+        }
+    }
+    let _ = decisions;
+}
+
+/// True when values run along with the targets, and do not just differ from them.
+fn follows(values: &[f64], targets: &[f64]) -> bool {
+    let pairs = || values.iter().zip(targets).filter(|(v, t)| v.is_finite() && t.is_finite());
+    let spread = |pick: fn((&f64, &f64)) -> f64| {
+        let (low, high) =
+            pairs().map(pick).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+                (low.min(value), high.max(value))
+            });
+        high - low
+    };
+    let (targets, values, rest) =
+        (spread(|(_, t)| *t), spread(|(v, _)| *v), spread(|(v, t)| v - t));
+    0.0 < targets && rest < 0.1 * targets && 0.8 * targets < values
+}
+
+/// What the words of a name say.
+fn by_word(candidate: &mut Candidate<'_>) {
+    let Some(word) = candidate.word.filter(|_| candidate.rule.to.is_none()) else { return };
+    let angle = candidate.is_angle();
+    let meaning = match word.meaning {
+        "error" if angle => "angular error",
+        "position" | "actual" if angle => "angle",
+        "number" => return candidate.decide(NONE, "it counts the rows"),
+        "date" | "clock" if candidate.samples.holds == Holds::Instants => "time",
+        meaning => meaning,
+    };
+    let Some(target) = data::target(meaning) else { return };
+    let mut reason = format!("{} means {meaning}", quoted(word.spelling));
+    if word.reversed && candidate.rule.sign.is_none() {
+        candidate.rule.sign = Some(-1);
+        reason.push_str(
+            ": actual minus target, while the error is positive when the table is behind",
+        );
+    }
+    candidate.decide(target.column, reason);
+}
+
+/// No column of ours may come from two of the file.
+fn one_of_each(candidates: &mut [Candidate<'_>], decisions: &mut Decisions<'_>) {
+    join_clock(candidates);
+    for target in data::targets()
+        .iter()
+        .map(|target| target.column)
+        .collect::<std::collections::BTreeSet<_>>()
+    {
+        let same: Vec<usize> = (0..candidates.len())
+            .filter(|at| candidates[*at].is(target) && candidates[*at].rule.pass.is_none())
+            .collect();
+        if same.len() < 2 {
+            continue;
+        }
+        let given: Vec<usize> = same.iter().copied().filter(|at| candidates[*at].given).collect();
+        let needed = OBSERVED.contains(&target) || COORDINATES.contains(&target);
+        if given.is_empty() && needed {
+            let names: Vec<_> = same.iter().map(|at| candidates[*at].header.name.clone()).collect();
+            let text = format!("`{}` may be `{target}` each", names.join("`, `"));
+            decisions.question(&text, answers(&names, target));
+        }
+        let kept = given.first().copied().unwrap_or(same[0]);
+        for at in same.into_iter().filter(|at| *at != kept && !given.contains(at)) {
+            candidates[at].rule.to = None;
+            candidates[at].rule.sign = None;
+            candidates[at].rule.reason = format!("another column is `{target}`");
+            if candidates[at].samples.holds != Holds::Numbers {
+                candidates[at].rule.to = Some(NONE.to_owned());
+            }
+        }
+    }
+}
+
+/// A date and a time of day side by side make one instant.
+fn join_clock(candidates: &mut [Candidate<'_>]) {
+    let instants = |meaning: &str| {
+        let fits = |c: &Candidate<'_>| c.samples.holds == Holds::Instants && c.meaning() == meaning;
+        candidates.iter().position(fits)
+    };
+    let Some(date) = instants("date") else { return };
+    let Some(clock) = instants("clock").or_else(|| instants("time")) else { return };
+    let name = candidates[clock].header.name.clone();
+    candidates[clock].rule.to = Some(NONE.to_owned());
+    "it belongs to the date".clone_into(&mut candidates[clock].rule.reason);
+    candidates[date].rule.with = candidates[date].rule.with.take().or(Some(name));
+}
+
+pub(crate) fn answers(names: &[String], target: &str) -> Vec<Answer> {
+    let answer = |name: &String| Answer {
+        label: format!("{} is `{target}`", quoted(name)),
+        recipe: format!(
+            "[[column]]\nfrom = {}\nto = \"{target}\"",
+            toml_edit::Value::from(name.as_str())
+        ),
+    };
+    names.iter().map(answer).collect()
+}
+
+/// What nobody knows is kept under its own name: it may explain something.
+fn covariates(candidates: &mut [Candidate<'_>]) {
+    let mut names: Vec<String> =
+        candidates.iter().filter_map(|candidate| candidate.rule.to.clone()).collect();
+    for candidate in candidates.iter_mut().filter(|candidate| candidate.rule.to.is_none()) {
+        if candidate.samples.holds != Holds::Numbers {
+            candidate.decide(NONE, "it holds no numbers");
+            continue;
+        }
+        let plain = header::plain_name(candidate.header);
+        let taken =
+            |name: &str| names.iter().any(|known| known == name) || data::target(name).is_some();
+        let name = (1..=names.len() + 2)
+            .map(|n| if n == 1 { plain.clone() } else { format!("{plain}_{n}") })
+            .find(|name| !taken(name));
+        let name = name.unwrap_or(plain);
+        names.push(name.clone());
+        candidate.decide(&name, "not known: kept beside the measurement");
+    }
+}
+
+/// Units, or the question what they are.
+fn units(
+    candidates: &mut [Candidate<'_>],
+    preamble_unit: Option<&str>,
+    decisions: &mut Decisions<'_>,
+) {
+    for candidate in candidates.iter_mut() {
+        let Some(target) = candidate.rule.to.as_deref().and_then(by_column) else { continue };
+        if target.kind.is_empty()
+            || candidate.rule.unit.is_some()
+            || candidate.samples.holds == Holds::Instants
+        {
+            continue;
+        }
+        let own = candidate.header.name == target.column;
+        let fits = |unit: &&str| data::unit(unit, target.kind).is_some();
+        let named = candidate.header.unit.as_deref().filter(fits);
+        let unit = named
+            .or(preamble_unit.filter(fits))
+            .or((own || target.kind == "count").then_some(target.unit));
+        match unit.map(ToOwned::to_owned).or_else(|| guessed(candidate, target)) {
+            Some(unit) => candidate.rule.unit = Some(unit),
+            None => ask_unit(candidate, target, decisions),
+        }
+    }
+}
+
+pub(crate) fn by_column(name: &str) -> Option<Target> {
+    data::target(name).filter(|target| target.column == name)
+}
+
+/// A unit that the values leave no doubt about.
+fn guessed(candidate: &mut Candidate<'_>, target: Target) -> Option<String> {
+    let finite = || candidate.samples.values.iter().copied().filter(|value| value.is_finite());
+    let within = |low: f64, high: f64| finite().all(|value| (low..=high).contains(&value));
+    let unit = match target.column {
+        "time_s" if within(1e9, 4e9) => "s",
+        "time_s" if within(1e12, 4e12) => "ms",
+        "time_s" if within(1e15, 4e15) => "us",
+        "air_pressure_hpa" if within(850.0, 1100.0) => "hpa",
+        "air_pressure_hpa" if within(85e3, 110e3) => "pa",
+        "air_pressure_hpa" if within(85.0, 110.0) => "kpa",
+        "air_pressure_hpa" if within(640.0, 820.0) => "mmhg",
+        "air_temperature_c" | "workpiece_temperature_c" | "bed_temperature_c"
+            if within(10.0, 40.0) =>
+        {
+            "°C"
+        }
+        "air_temperature_c" | "workpiece_temperature_c" | "bed_temperature_c"
+            if within(50.0, 104.0) =>
+        {
+            "°F"
+        }
+        "humidity_pct" if within(1.0, 100.0) => "%",
+        _ => return None,
+    };
+    candidate.rule.reason.push_str("; the unit fits its values");
+    Some(unit.to_owned())
+}
+
+fn ask_unit(candidate: &mut Candidate<'_>, target: Target, decisions: &mut Decisions<'_>) {
+    let units: &[&str] = match target.kind {
+        "length" if target.column == "position_mm" => &["mm", "m", "um", "inch"],
+        "length" => &["um", "mm", "nm", "inch"],
+        "angle" => &["arcsec", "deg", "rad", "rev"],
+        "time" => &["s", "ms", "us", "min"],
+        "temperature" => &["°C", "°F", "K"],
+        "pressure" => &["hpa", "pa", "kpa", "mmhg"],
+        "turning" => &["rpm", "1/s", "deg/s"],
+        "force" => &["n", "kn"],
+        _ => &["%"],
+    };
+    let name = &candidate.header.name;
+    let answer = |unit: &&str| Answer {
+        label: (*unit).to_owned(),
+        recipe: format!(
+            "[[column]]\nfrom = {}\nunit = \"{unit}\"",
+            toml_edit::Value::from(name.as_str())
+        ),
+    };
+    let text = format!("the unit of column {} is not told", quoted(name));
+    decisions.question(&text, units.iter().map(answer).collect());
+    candidate.rule.unit = Some(units[0].to_owned());
+    candidate.rule.reason.push_str("; its unit is not sure");
+}
+
+/// Asks for what a measurement cannot do without.
+fn observed(candidates: &[Candidate<'_>], decisions: &mut Decisions<'_>) {
+    let has = |names: &[&str]| {
+        candidates.iter().any(|candidate| names.iter().any(|name| candidate.is(name)))
+    };
+    let free: Vec<String> = candidates
+        .iter()
+        .filter(|candidate| candidate.samples.holds == Holds::Numbers)
+        .filter(|candidate| candidate.rule.to.as_deref().is_none_or(|to| by_column(to).is_none()))
+        .map(|candidate| candidate.header.name.clone())
+        .take(12)
+        .collect();
+    if !has(&OBSERVED) && !free.is_empty() {
+        let rotary = candidates.iter().any(|candidate| candidate.is("angle_rev"));
+        let to = if rotary { "error_arcsec" } else { "error_um" };
+        decisions.question("no column is known as the measured error", answers(&free, to));
+    }
+    if !has(&COORDINATES) && !free.is_empty() {
+        decisions.question("no column is known as position or time", answers(&free, "position_mm"));
+    }
+}

@@ -1,0 +1,171 @@
+//! Words for a run and its direction, as in `Run 2 rückwärts` or `第3次正向`.
+
+/// Words for the way there.
+const FORWARD: [&str; 16] = [
+    "forward",
+    "forwards",
+    "fwd",
+    "vorwärts",
+    "vorwaerts",
+    "vor",
+    "hin",
+    "hinweg",
+    "positive",
+    "positiv",
+    "正向",
+    "去程",
+    "正",
+    "up",
+    "pos dir",
+    "↑",
+];
+/// Words for the way back.
+const REVERSE: [&str; 20] = [
+    "reverse",
+    "backward",
+    "backwards",
+    "bwd",
+    "rev",
+    "rückwärts",
+    "rueckwaerts",
+    "rück",
+    "zurück",
+    "rückweg",
+    "her",
+    "negative",
+    "negativ",
+    "反向",
+    "负向",
+    "返程",
+    "回程",
+    "反",
+    "down",
+    "↓",
+];
+/// Words for a run.
+const RUN: [&str; 16] = [
+    "run",
+    "lauf",
+    "messung",
+    "messlauf",
+    "messreihe",
+    "durchgang",
+    "durchlauf",
+    "cycle",
+    "zyklus",
+    "pass",
+    "trial",
+    "series",
+    "repeat",
+    "次",
+    "循环",
+    "趟",
+];
+
+/// A run and a direction, as far as words tell them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Run {
+    pub(crate) number: Option<i64>,
+    pub(crate) direction: Option<i64>,
+}
+
+/// The run a text names; `None` when it tells neither run nor direction.
+pub(crate) fn run_of(text: &str) -> Option<Run> {
+    let lower = text.to_lowercase();
+    let tokens = tokens(&lower);
+    let any = |words: &[&str]| {
+        tokens.iter().any(|token| words.contains(&token.as_str()))
+            || words
+                .iter()
+                .any(|word| !word.is_ascii() && 1 < word.chars().count() && lower.contains(word))
+    };
+    let direction =
+        match (any(&FORWARD) || signed(&lower, '+'), any(&REVERSE) || signed(&lower, '-')) {
+            (true, false) => Some(1),
+            (false, true) => Some(-1),
+            _ => None,
+        };
+    let named = any(&RUN) || lower.contains('次');
+    let number = named.then(|| tokens.iter().rev().find_map(|token| run_number(token))).flatten();
+    let short = tokens.len() <= 8;
+    (short && (number.is_some() || direction.is_some())).then_some(Run { number, direction })
+}
+
+/// The direction a cell names: +1, −1, a word, or a sign.
+pub(crate) fn direction_of(cell: &str) -> Option<f64> {
+    let cell = cell.trim().to_lowercase();
+    match cell.as_str() {
+        "+" | "1" | "+1" | "1.0" | "1,0" | "f" | "v" => return Some(1.0),
+        "-" | "-1" | "-1.0" | "-1,0" | "\u{2212}1" | "\u{2212}" | "r" | "b" => return Some(-1.0),
+        _ => {}
+    }
+    match run_of(&cell)?.direction? {
+        1 => Some(1.0),
+        _ => Some(-1.0),
+    }
+}
+
+/// A sign that stands alone or behind a number, as in `Run 1 +` or `x1-`.
+fn signed(text: &str, sign: char) -> bool {
+    let trimmed = text.trim().trim_end_matches([')', ']']).trim_end();
+    trimmed.ends_with(sign)
+}
+
+/// Runs of letters, and of digits.
+fn tokens(text: &str) -> Vec<String> {
+    let mut tokens: Vec<String> = Vec::new();
+    let mut kind = 0;
+    for c in text.chars() {
+        let next = if c.is_ascii_digit() {
+            1
+        } else if c.is_alphabetic() {
+            2
+        } else if "↑↓".contains(c) {
+            3
+        } else {
+            0
+        };
+        if next != 0 && next == kind {
+            tokens.last_mut().expect("a token has begun").push(c);
+        } else if next != 0 {
+            tokens.push(c.into());
+        }
+        kind = next;
+    }
+    tokens
+}
+
+fn run_number(token: &str) -> Option<i64> {
+    let chinese = ["一", "二", "三", "四", "五", "六", "七", "八", "九", "十"];
+    let spelled = || {
+        let at = chinese
+            .iter()
+            .position(|digit| token == format!("第{digit}次") || token == format!("第{digit}"))?;
+        i64::try_from(at + 1).ok()
+    };
+    token.parse().ok().filter(|number| (0..100_000).contains(number)).or_else(spelled)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_are_told_in_three_languages() {
+        for (text, number, direction) in [
+            ("Run 1", Some(1), None),
+            ("Run 2 rev", Some(2), Some(-1)),
+            ("Lauf 3 vorwärts", Some(3), Some(1)),
+            ("第4次反向", Some(4), Some(-1)),
+            ("第2次 正向 (μm)", Some(2), Some(1)),
+            ("Run 5 +", Some(5), Some(1)),
+            ("Data backward direction", None, Some(-1)),
+            ("Messreihe 2", Some(2), None),
+        ] {
+            assert_eq!(run_of(text), Some(Run { number, direction }), "{text}");
+        }
+        for text in ["Position [mm]", "error", "12", "Temperature 1", ""] {
+            assert_eq!(run_of(text), None, "{text}");
+        }
+    }
+}

@@ -1,0 +1,4 @@
+//! Files of every kind against what they must become, and what they must not do.
+
+mod properties;
+mod samples;
