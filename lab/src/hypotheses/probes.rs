@@ -10,14 +10,13 @@ use super::tails::chance_with_tails;
 use crate::model::{Columns, Fit, Problem, Row, Stage, settle};
 use crate::noise::rms;
 use crate::numerics::{chi_squared_tail, count, spread};
-use crate::policy::chance::{CLEAR_LINE, MANY_COLUMNS, PROBES, SIGNIFICANCE};
+use crate::policy::chance::{MANY_COLUMNS, PROBES, SIGNIFICANCE};
 use crate::policy::extent::{
     BUMP_ORDER, COLUMNS_OF_PASSES, CURVE_OF_A_PASS, CURVE_ORDER, HARMONICS, ROWS_A_COLUMN, TURNS,
     WAVE_ORDER,
 };
 use crate::policy::size::{
-    CLEAR_SHARE_OF_NOISE, FAR_ABOVE, LOOP_JUMP, SHARE_OF_ERROR, SHARE_OF_NOISE,
-    SLOW_SHARE_OF_HUNTING,
+    FAR_ABOVE, LOOP_JUMP, SHARE_OF_ERROR, SHARE_OF_NOISE, SLOW_SHARE_OF_HUNTING,
 };
 use crate::spectrum::{Line, LineSearch};
 
@@ -74,20 +73,13 @@ pub(crate) fn least_above_hunting(problem: &Problem) -> f64 {
     problem.hunting_um / f64::sqrt(12.0)
 }
 
-/// True for a line so clear that no flaw of a noise model or of a smooth formula makes it.
-fn clear_line(structure: &Structure, noise_um: f64) -> bool {
-    structure.line.is_some()
-        && structure.p_value < CLEAR_LINE
-        && CLEAR_SHARE_OF_NOISE * noise_um < structure.rms_um
-}
-
 /// Everything a fit leaves that is not noise, clearest first.
 #[must_use]
 pub(crate) fn structures(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
     let noise = rms(&problem.layout, &fit.left);
     let exact = SHARE_OF_ERROR * rms(&problem.layout, &problem.residual());
     let mut found = all_structures(problem, model, fit);
-    found.retain(|s| matters(s.rms_um, noise, s.p_value) || clear_line(s, noise));
+    found.retain(|s| matters(s.rms_um, noise, s.p_value));
     found.retain(|s| exact < s.rms_um);
     // What is no effect may be any of its lines.
     found.retain(|s| above_hunting(problem, SLOW_SHARE_OF_HUNTING * s.rms_um));

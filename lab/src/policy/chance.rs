@@ -18,12 +18,6 @@ pub(crate) const LISTED_LINE: f64 = 1e-3;
 /// Chosen. Doubled: two long records of noise in a million are picked instead of averaged.
 pub(crate) const FAST_LINE: f64 = 1e-6;
 
-/// Chance below which a line smaller than others is structure all the same.
-///
-/// Chosen, far beyond what a noise model's flaw can make of a chance. Doubled: a line at the limit
-/// needs 1.4 of 55 less.
-pub(crate) const CLEAR_LINE: f64 = 1e-12;
-
 /// Probes for structure beside those of logged columns: every chance is multiplied by their
 /// number (Bonferroni).
 ///
