@@ -40,5 +40,8 @@ pub use model::{MachineFile, Model};
 pub use motion::Motion;
 pub use nature::Nature;
 pub use play::Play;
-pub use record::{COVARIATES, Columns, Covariate, Instant, Record, Samples};
+pub use record::{
+    Bridging, COVARIATES, Columns, Covariate, HeaderUnit, Instant, LOGGED_COLUMNS, LoggedColumn,
+    Record, Samples, Setting,
+};
 pub use term::{Estimate, Formula, Sum, Term};

@@ -1,26 +1,13 @@
 //! Where and when: one instant of a run, or a whole record of samples.
 
+mod logged;
 mod refined;
 mod samples;
 
 use std::f64::consts::TAU;
 
 use crate::Machine;
-
-/// Logged quantities that effects know by name; the place in this list is the index of the column.
-pub const COVARIATES: &[&str] = &[
-    "air_temperature_c",
-    "air_pressure_hpa",
-    "humidity_pct",
-    "workpiece_temperature_c",
-    "bed_temperature_c",
-    "bed_pitch_arcsec",
-    "force_n",
-    "initial_phase",
-    "grating_index_deg",
-    "clamping_index_deg",
-    "steps",
-];
+pub use logged::{Bridging, COVARIATES, HeaderUnit, LOGGED_COLUMNS, LoggedColumn, Setting};
 
 /// Index of [`COVARIATES`], for effects to read `now.covariates`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

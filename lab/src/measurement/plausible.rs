@@ -1,50 +1,24 @@
 //! Readings that no sensor in its own unit can show.
 
-use std::ops::RangeInclusive;
-
+use helixlock_plant::{LOGGED_COLUMNS, LoggedColumn};
 use helixlock_traces::Table;
 
 use super::error::LabError;
 use crate::policy::reading::KELVIN;
-
-/// What a sensor can read at all, its unit taken at its word.
-struct Limits {
-    column: &'static str,
-    possible: RangeInclusive<f64>,
-    expected: &'static str,
-}
-
-const TEMPERATURE: (RangeInclusive<f64>, &str) =
-    (-273.15..=f64::MAX, "a temperature in °C, above −273.15");
-
-const fn limits(
-    column: &'static str,
-    (possible, expected): (RangeInclusive<f64>, &'static str),
-) -> Limits {
-    Limits { column, possible, expected }
-}
-
-/// A hygrometer's own error may take it a little past its ends.
-const LIMITS: &[Limits] = &[
-    limits("air_temperature_c", TEMPERATURE),
-    limits("workpiece_temperature_c", TEMPERATURE),
-    limits("bed_temperature_c", TEMPERATURE),
-    limits("air_pressure_hpa", (f64::MIN_POSITIVE..=f64::MAX, "a pressure in hPa, above 0")),
-    limits("humidity_pct", (-2.0..=102.0, "a relative humidity in %, 0 to 100")),
-];
 
 const KELVIN_HINT: &str = "\n\nhint: if these are kelvin, name the column so, as in \
                            `air temperature [K]`, or take 273.15 off";
 
 /// Refuses the first impossible reading, and temperatures that look like kelvin.
 pub(super) fn check(table: &Table) -> Result<(), LabError> {
-    for Limits { column, possible, expected } in LIMITS {
-        let Some(values) = table.column(column) else { continue };
+    let limited = LOGGED_COLUMNS.iter().filter_map(|of| Some((of, of.readable.as_ref()?)));
+    for (LoggedColumn { name, .. }, (possible, expected)) in limited {
+        let Some(values) = table.column(name) else { continue };
         let there = || values.iter().enumerate().filter(|(_, value)| value.is_finite());
         let refused = |(row, value): (usize, &f64), expected, hint| {
             Err(LabError::Cell {
                 at: place(table, row),
-                column: (*column).to_owned(),
+                column: (*name).to_owned(),
                 found: *value,
                 expected,
                 hint,
@@ -53,7 +27,7 @@ pub(super) fn check(table: &Table) -> Result<(), LabError> {
         if let Some(cell) = there().find(|(_, value)| !possible.contains(*value)) {
             return refused(cell, expected, "");
         }
-        let kelvin = column.ends_with("_c") && there().all(|(_, value)| KELVIN.contains(value));
+        let kelvin = name.ends_with("_c") && there().all(|(_, value)| KELVIN.contains(value));
         if let Some(cell) = there().next().filter(|_| kelvin) {
             return refused(cell, "a temperature in °C", KELVIN_HINT);
         }

@@ -5,29 +5,21 @@
 //! every value, is as true to the log as the staircase, and has no treads that a fit takes for
 //! structure of the machine.
 
+use helixlock_plant::{Bridging, LOGGED_COLUMNS, LoggedColumn};
+
 use super::Measurement;
 use crate::policy::reading::{CHANGES_A_LEAP, FEWEST_VALUES, OFF_THE_LATTICE};
-
-/// Quantities that change steadily, and whether they go on from pass to pass.
-const STEADY: [(&str, bool); 7] = [
-    ("air_temperature_c", true),
-    ("air_pressure_hpa", true),
-    ("humidity_pct", true),
-    ("workpiece_temperature_c", true),
-    ("bed_temperature_c", true),
-    ("bed_pitch_arcsec", false),
-    ("force_n", false),
-];
 
 impl Measurement {
     /// The same with the treads of rounded logs bridged, and a note on each.
     pub(super) fn without_treads(mut self) -> Self {
-        for (name, goes_on) in STEADY {
-            let Some(values) = self.covariates.get(name) else { continue };
+        let steady = LOGGED_COLUMNS.iter().filter(|column| column.bridging != Bridging::Never);
+        for LoggedColumn { name, bridging, .. } in steady {
+            let Some(values) = self.covariates.get(*name) else { continue };
             let Some(step) = lattice(values) else { continue };
             let breaks = |row: usize| {
                 self.time_s[row] < self.time_s[row - 1]
-                    || (!goes_on && self.pass[row] != self.pass[row - 1])
+                    || (*bridging == Bridging::WithinPasses && self.pass[row] != self.pass[row - 1])
             };
             let mut smooth = values.clone();
             let mut start = 0;
@@ -40,7 +32,7 @@ impl Measurement {
             self.notes.push(format!(
                 "column `{name}` is rounded to steps of {step:.3}: between them it is interpolated"
             ));
-            self.covariates.insert(name.to_owned(), smooth);
+            self.covariates.insert((*name).to_owned(), smooth);
         }
         self
     }

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use helixlock_plant::Machine;
 use helixlock_plant::prediction::Sensor;
+use helixlock_plant::{COVARIATES, LoggedColumn, Machine};
 use helixlock_traces::{Table, TextColumn};
 
 use super::error::LabError;
@@ -80,26 +80,17 @@ pub struct Measurement {
     pub notes: Vec<String>,
 }
 
-/// Columns that are coordinates or sensors; every other one is a covariate.
-pub(super) const NOT_COVARIATES: [&str; 10] = [
-    "time_s",
-    "position_mm",
-    "angle_rev",
-    "speed_rpm",
-    "direction",
-    "pass",
-    "error_um",
-    "error_arcsec",
-    "steps",
-    "lead_error_um",
-];
+/// True for a column that is no covariate; one that nobody knows is kept as one.
+fn is_coordinate_or_sensor(name: &str) -> bool {
+    LoggedColumn::named(name).is_some_and(|column| !column.is_log())
+}
 
 /// True for the columns by which a simulated trace shows the recorder before its filter, and the
 /// same machine with the loop the other way: they are sensors, but not of this run.
 fn is_of_another_run(name: &str) -> bool {
     let rest = name.strip_prefix("open_").or_else(|| name.strip_prefix("closed_"));
     let rest = rest.unwrap_or("");
-    name == "raw_error_um" || rest == "raw_error_um" || NOT_COVARIATES.contains(&rest)
+    name == "raw_error_um" || rest == "raw_error_um" || is_coordinate_or_sensor(rest)
 }
 
 impl Measurement {
@@ -296,7 +287,7 @@ fn covariates(
     let mut known = BTreeMap::new();
     let covariate = |name: &str| {
         let own =
-            !NOT_COVARIATES.contains(&name) || (name == "steps" && steps_are_moves(table, nominal));
+            !is_coordinate_or_sensor(name) || (name == "steps" && steps_are_moves(table, nominal));
         own && !is_of_another_run(name)
     };
     for column in table.columns.iter().filter(|column| covariate(&column.name)) {
@@ -305,7 +296,7 @@ fn covariates(
             notes.push(format!("column `{}` is empty and left out", column.name));
             continue;
         }
-        if !helixlock_plant::COVARIATES.contains(&column.name.as_str()) {
+        if !COVARIATES.contains(&column.name.as_str()) {
             notes.push(format!("column `{}` is not known and kept as a covariate", column.name));
         }
         known.insert(column.name.clone(), passes::bridged(&values, &passes.pass));

@@ -7,8 +7,8 @@ use crate::lead::{Lead, LeadUnit};
 use crate::machine::{
     Air, Dividers, Drive, Environment, Fpga, Gear, Grating, Laser, Machine, Spindle, Workpiece,
 };
-use crate::record::COVARIATES;
-use crate::units::{ARCSEC, DEG, DEG_C, HPA, HZ, MM, N, PCT, PPM_PER_K, RPM, UM, UM_PER_M, Unit};
+use crate::record::LOGGED_COLUMNS;
+use crate::units::{ARCSEC, DEG_C, HPA, HZ, MM, PCT, PPM_PER_K, RPM, UM, UM_PER_M};
 use num_rational::Ratio;
 
 type Result<T> = std::result::Result<T, MachineError>;
@@ -253,22 +253,12 @@ fn fpga(root: &Section<'_>) -> Result<Fpga> {
 
 fn environment(root: &Section<'_>) -> Result<Environment> {
     let Some(section) = root.section("environment")? else { return Ok(Environment::default()) };
-    let known: [(&str, &str, Unit, f64, f64); 9] = [
-        ("air_temperature", COVARIATES[0], DEG_C, -40.0, 100.0),
-        ("air_pressure", COVARIATES[1], HPA, 500.0, 1200.0),
-        ("humidity", COVARIATES[2], PCT, 0.0, 100.0),
-        ("workpiece_temperature", COVARIATES[3], DEG_C, -40.0, 200.0),
-        ("bed_temperature", COVARIATES[4], DEG_C, -40.0, 200.0),
-        ("bed_pitch", COVARIATES[5], ARCSEC, -3600.0, 3600.0),
-        ("force", COVARIATES[6], N, -1e5, 1e5),
-        ("grating_index", COVARIATES[8], DEG, -360.0, 360.0),
-        ("clamping_index", COVARIATES[9], DEG, -360.0, 360.0),
-    ];
-    section.only(&known.iter().map(|(key, ..)| *key).collect::<Vec<_>>())?;
+    let known = || LOGGED_COLUMNS.iter().filter_map(|of| Some((of.name, of.setting.as_ref()?)));
+    section.only(&known().map(|(_, setting)| setting.key).collect::<Vec<_>>())?;
     let mut readings = Vec::new();
-    for (key, column, unit, low, high) in &known {
-        if let Some(value) = section.quantity(key, unit, *low..=*high)? {
-            readings.push(((*column).into(), value));
+    for (column, setting) in known() {
+        if let Some(value) = section.quantity(setting.key, &setting.unit, setting.range.clone())? {
+            readings.push((column.into(), value));
         }
     }
     Ok(Environment { readings })
