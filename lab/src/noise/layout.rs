@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::numerics::rms_about_means;
-use crate::policy::evidence::STRETCHES;
+use crate::policy::size::STRETCHES;
 
 /// Consecutive rows of one sensor in one pass; it has its own zero and its own noise history.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -2,8 +2,8 @@
 
 /// A chance smaller than this is structure, and an effect must have a smaller one to be named.
 ///
-/// Chosen: one record of noise in ten thousand is given a name. Doubled: one in five thousand; an
-/// effect at the limit gains 1.4 of the 18 that one free number needs.
+/// Chosen: one record of noise in ten thousand is given a name. Doubled: one in five thousand, and a
+/// wave needs a gain of 17.0 instead of 18.4.
 pub(crate) const SIGNIFICANCE: f64 = 1e-4;
 
 /// Chance below which a line is listed for a reader. No verdict rests on a list, so it may be ten

@@ -76,12 +76,6 @@ pub(crate) const TOLD: f64 = 0.1;
 /// them.
 pub(crate) const PARTS: usize = 5;
 
-/// Stretches a pass is cut into to tell what is swift from what is slow.
-///
-/// Measured: in one piece, a gear under a large drift was not taken. Doubled: only what turns
-/// twenty times a pass is swift.
-pub(crate) const STRETCHES: usize = 10;
-
 /// Slopes that physics leaves lie within this either way, µm/m; it sets what an exact match is
 /// worth.
 ///
