@@ -1,0 +1,309 @@
+//! Broken files of every format, each with the message its user gets.
+//!
+//! A case is a whole sample with one thing changed: `expected/broken.txt` holds what is changed and
+//! what is said, side by side. `UPDATE_EXPECT=1` rewrites it, for a person to read.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use expect_test::expect_file;
+use helixlock_import::{ImportError, Recipe, Source, apply};
+
+/// What is changed in a sample.
+enum Change {
+    /// The first place of a text becomes another.
+    Replace(&'static str, &'static str),
+    /// The whole file.
+    Whole(&'static [u8]),
+    /// Only so many bytes of it.
+    Cut(usize),
+    /// A byte.
+    Byte(usize, u8),
+}
+
+use Change::{Byte, Cut, Replace, Whole};
+
+/// Sample, change, and what the recipe says.
+type Case = (&'static str, Change, &'static str);
+
+const TABLES: &[Case] = &[
+    ("german.csv", Whole(b""), ""),
+    ("german.csv", Whole(b"\n\n \n"), ""),
+    ("german.csv", Whole(b"hello world\n"), ""),
+    ("german.csv", Whole(b"Position [mm];Fehler [um]\n"), ""),
+    ("german.csv", Whole(b"\x00\x01\x02\x03\x04\x05"), ""),
+    ("german.csv", Whole(b"%PDF-1.7 rest"), ""),
+    ("german.csv", Whole(b"\x1F\x8B\x08\x00"), ""),
+    ("german.csv", Whole(b"ARROW1\x00\x00"), ""),
+    ("german.csv", Whole(b"\x89HDF\r\n\x1a\n"), ""),
+    ("german.csv", Whole(b"MATLAB 5.0 MAT-file, Platform: PCWIN64"), ""),
+    ("german.csv", Replace("10,000;", "1o,000;"), ""),
+    ("german.csv", Replace("10,000;", "10,0,00;"), ""),
+    ("german.csv", Replace("10,000;", "inf;"), ""),
+    ("german.csv", Replace("10,000;", "1e999;"), ""),
+    ("german.csv", Replace("10,000;", "10,000 mm;"), ""),
+    ("german.csv", Replace("10,000;", "10,000;;;;;"), ""),
+    ("german.csv", Replace("10,000;", ""), ""),
+    ("german.csv", Replace("10,000;", "\"10,000;"), ""),
+    ("german.csv", Replace("gut\r\n190", "gut\r\n1x90"), ""),
+    ("german.csv", Replace("Fehler [", "Position ["), ""),
+    ("german.csv", Replace("Fehler [\u{b5}m]", "Spannung [V]"), ""),
+    ("german.csv", Replace("Position [mm]", "Farbe"), ""),
+    ("german.csv", Replace("Position [mm]", "Position"), ""),
+    ("german.csv", Replace("Fehler [\u{b5}m]", "Fehler"), ""),
+    ("german.csv", Cut(560), ""),
+    ("german.csv", Replace("", ""), "[text]\nencoding = \"klingon\""),
+    ("german.csv", Replace("", ""), "[text]\nencoding = \"UTF-8\""),
+    ("german.csv", Replace("", ""), "[text]\ndelimiter = \"semicolon\""),
+    ("german.csv", Replace("", ""), "[text]\ndecimal = \".\""),
+    ("german.csv", Replace("", ""), "[file]\nformat = \"phd2\""),
+    ("german.csv", Replace("", ""), "[file]\nformat = \"renishaw\""),
+    ("german.csv", Replace("", ""), "[file]\nformat = \"iso230\""),
+    ("german.csv", Replace("", ""), "[file]\nformat = \"camonitor\""),
+    ("german.csv", Replace("", ""), "[file]\nformat = \"twincat\""),
+    ("german.csv", Replace("", ""), "[file]\nformat = \"linuxcnc-comp\""),
+    ("german.csv", Replace("", ""), "[file]\nformat = \"spreadsheet\""),
+    ("german.csv", Replace("", ""), "[[column]]\nfrom = \"Position [mm]\"\nunit = \"\u{b0}C\""),
+    ("german.csv", Replace("", ""), "[[column]]\nfrom = \"Position [mm]\"\nunit = \"parsec\""),
+    ("german.csv", Replace("", ""), "[[column]]\nfrom = \"Fehler [\u{b5}m]\"\nminus = \"Soll\""),
+    ("german.csv", Replace("", ""), "[[column]]\nfrom = \"Fehler [\u{b5}m]\"\nto = \"none\""),
+    ("chinese-gbk.csv", Replace("20.000", "20.0O0"), ""),
+    ("chinese-gbk.csv", Replace("101.03", "101..03"), ""),
+    ("chinese-gbk.csv", Cut(200), "[text]\nencoding = \"UTF-8\""),
+    ("chinese-utf16.txt", Cut(101), ""),
+    ("chinese-utf16.txt", Byte(121, 0xD8), ""),
+    ("runs-as-columns.csv", Replace("100;1,0", "100;x1,0"), ""),
+    ("runs-as-columns.csv", Replace("100;1,0;", "100;"), ""),
+    ("runs-as-columns.csv", Replace("Sollposition", "Bemerkung"), ""),
+    ("runs-as-columns.csv", Replace("mm;", ";"), ""),
+    ("target-actual.txt", Replace("100\t", "100;"), ""),
+    ("target-actual.txt", Replace("Actual (mm)", "Actual"), ""),
+    ("target-actual.txt", Replace("Target (mm)", "Colour"), ""),
+    ("target-actual.txt", Replace("200\t", "2OO\t"), ""),
+    ("target-actual.txt", Replace("", ""), "[table]\npreamble = 1000"),
+    ("zones.csv", Replace("23:59:42.5", "23:59:72.5"), ""),
+    ("zones.csv", Replace("2024-03-10T23:59:43", "2024-13-10T23:59:43"), ""),
+    ("zones.csv", Replace("2024-03-10T23:59:43", "2024-02-30T23:59:43"), ""),
+    ("zones.csv", Replace("+02:00,3.0", "+99:00,3.0"), ""),
+    ("zones.csv", Replace("", ""), "[table]\nzone = \"Mars\""),
+    ("date-and-clock.csv", Replace("59:55,5", "5955,5"), ""),
+    ("date-and-clock.csv", Replace("10.03.2024;23:59:55", "40.03.2024;23:59:55"), ""),
+    ("date-and-clock.csv", Replace("Abweichung (mm)", "Abweichung"), ""),
+    ("blocks.txt", Replace("45  2.12", "45  2.l2"), ""),
+    ("blocks.txt", Replace("45  2.12", "45  2.12  7"), ""),
+    ("blocks.txt", Replace("Error (arcsec)", "Error (furlong)"), ""),
+    ("blocks.txt", Replace("Run 1 reverse", "the weather changed here and we waited"), ""),
+    ("missing.csv", Replace("---", "broken"), ""),
+    ("missing.csv", Replace("error_um", "time_s"), ""),
+    ("missing.csv", Replace("3,1.5,20.2", "3,1.5"), "[table]\nheader = 3"),
+    ("keysight.pos", Replace("50.000\t", "5O.000\t"), ""),
+    ("keysight.pos", Replace("Units: mm", "Units: unknown"), ""),
+];
+
+const LOGS: &[Case] = &[
+    ("laser.rtl", Replace("Target-count: 5", "Target-count: 6"), ""),
+    ("laser.rtl", Replace("Run-count: 4", "Run-count: 5"), ""),
+    ("laser.rtl", Replace("  1   2   0.800", "  1   2"), ""),
+    ("laser.rtl", Replace("  1   2   0.800", "  1   2   0.8oo"), ""),
+    ("laser.rtl", Replace("  1   2   0.800", "  1   9   0.800"), ""),
+    ("laser.rtl", Replace("  1   2   0.800", "  1   1   0.800"), ""),
+    ("laser.rtl", Replace("  1   2   0.800", "  0   2   0.800"), ""),
+    ("laser.rtl", Replace("  1   2   0.800", "  x   2   0.800"), ""),
+    ("laser.rtl", Replace("  1   2   0.800", "  1   -2   0.800"), ""),
+    ("laser.rtl", Replace("100.0000", "1OO.0000"), ""),
+    ("laser.rtl", Replace("Targets :", "Goals :"), ""),
+    ("laser.rtl", Replace("Run Target Data:", "Data:"), ""),
+    ("laser.rtl", Cut(330), ""),
+    ("iso230.dat", Replace("REF_DATA_FWD[2,1]=20.0010", "REF_DATA_FWD[2,1]=20.OO10"), ""),
+    ("iso230.dat", Replace("REF_DATA_FWD[2,1]", "REF_DATA_FWD[2]"), ""),
+    ("iso230.dat", Replace("TGT_DATA[2]=20", "TGT_DATA[2,1]=20"), ""),
+    ("iso230.dat", Replace("TGT_DATA[2]=20\n", ""), ""),
+    ("iso230.dat", Replace("TGT_DATA[2]=20", "TGT_DATA[2]=twenty"), ""),
+    ("iso230.dat", Replace("UNIT=mm", "UNIT=ell"), ""),
+    ("iso230.dat", Cut(110), ""),
+    ("iso230.md", Replace("2|20.0|20.0010", "2|20.0|20.oo10"), ""),
+    ("iso230.md", Replace("2|20.0|20.0010|", "2|20.0|"), ""),
+    ("iso230.md", Replace("2|20.0|", "two|20.0|"), ""),
+    ("iso230.md", Replace("3|30.0|", "3|3O.0|"), ""),
+    ("guide-log.txt", Replace("2017-02-18 23:58:30", "18 February"), ""),
+    ("guide-log.txt", Replace("2017-02-19 00:03:10", "2017-02-10 00:03:10"), ""),
+    ("guide-log.txt", Replace("Pixel scale = 3.82", "Pixel scale = 3,82"), ""),
+    ("guide-log.txt", Replace("Pixel scale = 3.82", "Pixel scale = -1"), ""),
+    ("guide-log.txt", Replace("Pixel scale = 3.82 arc-sec/px, ", ""), ""),
+    ("guide-log.txt", Replace("2,6.400,\"Mount\"", "2,,\"Mount\""), ""),
+    ("guide-log.txt", Replace("2,6.400,\"Mount\"", "2,six,\"Mount\""), ""),
+    ("guide-log.txt", Replace("RARawDistance", "RARaw"), ""),
+    ("guide-log.txt", Replace("RAGuideDistance", "RAGuide"), ""),
+    ("guide-log.txt", Replace(",Time,", ",Clock,"), ""),
+    (
+        "guide-log.txt",
+        Replace("3,9.600,\"Mount\",-0.1,0.2,", "3,9.600,\"Mount\"\n3,9.600,\"Mount\",-0.1,0.2,x"),
+        "",
+    ),
+    ("guide-log.txt", Cut(700), ""),
+    ("guide-log.txt", Replace("", ""), "[phd2]\nscale_arcsec = \"big\""),
+    ("guide-log.txt", Replace("", ""), "[phd2]\naxis = \"x\""),
+    ("screw.comp", Replace("50.0 50.0012 49.9991", "50.0 50.0012"), ""),
+    ("screw.comp", Replace("50.0012", "50,0012"), ""),
+    ("screw.comp", Replace("100.0 100.0025", "40.0 100.0025"), ""),
+    ("screw.comp", Replace("", ""), ""),
+    ("screw.comp", Replace("", ""), "[calibration]\nunit = \"parsec\""),
+    ("halsampler.txt", Replace("", ""), ""),
+    ("halsampler.txt", Replace("5 0.0500", "5 0.O500"), "[halsampler]\nperiod_s = 0.001"),
+    ("halsampler.txt", Replace("", ""), "[halsampler]\nperiod_s = \"fast\""),
+    (
+        "camonitor.log",
+        Replace("IOC:m1-PosSet 2024-03-10 10:00:00.1", "IOC:m1-PosSet yesterday 10:00:00.1"),
+        "",
+    ),
+    (
+        "camonitor.log",
+        Replace(
+            "IOC:m1-PosSet 2024-03-10 10:00:00.100000 2",
+            "IOC:m1-PosSet 2024-03-10 10:00:00.100000 x",
+        ),
+        "",
+    ),
+    ("camonitor.log", Cut(120), ""),
+    ("camonitor.log", Replace("", ""), ""),
+    ("scope.csv", Replace("40\t1,", "40\tx1,"), ""),
+    ("scope.csv", Replace("0\t0,000000", "nought\t0,000000"), "[text]\ndecimal = \".\""),
+    ("scope.csv", Cut(300), ""),
+    ("scope.csv", Replace("", ""), ""),
+];
+
+const BINARY: &[Case] = &[
+    ("array.npy", Replace("", ""), ""),
+    ("array.npy", Cut(9), ""),
+    ("array.npy", Cut(40), ""),
+    ("array.npy", Cut(200), ""),
+    ("array.npy", Replace("'<f8'", "'<c8'"), ""),
+    ("array.npy", Replace("'<f8'", "'|O8'"), ""),
+    ("array.npy", Replace("(12, 2)", "(3,2,4)"), ""),
+    ("array.npy", Replace("'shape'", "'shope'"), ""),
+    ("array.npy", Replace("'descr'", "'dascr'"), ""),
+    ("array.npy", Replace("(12, 2)", "(9e9,9)"), ""),
+    ("record.npy", Cut(250), ""),
+    ("record.npy", Replace("'<f4'", "'<S4'"), ""),
+    ("record.npy", Replace("time_s", "tame_s"), ""),
+    ("workbook.xlsx", Cut(600), ""),
+    ("workbook.xlsx", Cut(30), ""),
+    ("workbook.xlsx", Replace("", ""), "[sheet]\nname = \"Tabelle9\""),
+    ("workbook.xlsx", Replace("", ""), "[[column]]\nfrom = \"Soll (mm)\"\nto = \"none\""),
+    ("workbook.xlsx", Whole(b"PK\x03\x04 nothing of a book"), ""),
+    ("workbook.xlsx", Whole(b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1 rest"), ""),
+    ("sheet.ods", Cut(400), ""),
+    ("sheet.ods", Replace("", ""), "[sheet]\nname = \"Sheet2\""),
+    ("sheet.ods", Whole(b"PAR1 nothing PAR1"), ""),
+];
+
+const RECIPES: &[&str] = &[
+    "[text]\ndelimeter = \";\"",
+    "[txt]\ndelimiter = \";\"",
+    "[text]\ndecimal = \";\"",
+    "[text]\ndecimal = 5",
+    "[table]\npreamble = -1",
+    "[table]\nheader = 12",
+    "[table]\nheader = \"one\"",
+    "[table]\nmissing = \"nan\"",
+    "[table]\nruns = \"both\"",
+    "[file]\nformat = \"word\"",
+    "[file\nformat = \"table\"",
+    "[[column]]\nto = \"error_um\"",
+    "[[column]]\nfrom = \"a\"\nfactor = 2",
+    "[[column]]\nfrom = \"a\"\nsign = 0",
+    "[[column]]\nfrom = \"a\"\nsign = 3",
+    "[[column]]\nfrom = \"a\"\npass = 0",
+    "[[column]]\nfrom = \"a\"\n[[column]]\nfrom = \"a\"",
+    "column = \"a\"",
+    "[channels]\nlatency_s = \"late\"",
+    "[channels]\nlatency_s = nan",
+];
+
+fn changed(name: &str, change: &Change) -> Vec<u8> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/samples");
+    let mut bytes = std::fs::read(folder.join(name)).expect("the sample is there");
+    match change {
+        Whole(whole) => return whole.to_vec(),
+        Cut(length) => bytes.truncate(*length),
+        Byte(at, byte) => bytes[*at] = *byte,
+        Replace("", _) => {}
+        Replace(from, to) => {
+            // Samples in windows-1252 hold a character a byte.
+            let plain = |text: &str| -> Vec<u8> {
+                if name == "german.csv" {
+                    text.chars().map(|c| u8::try_from(u32::from(c)).expect("Latin-1")).collect()
+                } else {
+                    text.as_bytes().to_vec()
+                }
+            };
+            let (from, to) = (plain(from), plain(to));
+            let at = bytes.windows(from.len()).position(|window| window == from);
+            let at = at.unwrap_or_else(|| panic!("{name} holds no {from:?}"));
+            bytes.splice(at..at + from.len(), to);
+        }
+    }
+    bytes
+}
+
+fn told(change: &Change) -> String {
+    match change {
+        Whole(whole) => format!("is {}", whole.escape_ascii()),
+        Cut(length) => format!("ends after {length} bytes"),
+        Byte(at, byte) => format!("byte {at} is {byte:#04x}"),
+        Replace("", _) => "is whole".to_owned(),
+        Replace(from, to) => format!("{} becomes {}", from.escape_debug(), to.escape_debug()),
+    }
+}
+
+/// The message, held to the form all messages have.
+fn message(name: &str, error: &ImportError) -> String {
+    let text = error.to_string();
+    assert!(text.starts_with(name), "{text}");
+    let first = text.lines().next().unwrap_or_default();
+    assert!(!first.ends_with('.') && first.len() < 400, "{text}");
+    match error {
+        ImportError::Unanswered(_) => assert!(text.contains("hint: answer in a recipe"), "{text}"),
+        _ => assert!(text.contains("found ") && text.contains(", expected "), "{text}"),
+    }
+    text.replace("\n\n", "\n")
+}
+
+#[test]
+fn broken_files_are_refused_with_their_place() {
+    let (mut text, mut accepted) = (String::new(), Vec::new());
+    let cases: Vec<&Case> = [TABLES, LOGS, BINARY].into_iter().flatten().collect();
+    assert!(120 <= cases.len() + RECIPES.len(), "{}", cases.len());
+    for (name, change, recipe) in cases {
+        let bytes = changed(name, change);
+        let given = match Recipe::parse(recipe, "recipe.toml") {
+            Ok(given) => given,
+            Err(error) => {
+                let said = message("recipe.toml", &error);
+                writeln!(text, "# {name} with {}\n{said}\n", recipe.escape_debug())
+                    .expect("memory");
+                continue;
+            }
+        };
+        let by = if recipe.is_empty() {
+            String::new()
+        } else {
+            format!(", with {}", recipe.escape_debug())
+        };
+        let found = apply(&[Source { name, bytes: &bytes }], &given);
+        let Err(error) = found else {
+            accepted.push(format!("{name} {}{by}", told(change)));
+            continue;
+        };
+        writeln!(text, "# {name} {}{by}\n{}\n", told(change), message(name, &error))
+            .expect("memory");
+    }
+    for recipe in RECIPES {
+        let error = Recipe::parse(recipe, "recipe.toml").expect_err(recipe);
+        let said = message("recipe.toml", &error);
+        assert!(said.starts_with("recipe.toml:"), "{said}");
+        writeln!(text, "# recipe {}\n{said}\n", recipe.escape_debug()).expect("memory");
+    }
+    assert!(accepted.is_empty(), "accepted:\n{}", accepted.join("\n"));
+    expect_file!["expected/broken.txt"].assert_eq(&text);
+}
