@@ -16,9 +16,9 @@ impl Expression {
             Node::Constant(value) => literal(self.width, *value),
             Node::Signal(signal) => name(*signal),
             Node::Not(a) => complement(a, name),
-            Node::All(a) => format!("&{}", operand(a, name)),
-            Node::Any(a) => format!("|{}", operand(a, name)),
-            Node::Parity(a) => format!("^{}", operand(a, name)),
+            Node::All(a) => format!("&{}", unary_operand(a, name)),
+            Node::Any(a) => format!("|{}", unary_operand(a, name)),
+            Node::Parity(a) => format!("^{}", unary_operand(a, name)),
             Node::Extend(a) => {
                 format!("{{{}, {}}}", literal(self.width - a.width, 0), a.verilog(name))
             }
@@ -86,6 +86,13 @@ fn operand(e: &Expression, name: &dyn Fn(SignalId) -> String) -> String {
     }
 }
 
+/// Operand of a complement or a reduction. Another complement needs parentheses there: `^~` is one
+/// token, the exclusive nor, and `|~` and `~~` are none.
+fn unary_operand(e: &Expression, name: &dyn Fn(SignalId) -> String) -> String {
+    let text = operand(e, name);
+    if matches!(e.node, Node::Not(_)) && text.starts_with('~') { format!("({text})") } else { text }
+}
+
 fn is_comparison(e: &Expression) -> bool {
     matches!(e.node, Node::Equal(..) | Node::Less(..) | Node::LessOrEqual(..))
 }
@@ -96,7 +103,7 @@ fn complement(a: &Expression, name: &dyn Fn(SignalId) -> String) -> String {
         Node::Equal(..) => "!=",
         Node::Less(..) => ">=",
         Node::LessOrEqual(..) => ">",
-        _ => return format!("~{}", operand(a, name)),
+        _ => return format!("~{}", unary_operand(a, name)),
     };
     let sides = a.operands();
     format!("{} {opposite} {}", operand(sides[0], name), operand(sides[1], name))
