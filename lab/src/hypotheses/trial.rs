@@ -44,6 +44,7 @@ impl Trial {
         let (own, others) = (&self.component, &other.component);
         let alike = |(a, b): (&f64, &f64)| (a - b).abs() <= ALIKE * a.abs().max(b.abs());
         own.term.nonlinear() == others.term.nonlinear()
+            && own.term.priors() == others.term.priors()
             && own.kept == others.kept
             && own.whole == others.whole
             && self.coefficients.len() == other.coefficients.len()
@@ -54,7 +55,8 @@ impl Trial {
 /// The best of one candidate; `None` when it explains nothing.
 #[must_use]
 pub(crate) fn try_candidate(stage: &Stage<'_>, candidate: &Candidate) -> Option<Trial> {
-    let mut gains = gains_of(stage, &on_grid(stage.problem, candidate));
+    let on_grid = on_grid(stage.problem, candidate);
+    let mut gains = gains_of(stage, &on_grid);
     let sudden = sudden_places(stage, candidate);
     let columns: Vec<Option<Columns>> =
         sudden.par_iter().map(|place| columns_at(stage, candidate, place)).collect();
@@ -64,10 +66,11 @@ pub(crate) fn try_candidate(stage: &Stage<'_>, candidate: &Candidate) -> Option<
     let refined = starts.into_iter().map(|point| refined(stage, candidate, &grid[point]));
     let term = refined.max_by(|a, b| a.1.total_cmp(&b.1))?.0;
     let component = reduced(stage, Component::new(term));
+    let (component, looks) = placed(stage, component, candidate.looks, &same_everywhere(&on_grid));
     let (component, choices) = counted(stage, component)?;
     let best = gain_at(stage, &component)?;
     let coefficients = best.fit.coefficients;
-    Some(Trial { component, gain: best.gain, looks: candidate.looks * choices, coefficients })
+    Some(Trial { component, gain: best.gain, looks: looks * choices, coefficients })
 }
 
 /// Instants of the most sudden changes, for effects of one moment.
@@ -271,6 +274,38 @@ pub(crate) fn reduced(stage: &Stage<'_>, component: Component) -> Component {
             _ => return best,
         }
     }
+}
+
+/// Per column: true when it is the same at the first, the middle and the last place of a grid.
+fn same_everywhere(on_grid: &[Option<Columns>]) -> Vec<bool> {
+    let usable: Vec<&Columns> = on_grid.iter().flatten().collect();
+    let Some(first) = usable.first() else { return Vec::new() };
+    let others = [usable[usable.len() / 2], usable[usable.len() - 1]];
+    let same = |column: usize| others.iter().all(|other| other.raw[column] == first.raw[column]);
+    (0..first.raw.len()).map(same).collect()
+}
+
+/// An effect with the looks it must pay for: none are for columns that have no place, and those
+/// that have one must pay for the looks as well to stay beside them.
+fn placed(
+    stage: &Stage<'_>,
+    component: Component,
+    looks: f64,
+    same_everywhere: &[bool],
+) -> (Component, f64) {
+    let kept = component.kept.iter().zip(same_everywhere).map(|(kept, same)| *kept && *same);
+    let placeless = Component { kept: kept.collect(), ..component.clone() };
+    if looks <= 1.0 || placeless.width() == 0 || placeless.kept.len() != component.kept.len() {
+        return (component, looks);
+    }
+    let price = stage.problem.price_of_a_number();
+    let score = |component: &Component| {
+        gain_at(stage, component)
+            .map_or(f64::NEG_INFINITY, |gain| gain.gain - price * count(component.width()))
+    };
+    let placed_wins = placeless.width() < component.width()
+        && score(&placeless) < score(&component) - 2.0 * libm::log(looks);
+    if placed_wins { (component, looks) } else { (placeless, 1.0) }
 }
 
 fn without(component: &Component, atom: &[usize]) -> Component {

@@ -47,6 +47,26 @@ pub(crate) fn settle(problem: &Problem, columns: &Columns, start: &[Noise]) -> F
     fit
 }
 
+/// The same, and no less likely than with as many slow parts as the noise of a smaller model.
+///
+/// A noise found anew pays for its parts and may have fewer; compared with a model that keeps
+/// them, the columns would be charged for what the noise has lost.
+#[must_use]
+pub(crate) fn settle_beside(
+    problem: &Problem,
+    columns: &Columns,
+    start: &[Noise],
+    smaller: &[Noise],
+) -> Fit {
+    let fit = settle(problem, columns, start);
+    let fewer = |(own, other): (&Noise, &Noise)| own.slow.len() < other.slow.len();
+    if !fit.noises.iter().zip(smaller).any(fewer) {
+        return fit;
+    }
+    let kept = settle(problem, columns, smaller);
+    if fit.log_likelihood < kept.log_likelihood { kept } else { fit }
+}
+
 /// Fits columns under known noise.
 #[must_use]
 pub(crate) fn with_noise(

@@ -11,7 +11,7 @@ use super::pruning::{Dropped, pruned};
 use super::refusal::Refusal;
 use crate::hypotheses::{Trial, candidates, setting_trials, try_candidate};
 use crate::model::{
-    Columns, Component, Fit, Judged, Problem, Stage, State, holdout_rms, noises_of, settle,
+    Columns, Component, Fit, Judged, Problem, Stage, State, holdout_rms, noises_of, settle_beside,
     with_noise,
 };
 use crate::noise::{Noise, rms};
@@ -209,7 +209,8 @@ fn judge(problem: &Problem, now: &State, trial: &Trial, tried: f64) -> Option<Ju
     // The noise begins with what the trial leaves, lest the first noise hides the effect.
     let left = more.left(&now.fit.left, &trial.coefficients);
     let columns = now.columns.and(&more);
-    let fit = settle(problem, &columns, &noises_of(problem, &left));
+    let start = noises_of(problem, &left);
+    let fit = settle_beside(problem, &columns, &start, &now.fit.noises);
     let gain = 2.0 * (fit.log_likelihood - now.fit.log_likelihood);
     let freedom = trial.freedom();
     let price = problem.price_of_a_number();

@@ -3,7 +3,9 @@
 use rayon::prelude::*;
 
 use crate::hypotheses::{above_hunting, matters};
-use crate::model::{Component, JointCovariance, Problem, State, helps_unseen, joint_covariance};
+use crate::model::{
+    Component, JointCovariance, Problem, State, helps_unseen, joint_covariance, settle_beside,
+};
 use crate::noise::swift_rms;
 use crate::numerics::least_squares::covariance_rows;
 use crate::numerics::{chi_squared_tail, count};
@@ -59,7 +61,9 @@ fn without(problem: &Problem, state: &State, index: usize) -> Option<State> {
 /// Why an effect is not needed; `None` when it is.
 fn superfluous(problem: &Problem, state: &State, fewer: &State, index: usize) -> Option<String> {
     let width = count(state.components[index].width().max(1));
-    let gain = 2.0 * (state.fit.log_likelihood - fewer.fit.log_likelihood);
+    let fit = settle_beside(problem, &state.columns, &state.fit.noises, &fewer.fit.noises);
+    let own = fit.log_likelihood.max(state.fit.log_likelihood);
+    let gain = 2.0 * (own - fewer.fit.log_likelihood);
     let size = state.components[index].size_um(problem, state.coefficients(index).0);
     let after = swift_rms(&problem.layout, &state.fit.left);
     let unit = problem.measurement.unit();
