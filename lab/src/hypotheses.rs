@@ -10,6 +10,7 @@ mod probes;
 mod repeatability;
 mod setting_trial;
 mod settings;
+mod slow_noise;
 mod tails;
 mod trial;
 
@@ -18,5 +19,6 @@ pub(crate) use plain_shapes::better_shape;
 pub use probes::Structure;
 pub(crate) use probes::{above_hunting, all_structures, least_above_hunting, matters, structures};
 pub(crate) use setting_trial::setting_trials;
+pub(crate) use slow_noise::taken_for_noise;
 pub(crate) use tails::chance_with_tails;
 pub(crate) use trial::{Trial, gain_at, try_candidate};

@@ -11,9 +11,11 @@ mod sweep;
 #[cfg(test)]
 mod tests;
 mod whitener;
+mod worth;
 
 pub use kernel::{Noise, SlowPart};
 pub use layout::{Block, Layout};
 pub(crate) use layout::{rms, swift_rms};
 pub(crate) use noise_fit::{fit_noise, outlier_inflation};
 pub(crate) use whitener::Whitener;
+pub(crate) use worth::effective_samples;

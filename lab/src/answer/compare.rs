@@ -2,10 +2,9 @@
 
 use helixlock_plant::prediction::Sensor;
 
-use crate::hypotheses::{Structure, all_structures};
+use crate::hypotheses::{Structure, all_structures, taken_for_noise};
 use crate::model::{Problem, State};
-use crate::noise::{Layout, Noise, Whitener, rms};
-use crate::numerics::least_squares::dot;
+use crate::noise::{Noise, effective_samples, rms};
 use crate::numerics::{count, median, spread};
 use crate::policy::chance::SIGNIFICANCE;
 use crate::policy::extent::COMPARED_ROWS;
@@ -72,7 +71,8 @@ pub struct SensorResidual {
 pub struct Comparison {
     /// One entry a sensor.
     pub sensors: Vec<SensorResidual>,
-    /// Everything that was looked along, clearest first; chances count all looks.
+    /// Everything that was looked along, clearest first; chances count all looks. A smooth curve
+    /// that cannot be told from slow noise stands before all.
     pub along: Vec<Structure>,
     /// Lines over the spindle angle, named where the machine file knows them.
     pub lines: Vec<NamedLine>,
@@ -93,8 +93,11 @@ pub fn compare(problem: &Problem) -> Comparison {
     let thinned = problem.thinned(COMPARED_ROWS);
     let small = thinned.as_ref().unwrap_or(problem);
     let state = State::bare(small);
-    let along = all_structures(small, &state.columns, &state.fit);
+    let mut along = all_structures(small, &state.columns, &state.fit);
     let noise_p_value = along.first().map_or(1.0, |first| first.p_value);
+    let taken = taken_for_noise(small, &state.fit, &along);
+    let noise_only = SIGNIFICANCE < noise_p_value && taken.is_none();
+    along.splice(..0, taken);
     let residual = problem.residual();
     let sensors = (0..problem.sensors.len())
         .map(|sensor| sensor_residual(problem, (small, &state), &residual, sensor))
@@ -102,7 +105,7 @@ pub fn compare(problem: &Problem) -> Comparison {
     Comparison {
         sensors,
         lines: lines(small, &state.columns, &state.fit),
-        noise_only: SIGNIFICANCE < noise_p_value,
+        noise_only,
         noise_p_value,
         along,
         residual,
@@ -152,13 +155,6 @@ fn sensor_residual(
             .count(),
         spectrum: amplitude_spectrum(problem, residual, sensor),
     }
-}
-
-/// Variance of a sample over the variance of the best mean: `σ²·1ᵀK⁻¹1`.
-fn effective_samples(layout: &Layout, noise: &Noise) -> f64 {
-    let whitener = Whitener::new(layout, std::slice::from_ref(noise));
-    let ones = whitener.whiten_only(&vec![1.0; layout.len()]);
-    noise.variance() * dot(&ones, &ones)
 }
 
 fn noise_size(noise: &Noise, interval_s: f64) -> NoiseSize {

@@ -6,6 +6,7 @@
 use super::calibration;
 use super::jumps::jumps;
 use super::repeatability::repeatability;
+use super::slow_noise::taken_for_noise;
 use super::tails::chance_with_tails;
 use crate::model::{Columns, Fit, Problem, Row, Stage, settle};
 use crate::noise::rms;
@@ -79,7 +80,9 @@ pub(crate) fn structures(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<S
     let noise = rms(&problem.layout, &fit.left);
     let exact = SHARE_OF_ERROR * rms(&problem.layout, &problem.residual());
     let mut found = all_structures(problem, model, fit);
+    let taken = taken_for_noise(problem, fit, &found);
     found.retain(|s| matters(s.rms_um, noise, s.p_value));
+    found.extend(taken);
     found.retain(|s| exact < s.rms_um);
     // What is no effect may be any of its lines.
     found.retain(|s| above_hunting(problem, SLOW_SHARE_OF_HUNTING * s.rms_um));

@@ -1,0 +1,37 @@
+//! Slow noise that may be an effect: what a fit calls noise though it hardly changes in a pass.
+//!
+//! A noise whose correlation is as long as the pass follows any smooth curve, so that no curve is
+//! beyond chance against it. It has then been told from nothing, and nothing from it.
+
+use super::probes::Structure;
+use crate::model::{Fit, Problem};
+use crate::noise::{effective_samples, rms};
+use crate::numerics::count;
+use crate::policy::size::{SMOOTH_SHARE, WORTH_A_PASS};
+
+/// The smooth curve that a noise as slow as the pass has taken for its own, if it is most of what
+/// is left; `all` is all that was looked for.
+#[must_use]
+pub(crate) fn taken_for_noise(
+    problem: &Problem,
+    fit: &Fit,
+    all: &[Structure],
+) -> Option<Structure> {
+    let worth = (0..problem.sensors.len())
+        .map(|sensor| samples_a_pass(problem, fit, sensor))
+        .fold(f64::INFINITY, f64::min);
+    if WORTH_A_PASS <= worth {
+        return None;
+    }
+    let least_um = SMOOTH_SHARE * rms(&problem.layout, &fit.left);
+    let smooth = all.iter().filter(|one| one.shape == "smooth curve" && least_um < one.rms_um);
+    let curve = smooth.max_by(|a, b| a.rms_um.total_cmp(&b.rms_um))?;
+    let shape = format!("smooth curve, or noise so slow that a pass is worth {worth:.1} samples");
+    Some(Structure { shape, ..curve.clone() })
+}
+
+/// Independent samples' worth of a pass of a sensor about its mean.
+fn samples_a_pass(problem: &Problem, fit: &Fit, sensor: usize) -> f64 {
+    let (layout, _) = problem.of_sensor(sensor);
+    effective_samples(&layout, &fit.noises[sensor]) / count(layout.blocks.len().max(1))
+}
