@@ -6,6 +6,7 @@
 mod coordinates;
 mod error;
 mod headers;
+mod held;
 mod passes;
 mod plausible;
 mod pulse_trains;

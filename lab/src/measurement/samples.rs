@@ -149,7 +149,7 @@ impl Measurement {
             ));
         }
         let passes = passes::split(table, &coordinates, &rows, &mut notes);
-        Ok(assemble(table, nominal, &coordinates, passes, notes).without_treads())
+        Ok(assemble(table, nominal, &coordinates, passes, notes).without_holds().without_treads())
     }
 
     /// Number of samples.

@@ -93,6 +93,23 @@ pub(crate) const OFF_THE_LATTICE: f64 = 0.02;
 /// in four changes keeps its treads.
 pub(crate) const CHANGES_A_LEAP: usize = 2;
 
+/// Fewest changes of a log that tell whether it follows a clock, each counted by its chance to lie
+/// elsewhere.
+///
+/// Chosen: of logs that change at any time, one in 2000 seems to. Doubled: sensors that are read
+/// twelve to 23 times a record keep their holds.
+pub(crate) const FEWEST_TICKS: f64 = 12.0;
+
+/// Rows a reading, at least, for its hold to matter.
+///
+/// Chosen. Doubled: holds of three to five rows stay.
+pub(crate) const ROWS_A_READING: usize = 3;
+
+/// Share of those changes that lie at the ticks of the clock that a log follows.
+///
+/// Chosen: jitter of the instrument's clock moves some. Doubled: none is more than all.
+pub(crate) const AT_A_TICK: f64 = 0.8;
+
 /// Throughout in this range, a temperature of a shop is in kelvin; one in °C never is.
 ///
 /// Source: −73 to 127 °C.

@@ -1,0 +1,193 @@
+//! Logged quantities that a slow instrument read now and then, each reading held until the next.
+//!
+//! Where a column changes only at the ticks of a clock, the value behind a tick is what was read
+//! there, and nothing is known between. A straight line from reading to reading is as true to the
+//! log as the staircase, and does not lag behind the truth by half a tick.
+
+use helixlock_plant::{Bridging, LOGGED_COLUMNS, LoggedColumn};
+
+use super::Measurement;
+use crate::numerics::count;
+use crate::policy::reading::{AT_A_TICK, FEWEST_TICKS, ROWS_A_READING};
+
+/// How well a tick is known, in intervals of rows.
+const SLACK: f64 = 0.25;
+
+/// When an instrument was read: at `start` and every `period` before and after.
+#[derive(Debug, Clone, Copy)]
+struct Clock {
+    start: f64,
+    period: f64,
+}
+
+/// The last instant with one value and the first with another.
+type Change = [f64; 2];
+
+impl Measurement {
+    /// The same with held readings joined by straight lines, and a note on each.
+    pub(super) fn without_holds(mut self) -> Self {
+        let steady = LOGGED_COLUMNS.iter().filter(|column| column.bridging != Bridging::Never);
+        for LoggedColumn { name, bridging, .. } in steady {
+            let goes_on = *bridging != Bridging::WithinPasses;
+            let Some(values) = self.covariates.get(*name) else { continue };
+            let Some(clock) = Clock::of(&self.time_s, values) else { continue };
+            let mut joined = Vec::with_capacity(values.len());
+            while joined.len() < values.len() {
+                let from = joined.len();
+                let same = |pass: &&usize| goes_on || **pass == self.pass[from];
+                let rows = from..from + self.pass[from..].iter().take_while(same).count();
+                joined.extend(clock.joined(&self.time_s[rows.clone()], &values[rows]));
+            }
+            self.notes.push(format!(
+                "column `{name}` repeats each reading for {:.3} s: between readings it is interpolated",
+                clock.period
+            ));
+            self.covariates.insert((*name).to_owned(), joined);
+        }
+        self
+    }
+}
+
+/// Most ticks from one change to the next that changes usually: a reading may equal the last.
+const MOST_TICKS: u8 = 4;
+
+impl Clock {
+    /// The clock that a column follows; `None` when it changes at other times, or at every row.
+    fn of(time: &[f64], values: &[f64]) -> Option<Self> {
+        if time.windows(2).any(|pair| pair[1] < pair[0]) {
+            return None;
+        }
+        let differs = |&row: &usize| values[row].to_bits() != values[row - 1].to_bits();
+        let rows: Vec<usize> = (1..values.len()).filter(differs).collect();
+        let changes: Vec<Change> = rows.iter().map(|&row| [time[row - 1], time[row]]).collect();
+        if changes.len() < 2 || values.len() < ROWS_A_READING * changes.len() {
+            return None;
+        }
+        let interval = (time[time.len() - 1] - time[0]) / count(time.len());
+        let mut gaps: Vec<f64> =
+            changes.windows(2).map(|pair| middle(&pair[1]) - middle(&pair[0])).collect();
+        gaps.sort_by(f64::total_cmp);
+        let usual = gaps[gaps.len() / 4];
+        (1..=MOST_TICKS)
+            .filter_map(|ticks| Self::near(&changes, usual / f64::from(ticks)))
+            .find(|clock| clock.explains(&changes, interval))
+    }
+
+    /// The clock of about this period that the changes follow best, found from one to the next.
+    fn near(changes: &[Change], period: f64) -> Option<Self> {
+        let told = changes.iter().filter(|[before, after]| after - before <= 0.5 * period);
+        let ticks: Vec<f64> = told.map(middle).collect();
+        let mut clock = Self { start: *ticks.first()?, period };
+        // Sums of number, number², instant and number × instant, against the first.
+        let (mut n, mut k, mut kk, mut t, mut kt) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        for tick in &ticks {
+            let (number, since) = (clock.number(*tick).round(), tick - ticks[0]);
+            (n, k, kk) = (n + 1.0, k + number, kk + number * number);
+            (t, kt) = (t + since, kt + number * since);
+            let spread = n * kk - k * k;
+            if 0.0 < spread {
+                clock.period = (n * kt - k * t) / spread;
+                clock.start = ticks[0] + (t - clock.period * k) / n;
+            }
+        }
+        (0.0 < clock.period).then_some(clock)
+    }
+
+    /// True when hardly a change lies anywhere but at a tick, of those that might.
+    fn explains(&self, changes: &[Change], interval: f64) -> bool {
+        let (mut might, mut elsewhere) = (0.0, 0.0);
+        for change in changes {
+            let reach = 0.5 * (change[1] - change[0]) + SLACK * interval;
+            let number = self.number(middle(change));
+            might += (1.0 - 2.0 * reach / self.period).max(0.0);
+            if reach < self.period * (number - number.round()).abs() {
+                elsewhere += 1.0;
+            }
+        }
+        FEWEST_TICKS <= might && elsewhere < (1.0 - AT_A_TICK) * might
+    }
+
+    /// Ticks since the start, and parts of one.
+    fn number(&self, time: f64) -> f64 {
+        (time - self.start) / self.period
+    }
+
+    /// Straight lines from reading to reading; after the last one its value.
+    fn joined(&self, time: &[f64], values: &[f64]) -> Vec<f64> {
+        let readings = self.readings(time, values);
+        let at = |time: &f64| {
+            let next = readings.partition_point(|reading| reading[0] <= *time);
+            match (next.checked_sub(1).and_then(|last| readings.get(last)), readings.get(next)) {
+                (Some([t0, v0]), Some([t1, v1])) => v0 + (v1 - v0) * (time - t0) / (t1 - t0),
+                (Some([_, value]), None) | (None, Some([_, value])) => *value,
+                (None, None) => f64::NAN,
+            }
+        };
+        time.iter().map(at).collect()
+    }
+
+    /// Instant and value of every reading: that of the middle row until the next tick.
+    fn readings(&self, time: &[f64], values: &[f64]) -> Vec<[f64; 2]> {
+        let number = |row: usize| self.number(time[row]).floor();
+        let mut readings = Vec::new();
+        let mut from = 0;
+        for row in 1..=time.len() {
+            if row == time.len() || number(from) < number(row) {
+                readings.push([
+                    self.start + self.period * number(from),
+                    values[usize::midpoint(from, row)],
+                ]);
+                from = row;
+            }
+        }
+        readings
+    }
+}
+
+fn middle([before, after]: &Change) -> f64 {
+    0.5 * (before + after)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 1200 rows at uneven instants within 900 s.
+    fn instants() -> Vec<f64> {
+        (0..1200).map(|i| 0.75 * (f64::from(i) + 0.4 * libm::sin(1.7 * f64::from(i)))).collect()
+    }
+
+    fn truth(time: f64) -> f64 {
+        20.0 + libm::sin(time / 60.0)
+    }
+
+    fn worst(time: &[f64], values: &[f64]) -> f64 {
+        time.iter().zip(values).map(|(t, v)| (v - truth(*t)).abs()).fold(0.0, f64::max)
+    }
+
+    /// A reading held for 15 s is up to 0.25 behind a slope of 1/60; a chord leaves h²/8 of the
+    /// bend, 0.008, and rounding 0.005. The last reading is held as it was.
+    #[test]
+    fn held_readings_are_joined() {
+        let time = instants();
+        let round = |value: f64| (value / 0.01).round() * 0.01;
+        let held: Vec<f64> = time.iter().map(|t| round(truth(15.0 * (t / 15.0).floor()))).collect();
+        let clock = Clock::of(&time, &held).expect("a clock");
+        assert!((clock.period - 15.0).abs() < 0.02, "{clock:?}");
+        let joined = clock.joined(&time, &held);
+        let until = time.partition_point(|t| *t < 885.0);
+        assert!(0.2 < worst(&time, &held));
+        let worst = worst(&time[..until], &joined[..until]);
+        assert!(worst < 0.03, "{worst}");
+    }
+
+    #[test]
+    fn rounded_and_continuous_logs_follow_no_clock() {
+        let time = instants();
+        let of = |value: fn(f64) -> f64| time.iter().map(|t| value(*t)).collect::<Vec<_>>();
+        assert!(Clock::of(&time, &of(truth)).is_none(), "changes at every row");
+        let rounded = of(|t| (truth(t) / 0.1).round() * 0.1);
+        assert!(Clock::of(&time, &rounded).is_none(), "changes where the truth crosses a step");
+        assert!(Clock::of(&time, &of(|_| 20.0)).is_none(), "constant");
+    }
+}
