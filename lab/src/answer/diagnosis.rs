@@ -1,5 +1,6 @@
 //! The answer: what is missing in a model, how sure that is, and what would make it surer.
 
+use helixlock_plant::{Role, Term};
 use rayon::prelude::*;
 
 use super::experiment::{self, Advice};
@@ -58,7 +59,7 @@ pub struct FittedEffect {
     /// Name of the effect.
     pub name: String,
     /// The effect with its values, ready for a machine file.
-    pub term: helixlock_plant::Term,
+    pub term: Term,
     /// Its parameters.
     pub parameters: Vec<FittedParameter>,
 }
@@ -251,7 +252,8 @@ fn fitted(state: &State, covariance: &JointCovariance, index: usize) -> FittedEf
         let what = &component.term.parameters[estimate.parameter];
         let stderr =
             libm::hypot(estimate.stderr, component.term.nature().uncertainty * estimate.value);
-        let warning = warning(estimate.value, stderr, &what.range);
+        let warning = warning(estimate.value, stderr, &what.range)
+            .or_else(|| another_material(&component.term, estimate.parameter));
         parameters.push(FittedParameter {
             key: what.key(),
             value: estimate.value,
@@ -274,7 +276,7 @@ fn fitted(state: &State, covariance: &JointCovariance, index: usize) -> FittedEf
 }
 
 /// True for a setting that is a whole number: every one that has no unit.
-fn setting_counts(term: &helixlock_plant::Term, what: &helixlock_plant::Parameter) -> bool {
+fn setting_counts(term: &Term, what: &helixlock_plant::Parameter) -> bool {
     term.nature().is_setting() && what.unit.suffix().is_empty()
 }
 
@@ -283,6 +285,14 @@ fn warning(value: f64, stderr: f64, range: &std::ops::RangeInclusive<f64>) -> Op
         return Some("useless: not two standard errors from zero");
     }
     warning_at_bound(value, stderr, range)
+}
+
+/// Said of a constant of physics that was fitted freely.
+fn another_material(term: &Term, parameter: usize) -> Option<&'static str> {
+    let known = &Term::card(term.kind())?.parameters.get(parameter)?.role;
+    let freed = term.parameters[parameter].role == Role::Linear;
+    (freed && matches!(known, Role::Known { .. }))
+        .then_some("not what the machine file's material does")
 }
 
 fn warning_at_bound(

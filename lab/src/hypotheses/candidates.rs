@@ -1,9 +1,10 @@
 //! Which effects can be tried on a measurement, and where their nonlinear parameters may lie.
 
-use helixlock_plant::{CATALOGUE, Entry, Formula, Parameter, Record, Search, Term};
+use helixlock_plant::{CATALOGUE, Entry, Formula, Parameter, Role, Search, Term};
 
 use crate::model::{Component, Problem, Stage};
 use crate::numerics::{count, median, spread};
+use crate::policy::evidence::{ANOTHER_MATERIAL, LOOSELY_KNOWN, MARGIN};
 use crate::policy::extent::{FREQUENCIES, LONGEST, NARROWEST, OVERTONES, SLOWEST_WAVES};
 use crate::spectrum::{Scan, gear_orders, strongest_first};
 
@@ -44,6 +45,8 @@ pub(crate) fn candidates(stage: &Stage<'_>, found: &[Component]) -> Vec<Candidat
         .chain(problem.extra.iter().cloned())
         .filter(|term| logged(problem, term))
         .filter_map(|term| candidate(stage, term))
+        .flat_map(|candidate| [freed(&candidate), Some(candidate)])
+        .flatten()
         .map(|candidate| with_overtones(candidate, stage.problem, found))
         .collect()
 }
@@ -64,6 +67,21 @@ fn with_overtones(mut candidate: Candidate, problem: &Problem, found: &[Componen
     candidate.grid.extend(overtones.map(|order| vec![order]));
     candidate.looks = count(candidate.grid.len());
     candidate
+}
+
+/// An effect whose constant is that of a material, with any value of it: nobody looks into an alloy.
+///
+/// It must beat the constant of the textbook by the margin that names an effect.
+fn freed(candidate: &Candidate) -> Option<Candidate> {
+    let mut term = candidate.term.clone();
+    let what = term
+        .parameters
+        .iter_mut()
+        .find(|what| matches!(what.role, Role::Known { stderr } if LOOSELY_KNOWN <= stderr))?;
+    what.role = Role::Linear;
+    what.range = ANOTHER_MATERIAL;
+    let looks = candidate.looks * libm::exp(0.5 * MARGIN);
+    Some(Candidate { term, looks, ..candidate.clone() })
 }
 
 /// Parameters in µm are in seconds of arc on a rotary chain.
@@ -166,7 +184,7 @@ fn evenly(low: f64, high: f64, points: usize) -> Vec<f64> {
 fn logarithmic(problem: &Problem, parameter: &Parameter) -> Vec<f64> {
     let (mut low, mut high) = (*parameter.range.start(), *parameter.range.end());
     let told = match parameter.unit.suffix().as_str() {
-        "s" => Some((interval_s(&problem.record), spread(&problem.record.time_s))),
+        "s" => Some((interval_s(problem), spread(&problem.record.time_s))),
         "mm" => {
             let travel_mm = spread(&problem.record.position_mm);
             Some((travel_mm / NARROWEST, travel_mm))
@@ -181,11 +199,15 @@ fn logarithmic(problem: &Problem, parameter: &Parameter) -> Vec<f64> {
     evenly(from, to, PLAIN).into_iter().map(libm::exp).collect()
 }
 
-/// Median time between two samples of a pass.
-fn interval_s(record: &Record) -> f64 {
-    let pairs = (1..record.len()).filter(|&row| record.pass[row] == record.pass[row - 1]);
+/// Median time between two samples of a pass as they were measured, before any means.
+fn interval_s(problem: &Problem) -> f64 {
+    let finer = problem.finer.as_deref();
+    let record = finer.map_or(&problem.record, |finer| &finer.record);
+    let measured = finer.and_then(|finer| finer.measured.clone());
+    let rows = measured.unwrap_or_else(|| (0..record.len()).collect());
+    let pairs = rows.windows(2).filter(|pair| record.pass[pair[0]] == record.pass[pair[1]]);
     let mut intervals: Vec<f64> =
-        pairs.map(|row| (record.time_s[row] - record.time_s[row - 1]).abs()).collect();
+        pairs.map(|pair| (record.time_s[pair[1]] - record.time_s[pair[0]]).abs()).collect();
     median(&mut intervals)
 }
 

@@ -12,6 +12,8 @@ use crate::model::{Columns, Component, GridColumns, Problem};
 const MOST_VALUES: usize = 1 << 23;
 
 /// Columns at every place of a candidate's grid, from memory if they are there.
+///
+/// A grid of one place is not worth it, and may be that of a twin with other priors.
 #[must_use]
 pub(crate) fn on_grid(problem: &Problem, candidate: &Candidate) -> GridColumns {
     let kind = match &candidate.term.formula {
@@ -22,7 +24,7 @@ pub(crate) fn on_grid(problem: &Problem, candidate: &Candidate) -> GridColumns {
     let values = candidate.grid.len() * width * problem.rows.len();
     let at = |point| usable(problem, &Component::new(candidate.at(point)));
     let make = || Arc::new((0..candidate.grid.len()).into_par_iter().map(at).collect());
-    match kind.filter(|_| values <= MOST_VALUES) {
+    match kind.filter(|_| 1 < candidate.grid.len() && values <= MOST_VALUES) {
         Some(kind) => problem.designs.of(kind, &candidate.grid, make),
         None => make(),
     }

@@ -103,3 +103,16 @@ pub(crate) const LARGEST_STEP_UM: f64 = 5.0;
 ///
 /// Chosen: the formula's own error. Doubled: nothing that is not within 0.04 of whole.
 pub(crate) const WHOLE: f64 = 0.02;
+
+/// Relative error of a constant of physics from which on it is that of a material, which another
+/// alloy changes by far more.
+///
+/// Source: the expansion of steels is tabled to 5 %, the refraction of air known to 2 % over a
+/// day's weather. Doubled: no constant is free.
+pub(crate) const LOOSELY_KNOWN: f64 = 0.05;
+
+/// Factors on such a constant that another material may have.
+///
+/// Source: against steel's 11.5 ppm/K, Invar has a tenth and polymers up to ten times as much.
+/// Doubled: nothing moves that is a workpiece.
+pub(crate) const ANOTHER_MATERIAL: std::ops::RangeInclusive<f64> = 0.05..=10.0;
