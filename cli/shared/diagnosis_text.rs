@@ -4,7 +4,10 @@ use std::io::Write;
 
 use helixlock_lab::{Diagnosis, FittedEffect};
 
-use crate::shared::words::with_p;
+use crate::shared::words::{with_error, with_p};
+
+/// Standard errors below this have no digit among three decimals.
+const SMALL: f64 = 5e-4;
 
 /// The diagnosis for people: verdict, rounds, candidates, what is left, what to do next.
 pub(crate) fn print(out: &mut impl Write, diagnosis: &Diagnosis, unit: &str) -> anyhow::Result<()> {
@@ -42,9 +45,13 @@ pub(crate) fn print(out: &mut impl Write, diagnosis: &Diagnosis, unit: &str) -> 
 pub(crate) fn print_effect(out: &mut impl Write, effect: &FittedEffect) -> anyhow::Result<()> {
     writeln!(out, "\n{}", effect.name)?;
     for parameter in &effect.parameters {
-        let stderr = parameter.stderr.map_or(String::new(), |s| format!(" ± {s:.3}"));
+        let value = match parameter.stderr {
+            Some(stderr) if 0.0 < stderr && stderr < SMALL => with_error(parameter.value, stderr),
+            Some(stderr) => format!("{:.4} ± {stderr:.3}", parameter.value),
+            None => format!("{:.4}", parameter.value),
+        };
         let warning = parameter.warning.map_or(String::new(), |w| format!("  ({w})"));
-        writeln!(out, "  {} = {:.4}{stderr}{warning}", parameter.key, parameter.value)?;
+        writeln!(out, "  {} = {value}{warning}", parameter.key)?;
     }
     Ok(())
 }

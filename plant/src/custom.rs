@@ -199,19 +199,25 @@ impl Custom {
         4 <= tried
     }
 
-    /// The formula at the trial's point, with 1 added to a parameter for each time it is in `moves`.
+    /// The formula at the trial's point, moved in a parameter once for each time it is in `moves`.
+    ///
+    /// Every trial moves by another irrational step: one of 1 is a whole turn to many a phase.
     fn evaluate_trial(&self, trial: u32, moves: &[usize]) -> f64 {
+        let golden = |number: u32| {
+            let turn = 0.618_033_988_749_895 * f64::from(number);
+            turn - turn.floor()
+        };
+        let step = 0.3 + golden(1 + trial * 7);
         let values: Vec<_> = (0_u32..)
             .zip(&self.variables)
             .map(|(place, variable)| {
                 // Golden-ratio points: spread over 0.1 to 3.1, never two alike.
-                let turn = 0.618_033_988_749_895 * f64::from(1 + trial * 17 + place * 5);
-                let base = 0.1 + 3.0 * (turn - turn.floor());
+                let base = 0.1 + 3.0 * golden(1 + trial * 17 + place * 5);
                 match variable {
                     Variable::Parameter(index) => moves
                         .iter()
                         .filter(|moved| *moved == index)
-                        .fold(base, |value, _| value + 1.0),
+                        .fold(base, |value, _| value + step),
                     _ => base,
                 }
             })
@@ -291,6 +297,7 @@ mod tests {
         assert_eq!(roles("a*sin(2*pi*time_s/p) + b", &["a", "p", "b"]), [linear, bent, linear]);
         assert_eq!(roles("a*b*time_s", &["a", "b"]), [linear, bent]);
         assert_eq!(roles("a^2*position_mm", &["a"]), [bent]);
+        assert_eq!(roles("a*sin(2*pi*(time_s/9 + turns))", &["a", "turns"]), [linear, bent]);
         assert_eq!(roles("a*exp(0-position_mm/l)", &["a", "l"]), [linear, bent]);
     }
 
