@@ -13,6 +13,7 @@ const ROOTS: &[(&str, &str)] = &[
     ("rtl", "rtl/src/lib.rs"),
     ("netlist", "netlist/src/lib.rs"),
     ("traces", "traces/src/lib.rs"),
+    ("import", "import/src/lib.rs"),
     ("metrology", "metrology/src/lib.rs"),
     ("report", "report/src/lib.rs"),
     ("plant", "plant/src/lib.rs"),
