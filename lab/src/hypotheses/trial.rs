@@ -276,10 +276,11 @@ pub(crate) fn reduced(stage: &Stage<'_>, component: Component) -> Component {
     }
 }
 
-/// Per column: true when it is the same at the first, the middle and the last place of a grid.
+/// Per column: true when it is the same at the first, the middle and the last place of a grid;
+/// nothing where there is one place only, whose looks are no places.
 fn same_everywhere(on_grid: &[Option<Columns>]) -> Vec<bool> {
     let usable: Vec<&Columns> = on_grid.iter().flatten().collect();
-    let Some(first) = usable.first() else { return Vec::new() };
+    let Some(first) = usable.first().filter(|_| 1 < on_grid.len()) else { return Vec::new() };
     let others = [usable[usable.len() / 2], usable[usable.len() - 1]];
     let same = |column: usize| others.iter().all(|other| other.raw[column] == first.raw[column]);
     (0..first.raw.len()).map(same).collect()

@@ -31,8 +31,8 @@ pub(crate) const WORTH_A_PASS: f64 = 1.5;
 /// Share of what is left from which on a smooth curve under such noise is reported.
 ///
 /// Measured on records of the second generator: over slow columns and thermostats it is 0.65 to
-/// 0.85 in seven of seven; above 0.6 it is in two of 222 records with nothing hidden, of which one
-/// is below 0.65. Doubled: none is more than all.
+/// 0.85 in seven of seven, and in two of 222 records with nothing hidden. Doubled: none is more
+/// than all.
 pub(crate) const SMOOTH_SHARE: f64 = 0.65;
 
 /// Variance by which a shape of many columns must exceed what it leaves, for such columns also
