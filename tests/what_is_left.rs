@@ -1,6 +1,8 @@
 //! What is left beside noise is seen, and noise is not taken for anything.
 
-use helixlock_lab::{Verdict, compare, diagnose};
+use std::f64::consts::TAU;
+
+use helixlock_lab::{Diagnosis, Verdict, compare, diagnose};
 
 use crate::support::passes::{Passes, noise};
 
@@ -17,7 +19,7 @@ fn noise_at_two_speeds_and_in_two_directions_is_noise() {
 #[test]
 fn a_smooth_error_of_each_pass_s_own_is_not_noise() {
     let turning = |time_s: f64, position_mm: f64, direction: f64| {
-        let wave = libm::cos(position_mm / 450.0 * std::f64::consts::TAU);
+        let wave = libm::cos(position_mm / 450.0 * TAU);
         1.5 * direction * (1.0 - time_s / 4000.0) * wave
     };
     let diagnosis = diagnose(&Passes::new(&turning, &mut noise(7, 5.0)).problem());
@@ -38,4 +40,106 @@ fn plain_shapes_are_not_named_after_effects_that_imitate_them() {
         let shapes: Vec<&str> = diagnosis.residual.iter().map(|s| s.shape.as_str()).collect();
         assert!(shapes.iter().any(|shape| shape.starts_with(name)), "{name}: {shapes:?}");
     }
+}
+
+/// True when a diagnosis is `unexplained` by a shape of these words along something.
+fn shows(diagnosis: &Diagnosis, along: &str, shape: &str) -> bool {
+    let told = |one: &helixlock_lab::Structure| one.along == along && one.shape.starts_with(shape);
+    diagnosis.verdict == Verdict::Unexplained && diagnosis.residual.iter().any(told)
+}
+
+/// A screw's first and third harmonics follow a square wave, a headstock that warms up a
+/// rise and fall, drifts of the phase and of the laser a parabola.
+#[test]
+fn shapes_of_turns_and_time_are_told_and_not_named() {
+    type Shape<'a> = &'a dyn Fn(f64, f64) -> f64;
+    let square = |_: f64, x: f64| 0.1 * libm::sin(x / 12.0 * TAU + 0.3).signum();
+    let risen = |t: f64, _: f64| 2.0 * t / 900.0 * libm::exp(1.0 - t / 900.0);
+    let parabola = |t: f64, _: f64| 2.5 * (t / 5000.0) * (t / 5000.0);
+    let shapes: [(&str, &str, Shape<'_>); 3] = [
+        ("machine screw angle", "square wave each turn", &square),
+        ("time", "rise and fall", &risen),
+        ("time", "parabola", &parabola),
+    ];
+    for (along, shape, error) in shapes {
+        let passes = Passes::new(&|t, x, _| error(t, x), &mut noise(5, 3.0));
+        let diagnosis = diagnose(&passes.problem());
+        assert!(shows(&diagnosis, along, shape), "{shape}: {:?}", diagnosis.residual);
+    }
+}
+
+/// What follows a logged column that no effect needs: through the travel, late, by a relay.
+#[test]
+fn relations_to_a_column_are_told_and_not_named() {
+    type Shape<'a> = &'a dyn Fn(f64, f64) -> f64;
+    let oil = |t: f64| 24.0 + libm::sin(t / 3000.0 * TAU);
+    let bent = |t: f64, x: f64| x / 900.0 * (oil(t) - 24.0);
+    let late = |t: f64, _: f64| 0.7 * libm::sin((t - 500.0) / 3000.0 * TAU);
+    let cooled = |t: f64, _: f64| 0.4 * f64::from(u8::from(24.3 < oil(t)));
+    let shapes: [(&str, Shape<'_>); 3] = [
+        ("straight relation times the travel", &bent),
+        ("late relation", &late),
+        ("relay", &cooled),
+    ];
+    for (shape, error) in shapes {
+        let passes = Passes::new(&|t, x, _| error(t, x), &mut noise(5, 3.0));
+        let diagnosis = diagnose(&passes.logging("oil_c", &oil).problem());
+        assert!(shows(&diagnosis, "oil_c", shape), "{shape}: {:?}", diagnosis.residual);
+    }
+}
+
+/// A rack's joints, and a chipped tooth of a wheel that the file does not list.
+#[test]
+fn what_comes_back_at_a_distance_of_its_own_is_no_noise() {
+    let joints = |x: f64| 0.3 * (x / 43.7).fract();
+    let knocks = |x: f64| {
+        let off = ((x / 41.0).fract() - 0.5) / 0.07;
+        0.25 * libm::exp(-0.5 * off * off)
+    };
+    let shapes: [(&str, &dyn Fn(f64) -> f64); 2] =
+        [("sawtooth", &joints), ("knocks at even distances", &knocks)];
+    for (shape, error) in shapes {
+        let passes = Passes::new(&|_, x, _| error(x), &mut noise(5, 3.0));
+        let diagnosis = diagnose(&passes.problem());
+        assert_eq!(diagnosis.verdict, Verdict::Unexplained, "{shape}: {:?}", diagnosis.residual);
+    }
+}
+
+/// Forward, back and forward at one speed, and 50 s between two passes.
+fn at_one_speed(error_um: &dyn Fn(f64) -> f64) -> Passes {
+    let mut noise = noise(3, 1.0);
+    Passes::of_rows((0..1500_u32).map(|row| {
+        let (pass, nth) = (row / 500, f64::from(row % 500));
+        let forward = pass != 1;
+        let time_s = f64::from(pass) * 1550.0 + 3.0 * nth;
+        let position_mm = if forward { 1.8 * nth } else { 898.2 - 1.8 * nth };
+        let direction = if forward { 1.0 } else { -1.0 };
+        [f64::from(pass + 1), time_s, position_mm, direction, error_um(time_s) + noise()]
+    }))
+}
+
+/// At one speed, a frequency in time is an order of the spindle too.
+#[test]
+fn a_wave_at_one_speed_is_told_and_not_named() {
+    let shaken = |t: f64| 0.15 * libm::sin(0.0731 * TAU * t);
+    let diagnosis = diagnose(&at_one_speed(&shaken).problem());
+    let last = &diagnosis.rounds[diagnosis.rounds.len() - 1];
+    assert!(last.effects.is_empty(), "{:?}", last.effects);
+    assert_eq!(diagnosis.verdict, Verdict::Unexplained);
+}
+
+/// Five runs there and back to 21 targets 25 mm apart: a screw of 12 mm cannot be seen there.
+#[test]
+fn targets_name_no_wave_shorter_than_two_of_their_distances() {
+    let mut noise = noise(3, 1.0);
+    let rows = (0..210_u32).map(|row| {
+        let (run, nth) = (row / 21, f64::from(row % 21));
+        let (direction, place) = if run % 2 == 0 { (1.0, nth) } else { (-1.0, 20.0 - nth) };
+        let position_mm = 25.0 * place;
+        let error = 0.4 * libm::sin(position_mm / 12.0 * TAU) + noise();
+        [f64::from(run / 2 + 1), 10.0 * f64::from(row), position_mm, direction, error]
+    });
+    let diagnosis = diagnose(&Passes::of_rows(rows).problem());
+    let last = &diagnosis.rounds[diagnosis.rounds.len() - 1];
+    assert!(last.effects.iter().all(|effect| effect.name != "screw-periodic"));
 }

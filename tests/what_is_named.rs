@@ -95,3 +95,29 @@ fn a_slope_in_slow_noise_is_found() {
         assert_eq!(names(&diagnosis), [name]);
     }
 }
+
+/// A motor of 31.7 Hz, seen at some of the comparisons of 6 and of 8.22 turns a minute: each speed
+/// alone shows one of its aliases.
+#[test]
+fn shaking_far_above_the_comparisons_is_unfolded_by_two_speeds() {
+    let mut noise = noise(3, 1.0);
+    // Comparisons a second: 13906 lines over a = 110, at 6 rpm.
+    let rate_hz = |pass: u32| 13906.0 / 110.0 / 10.0 * if pass == 0 { 1.0 } else { 1.37 };
+    let rows = (0..1600_u32).map(|row| {
+        let (pass, nth) = (row / 800, row % 800);
+        // Every 13th comparison, and the one before or after it.
+        let comparison = f64::from(13 * nth + nth * nth % 3);
+        let time_s = f64::from(pass) * 1000.0 + comparison / rate_hz(pass);
+        let travel_mm = comparison / (13906.0 / 110.0) * 6.0;
+        let (position_mm, direction) =
+            if pass == 0 { (travel_mm, 1.0) } else { (500.0 - travel_mm, -1.0) };
+        let error = 0.1 * libm::sin(31.7 * TAU * time_s) + noise();
+        [f64::from(pass + 1), time_s, position_mm, direction, error]
+    });
+    let speed = |time_s: f64| if time_s < 1000.0 { 6.0 } else { 8.22 };
+    let diagnosis = diagnose(&Passes::of_rows(rows).logging("speed_rpm", &speed).problem());
+    assert_eq!(names(&diagnosis), ["vibration"]);
+    let effects = &diagnosis.rounds[diagnosis.rounds.len() - 1].effects;
+    let frequency = effects[0].parameters.iter().find(|p| p.key == "frequency_hz").unwrap();
+    assert!((frequency.value - 31.7).abs() < 1e-3, "{}", frequency.value);
+}

@@ -1,11 +1,11 @@
-//! What could be in a residual: effects and where to look for them, wrong settings, plain shapes,
-//! and structure that is nobody's; each tried, with its chance in noise.
+//! What could be in a residual: effects and where to look for them, wrong settings, shapes without
+//! a name, and structure that is nobody's; each tried, with its chance in noise.
 
 mod calibration;
 mod candidates;
 mod grid;
 mod jumps;
-mod plain_shapes;
+mod nameless;
 mod probes;
 mod repeatability;
 mod setting_trial;
@@ -13,11 +13,14 @@ mod settings;
 mod slow_noise;
 mod tails;
 mod trial;
+mod unfolding;
 
 pub(crate) use candidates::{candidate, candidates, turn_scan};
-pub(crate) use plain_shapes::better_shape;
+pub(crate) use nameless::{Nameless, Placed, nameless};
 pub use probes::Structure;
-pub(crate) use probes::{above_hunting, all_structures, least_above_hunting, matters, structures};
+pub(crate) use probes::{
+    above_hunting, all_structures, is_left, least_above_hunting, matters, structures,
+};
 pub(crate) use setting_trial::setting_trials;
 pub(crate) use slow_noise::taken_for_noise;
 pub(crate) use tails::chance_with_tails;

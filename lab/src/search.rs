@@ -3,6 +3,7 @@
 
 mod acceptance;
 mod analysis;
+mod court;
 mod likeness;
 mod polish;
 mod pruning;
@@ -10,6 +11,7 @@ mod refusal;
 mod rivals;
 
 pub(crate) use analysis::{Step, search};
+pub(crate) use court::{nameless_winner, waves_of_nobody};
 pub(crate) use polish::polished;
 pub(crate) use pruning::pruned;
 pub(crate) use refusal::Refusal;

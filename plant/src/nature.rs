@@ -3,8 +3,6 @@
 /// What a diagnosis may take for granted of an effect before it has seen any data.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nature {
-    /// True for a smooth curve or stairs over the travel: with others, it makes up any shape.
-    pub curve: bool,
     /// True for a jump wherever the table turns back.
     pub at_reversal: bool,
     /// True when its nonlinear values are plays, µm, that the corrector's moves get through.
@@ -21,7 +19,6 @@ pub struct Nature {
 impl Nature {
     /// Nothing special.
     pub const PLAIN: Self = Self {
-        curve: false,
         at_reversal: false,
         play: false,
         high_harmonic: None,

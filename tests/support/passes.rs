@@ -63,6 +63,26 @@ impl Passes {
         Self { columns }
     }
 
+    /// Rows of pass, time in s, travel in mm, direction and error in µm, at one speed.
+    pub(crate) fn of_rows(rows: impl Iterator<Item = [f64; 5]>) -> Self {
+        let mut columns: Vec<Column> = ["pass", "time_s", "position_mm", "direction", "error_um"]
+            .map(|name| Column { name: name.into(), values: Vec::new() })
+            .into();
+        for row in rows {
+            columns.iter_mut().zip(row).for_each(|(column, value)| column.values.push(value));
+        }
+        Self { columns }
+    }
+
+    /// With one more column, of what something shows at every time.
+    pub(crate) fn logging(mut self, name: &str, of_time_s: &dyn Fn(f64) -> f64) -> Self {
+        let times = self.columns.iter().find(|column| column.name == "time_s");
+        let values = times.into_iter().flat_map(|times| &times.values).map(|&t| of_time_s(t));
+        let values = values.collect();
+        self.columns.push(Column { name: name.into(), values });
+        self
+    }
+
     pub(crate) fn problem(self) -> Problem {
         let machine = Model::parse(MACHINE, Path::new("machine.toml")).expect("a machine");
         let table = Table::new(self.columns);

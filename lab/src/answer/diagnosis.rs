@@ -4,7 +4,7 @@ use helixlock_plant::{Role, Term};
 use rayon::prelude::*;
 
 use super::experiment::{self, Advice};
-use crate::hypotheses::{Structure, better_shape, structures};
+use crate::hypotheses::{Structure, structures};
 use crate::model::{
     Component, JointCovariance, Judged, Problem, State, holdout_rms, joint_covariance,
 };
@@ -12,7 +12,9 @@ use crate::noise::rms;
 use crate::numerics::least_squares::covariance_rows;
 use crate::policy::chance::{AT_AN_END, STANDARD_ERRORS};
 use crate::policy::extent::SEARCHED_ROWS;
-use crate::search::{Refusal, Rivals, Step, polished, pruned, rivals, search};
+use crate::search::{
+    Refusal, Rivals, Step, nameless_winner, polished, pruned, rivals, search, waves_of_nobody,
+};
 
 /// What can be said about a model and a measurement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -146,7 +148,8 @@ pub fn diagnose(problem: &Problem) -> Diagnosis {
     let last = &steps[steps.len() - 1].state;
     let found = rivals(&small, last, &steps[0].tried);
     let mut residual = structures(&small, &last.columns, &last.fit);
-    residual.extend(better_shape(&small, last));
+    residual.extend(nameless_winner(&small, last, &found));
+    residual.extend(waves_of_nobody(&small, &steps));
     let experiments = experiment::advice(&small, last, &found);
     let state = states[states.len() - 1].clone();
     Diagnosis {

@@ -2,6 +2,7 @@
 
 use helixlock_plant::{CATALOGUE, Entry, Formula, Parameter, Role, Search, Term};
 
+use super::unfolding::unfolded;
 use crate::model::{Component, Problem, Stage};
 use crate::numerics::{count, median, spread};
 use crate::policy::evidence::{ANOTHER_MATERIAL, LOOSELY_KNOWN, MARGIN};
@@ -257,7 +258,8 @@ fn frequencies(stage: &Stage<'_>, low: f64, high: f64) -> Vec<f64> {
     let scan = time_scan(stage, &times, low, high);
     let resolution = scan.resolution();
     let mut peaks: Vec<f64> = Vec::new();
-    for point in strongest_first(scan.spectrum(&stage.target[..times.len()])) {
+    let white = &stage.target[..times.len()];
+    for point in strongest_first(scan.spectrum(white)) {
         let apart = |known: &f64| resolution < (known - point.frequency).abs();
         if peaks.iter().all(apart) {
             peaks.push(point.frequency);
@@ -266,6 +268,7 @@ fn frequencies(stage: &Stage<'_>, low: f64, high: f64) -> Vec<f64> {
             break;
         }
     }
+    peaks.extend(unfolded(stage.problem, &scan, white, &peaks));
     peaks
 }
 

@@ -77,16 +77,27 @@ pub(crate) fn least_above_hunting(problem: &Problem) -> f64 {
 /// Everything a fit leaves that is not noise, clearest first.
 #[must_use]
 pub(crate) fn structures(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
-    let noise = rms(&problem.layout, &fit.left);
-    let exact = SHARE_OF_ERROR * rms(&problem.layout, &problem.residual());
+    let noise_um = rms(&problem.layout, &fit.left);
     let mut found = all_structures(problem, model, fit);
     let taken = taken_for_noise(problem, fit, &found);
-    found.retain(|s| matters(s.rms_um, noise, s.p_value));
+    found.retain(|structure| matters(structure.rms_um, noise_um, structure.p_value));
     found.extend(taken);
-    found.retain(|s| exact < s.rms_um);
-    // What is no effect may be any of its lines.
-    found.retain(|s| above_hunting(problem, SLOW_SHARE_OF_HUNTING * s.rms_um));
+    found.retain(|structure| above_flaws(problem, structure));
     found
+}
+
+/// True for structure beyond chance, and larger than flaws of the noise, of the formulas and of a
+/// loop may make.
+#[must_use]
+pub(crate) fn is_left(problem: &Problem, fit: &Fit, structure: &Structure) -> bool {
+    matters(structure.rms_um, rms(&problem.layout, &fit.left), structure.p_value)
+        && above_flaws(problem, structure)
+}
+
+fn above_flaws(problem: &Problem, structure: &Structure) -> bool {
+    let exact = SHARE_OF_ERROR * rms(&problem.layout, &problem.residual());
+    // What is no effect may be any of a loop's lines.
+    exact < structure.rms_um && above_hunting(problem, SLOW_SHARE_OF_HUNTING * structure.rms_um)
 }
 
 /// Everything that was looked for, found or not, clearest first.

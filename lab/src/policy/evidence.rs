@@ -2,7 +2,8 @@
 //!
 //! Odds are `exp(evidence / 2)`: 8 are 55 to 1, 10 are 150 to 1, 12 are 400 to 1.
 
-/// Evidence by which an effect must beat every other to be named.
+/// Evidence by which an effect must beat every other to be named, and a shape without a name the
+/// effects in whose place it stands.
 ///
 /// Chosen: odds of 55 to 1. Doubled: 3000 to 1, and more answers are `ambiguous`.
 pub(crate) const MARGIN: f64 = 8.0;
@@ -36,16 +37,17 @@ pub(crate) const TIME_LOCK: f64 = 12.0;
 /// seen at once, and is else found one by one.
 pub(crate) const SET_MARGIN: f64 = 10.0;
 
-/// Evidence by which a plain shape must be better than the effects that imitate it.
-///
-/// Chosen: odds of 150 to 1. Measured: without any, 3 of 41 kinks were named (challenges from
-/// 1350000 on); with it, none of 73 shapes in two fresh sets. Doubled: a small kink is named again.
-pub(crate) const PLAIN_SHAPE: f64 = 10.0;
-
 /// What a high harmonic without the lower ones must bring beyond a named shaft.
 ///
 /// Chosen: odds of one to a hundred, 2·ln 100. Doubled: one to ten thousand.
 pub(crate) const HIGH_HARMONIC_PRICE: f64 = 9.2;
+
+/// What a shape of a turn that is no sine must bring beyond the sines of the catalogue.
+///
+/// Chosen: odds of one to a hundred, 2·ln 100, for a part that turns out of its centre makes a
+/// sine. Without it, a sine of 20 standard errors was called a triangle. Doubled: one to ten
+/// thousand, and faint square waves are two sines.
+pub(crate) const NO_SINE_PRICE: f64 = 9.2;
 
 /// Share of a pattern's square that a straight line must leave for it to have a shape.
 ///
@@ -57,6 +59,16 @@ pub(crate) const SHAPE: f64 = 1e-3;
 ///
 /// Chosen: a tenth of its size. Doubled: a wave needs to show more of itself, a seventh.
 pub(crate) const WAVE: f64 = 0.01;
+
+/// Waves in the longest pass that a frequency in time must show.
+///
+/// Chosen: what turns less is a drift. Doubled: shaking of less than six waves a pass is not named.
+pub(crate) const WAVES_A_PASS: f64 = 3.0;
+
+/// Samples a place, on average, from which on a record is a table of targets.
+///
+/// Chosen: ISO 230-2 asks for ten. Doubled: three runs there and back are none.
+pub(crate) const VISITS: usize = 4;
 
 /// Most effects of one name: lines come in numbers, and so do slips.
 ///

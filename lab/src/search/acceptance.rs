@@ -23,6 +23,8 @@ pub(crate) fn refusal(problem: &Problem, now: &State, judged: &Judged) -> Option
         .or_else(|| no_better_unseen(problem, now, judged))
         .or_else(|| implausible(problem, judged))
         .or_else(|| (!likeness::turns_enough(problem, component, used)).then_some(Refusal::Piece))
+        .or_else(|| (!likeness::by_the_clock(problem, component)).then_some(Refusal::Clock))
+        .or_else(|| (!likeness::resolved(problem, component)).then_some(Refusal::Targets))
         .or_else(|| (!likeness::lets_motion_through(problem, component)).then_some(Refusal::Play))
         .or_else(|| at_an_end(component))
         .or_else(|| (!repeats(judged, now)).then_some(Refusal::Again))

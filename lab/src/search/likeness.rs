@@ -1,14 +1,17 @@
 //! Likenesses that physics knows beforehand, whatever the evidence says of them.
 
+use std::f64::consts::TAU;
+
 use helixlock_plant::prediction::gain;
-use helixlock_plant::{CATALOGUE, Entry, Role, Search, Term};
+use helixlock_plant::{CATALOGUE, Context, Entry, Role, Search, Smoothness, Term};
 
 use crate::model::{Component, Problem, State, pattern};
 use crate::noise::Whitener;
 use crate::numerics::least_squares::dot;
-use crate::numerics::{count, least_squares, spread};
-use crate::policy::evidence::{HIGH_HARMONIC_PRICE, SHAPE, WAVE};
+use crate::numerics::{count, highest_frequency, least_squares, spread};
+use crate::policy::evidence::{HIGH_HARMONIC_PRICE, SHAPE, VISITS, WAVE, WAVES_A_PASS};
 use crate::policy::reading::REVERSAL_REACH;
+use crate::policy::size::ANOTHER_SPEED;
 
 /// True for a high harmonic, such as one of the machine's screw, of which the lower ones are not in
 /// the model; a shaft that the machine file lists runs out once a turn.
@@ -137,6 +140,55 @@ pub(crate) fn turns_enough(problem: &Problem, component: &Component, used: &[f64
     let views: Vec<&[f64]> = parabola.iter().map(Vec::as_slice).collect();
     let fit = least_squares::fit(&views, &shape);
     WAVE * dot(&shape, &shape) < fit.residual_square
+}
+
+/// True unless a frequency in time was found where no clock tells it from an order: times that were
+/// not measured, one speed, or less than three waves in every pass.
+#[must_use]
+pub(crate) fn by_the_clock(problem: &Problem, component: &Component) -> bool {
+    let term = &component.term;
+    let places = term.nonlinear_indices();
+    let Some(&hertz) = places.iter().find(|&&index| term.parameters[index].is_frequency()) else {
+        return true;
+    };
+    let record = &problem.record;
+    let (speeds, passes) = (&record.speed_rpm, record.passes());
+    let fastest = speeds.iter().copied().fold(0.0, f64::max);
+    let seconds = passes.into_iter().map(|rows| spread(&record.time_s[rows]));
+    let longest_s = seconds.fold(0.0, f64::max);
+    problem.measurement.timed
+        && ANOTHER_SPEED * fastest < spread(speeds)
+        && WAVES_A_PASS <= longest_s * term.values[hertz]
+}
+
+/// True unless a wave over the travel is shorter than two distances of the targets that all
+/// samples stand at: what it shows there is each target's own.
+#[must_use]
+pub(crate) fn resolved(problem: &Problem, component: &Component) -> bool {
+    if component.term.parameters.iter().all(|what| what.role != Role::Amplitude) {
+        return true;
+    }
+    let mut turns: Vec<f64> = problem.record.turns().collect();
+    let samples = turns.len();
+    turns.sort_by(f64::total_cmp);
+    let apart = 1e-6 * spread(&turns);
+    turns.dedup_by(|next, before| *next - *before <= apart);
+    if samples < VISITS * turns.len() {
+        return true;
+    }
+    let context = Context { machine: &problem.model, columns: &problem.record.columns };
+    let basis = component.term.basis(&context).map(|basis| basis.columns).unwrap_or_default();
+    let turn_mm = problem.model.workpiece.lead.mm();
+    let rate = |turns_per_s: f64| {
+        let moving =
+            basis.iter().map(|wave| wave.smoothness(TAU * turns_per_s, turn_mm * turns_per_s));
+        let rates = moving.map(|smoothness| match smoothness {
+            Smoothness::Band { rate_per_s, .. } => rate_per_s,
+            Smoothness::Polynomial | Smoothness::Rough => 0.0,
+        });
+        rates.fold(0.0, f64::max)
+    };
+    rate(1.0) - rate(0.0) < TAU * highest_frequency(&turns)
 }
 
 /// Values about the mean of each pass of each sensor.

@@ -25,6 +25,10 @@ pub(crate) enum Refusal {
     Flank,
     /// So small a piece of a wave that a parabola follows it.
     Piece,
+    /// A frequency in time, without a clock, a second speed, or enough waves in a pass.
+    Clock,
+    /// A wave shorter than what targets resolve.
+    Targets,
     /// A play wider than every move of the motor.
     Play,
     /// It is in the model already, and a sum of such shapes imitates anything.
@@ -70,6 +74,10 @@ impl fmt::Display for Refusal {
             }
             Self::Flank => f.write_str("only one flank of the bump lies inside the travel"),
             Self::Piece => f.write_str("so small a piece of a wave that any drift follows it"),
+            Self::Clock => f.write_str(
+                "a frequency in time needs a clock, two speeds and three waves in a pass",
+            ),
+            Self::Targets => f.write_str("shorter than two distances of the targets"),
             Self::Play => f.write_str("a play wider than every move of the motor"),
             Self::Again => f.write_str("it is in the model already"),
             Self::Angle { order, ahead } => {

@@ -172,14 +172,17 @@ impl Scan<'_> {
     }
 
     /// Frequency and gain of the peak near a scan point, by golden section.
-    fn settled(&self, white: &[f64], near: f64) -> (f64, f64) {
+    #[must_use]
+    pub(crate) fn settled(&self, white: &[f64], near: f64) -> (f64, f64) {
         let width = self.resolution() / POINTS_A_CELL;
         let ends = ((near - width).max(0.2 * self.resolution()), near + width);
         let mut gain = |frequency: f64| self.gain(white, frequency);
         golden_maximum(&mut gain, ends, 14)
     }
 
-    fn gain(&self, white: &[f64], frequency: f64) -> f64 {
+    /// Gain of a sinusoid of one frequency.
+    #[must_use]
+    pub(crate) fn gain(&self, white: &[f64], frequency: f64) -> f64 {
         let wave = self.wave(frequency);
         let total = dot(white, white);
         total - least_squares::fit(&[&wave[0], &wave[1]], white).residual_square

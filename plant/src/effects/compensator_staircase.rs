@@ -33,7 +33,7 @@ pub(super) const CARD: Card = Card {
     source: "document 1, figure 9",
     random: false,
     candidate: true,
-    nature: Nature { curve: true, ..Nature::PLAIN },
+    nature: Nature::PLAIN,
     basis: |context, nonlinear| {
         let (rate, fringe_um) = (nonlinear[0], context.machine.fringe_um());
         let stairs = rough(move |now| stairs_um(rate, fringe_um, now.position_mm));

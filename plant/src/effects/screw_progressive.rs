@@ -31,7 +31,7 @@ pub(super) const CARD: Card = Card {
     source: "document 1, results: 30 to 40 µm cumulative error of the machine",
     random: false,
     candidate: true,
-    nature: Nature { curve: true, ..Nature::PLAIN },
+    nature: Nature::PLAIN,
     basis: |_, _| {
         let power = |exponent| -> Box<dyn Effect> { Box::new(Power { exponent }) };
         Ok(Basis { columns: [1, 2, 3].map(power).into(), fixed: None })

@@ -32,7 +32,7 @@ pub(super) const CARD: Card = Card {
     source: "shape by engineering judgement, zero at the rests",
     random: false,
     candidate: true,
-    nature: Nature { curve: true, ..Nature::PLAIN },
+    nature: Nature::PLAIN,
     basis: |_, nonlinear| {
         let spacing_mm = nonlinear[0];
         let sag = banded(

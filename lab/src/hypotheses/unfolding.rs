@@ -1,0 +1,53 @@
+//! Lines in time above what the samples resolve: at the comparisons of two speeds one frequency
+//! shows at two places, and only itself at both.
+
+use crate::model::Problem;
+use crate::numerics::count;
+use crate::policy::evidence::MARGIN;
+use crate::policy::size::ANOTHER_SPEED;
+use crate::spectrum::Scan;
+
+/// Strongest lines that may be aliases, and most comparison rates by which they are unfolded.
+const LINES: usize = 4;
+const RATES: u16 = 8;
+
+/// Unfolded lines whose frequency is settled.
+const SETTLED: usize = 8;
+
+/// The frequency beyond a scan that explains a whitened residual better than its strongest lines,
+/// as they are, by the margin; `None` at one speed, which cannot tell it from them.
+#[must_use]
+pub(crate) fn unfolded(
+    problem: &Problem,
+    scan: &Scan<'_>,
+    white: &[f64],
+    lines: &[f64],
+) -> Option<f64> {
+    let rates = comparison_rates_hz(problem);
+    if rates.len() < 2 {
+        return None;
+    }
+    let lines = &lines[..lines.len().min(LINES)];
+    let as_they_are = lines.iter().map(|line| scan.settled(white, *line).1).fold(0.0, f64::max);
+    let multiples = rates.iter().flat_map(|rate| (1..=RATES).map(move |k| f64::from(k) * rate));
+    let beyond = multiples
+        .flat_map(|multiple| lines.iter().flat_map(move |line| [multiple - line, multiple + line]));
+    let mut beyond: Vec<(f64, f64)> = beyond
+        .filter(|hertz| scan.highest < *hertz)
+        .map(|hertz| (hertz, scan.gain(white, hertz)))
+        .collect();
+    beyond.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let settled = beyond.iter().take(SETTLED).map(|(hertz, _)| scan.settled(white, *hertz));
+    let (hertz, gain) = settled.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let price = 2.0 * libm::log(2.0 * count(lines.len() * rates.len()) * f64::from(RATES));
+    (as_they_are + MARGIN + price < gain).then_some(hertz)
+}
+
+/// Comparisons a second at each speed of a record.
+fn comparison_rates_hz(problem: &Problem) -> Vec<f64> {
+    let machine = &problem.model;
+    let mut speeds = problem.record.speed_rpm.clone();
+    speeds.sort_by(f64::total_cmp);
+    speeds.dedup_by(|next, before| *next - *before <= ANOTHER_SPEED * *before);
+    speeds.iter().map(|rpm| machine.comparison_hz() * rpm / machine.spindle.speed_rpm).collect()
+}

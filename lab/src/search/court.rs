@@ -1,0 +1,235 @@
+//! Explanations without a name, before the same judge as those that have one.
+//!
+//! Effects can follow what they do not make: a cubic with a bump follows a kink, sinusoids of two
+//! gratings a square wave, a rate of the laser a column that was logged. So every shape without a
+//! name is tried in the place of each effect, of several and of all, and beside all of them. Where
+//! it explains more, nothing is explained.
+
+use helixlock_plant::Entry;
+
+use super::analysis::{Step, plain_noises};
+use super::refusal::Refusal;
+use super::rivals::Rivals;
+use crate::hypotheses::{Nameless, Placed, Structure, chance_with_tails, is_left, nameless};
+use crate::model::{Columns, Component, Fit, Problem, Stage, State, noises_of, settle, with_noise};
+use crate::noise::rms;
+use crate::numerics::{chi_squared_tail, count};
+use crate::policy::chance::SIGNIFICANCE;
+use crate::policy::evidence::MARGIN;
+
+/// Shapes of each noise whose own noise is fitted.
+const SHORTLIST: usize = 2;
+
+/// Places from which on a shape is looked for beside the effects only, for the time it takes.
+const MOST_LOOKS: f64 = 400.0;
+
+/// The shape without a name that explains more than some effects of a model, or what they leave.
+#[must_use]
+pub(crate) fn nameless_winner(
+    problem: &Problem,
+    state: &State,
+    found: &[Rivals],
+) -> Option<Structure> {
+    let shapes = nameless(problem);
+    let prices: Vec<f64> = (0..state.components.len())
+        .map(|index| price(problem, &state.components[index], looks(state, found, index)))
+        .collect();
+    let court = Court { problem, state, shapes: &shapes, prices };
+    let mut groups = groups(state.components.len());
+    // A setting is a number of the file that fits exactly, against any slope and any bend.
+    let setting = |index: &usize| state.components[*index].term.nature().is_setting();
+    groups.retain(|group| !group.iter().any(setting));
+    let won = groups.iter().filter_map(|group| court.in_place_of(group));
+    won.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, structure)| structure)
+}
+
+/// Waves in time that are beyond chance and may not be named, for no clock tells them from an order.
+#[must_use]
+pub(crate) fn waves_of_nobody(problem: &Problem, steps: &[Step]) -> Vec<Structure> {
+    let Some(last) = steps.iter().rfind(|step| !step.tried.is_empty()) else { return Vec::new() };
+    let refused = last.tried.iter().zip(&last.refused);
+    let waves = refused.filter(|(_, why)| matches!(why, Refusal::Clock | Refusal::Angle { .. }));
+    waves
+        .map(|(judged, _)| {
+            let rms_um = judged.component.size_um(problem, judged.coefficients().0);
+            Structure {
+                along: "frequency in time".to_owned(),
+                shape: "sinusoid, or one over the angle".to_owned(),
+                rms_um,
+                p_value: judged.p_value,
+                at: judged.component.term.nonlinear().first().copied(),
+                at_stderr: None,
+                line: None,
+            }
+        })
+        .filter(|wave| problem.measurement.timed && is_left(problem, &last.state.fit, wave))
+        .collect()
+}
+
+/// What a shape may stand in for: nothing, each effect, all but one, all.
+fn groups(components: usize) -> Vec<Vec<usize>> {
+    let mut groups: Vec<Vec<usize>> = vec![Vec::new(), (0..components).collect()];
+    for one in 0..components {
+        groups.push(vec![one]);
+        groups.push((0..components).filter(|other| *other != one).collect());
+    }
+    groups.sort();
+    groups.dedup();
+    groups
+}
+
+/// Places that an effect of a model was looked for at.
+fn looks(state: &State, found: &[Rivals], index: usize) -> f64 {
+    let name = &state.components[index].term.name;
+    let tried = found.iter().filter(|found| found.index == index).flat_map(|found| &found.tried);
+    let mut own = tried.filter(|judged| judged.component.term.name == *name);
+    own.next().map_or(1.0, |judged| judged.looks)
+}
+
+/// What a named effect pays: its free numbers, and the places it was looked for at. A size that
+/// physics fixes is none.
+fn price(problem: &Problem, component: &Component, looks: f64) -> f64 {
+    let priors = component.term.priors();
+    let free = component.kept.iter().zip(&priors).filter(|(kept, known)| **kept && known.is_none());
+    count(free.count()) * problem.price_of_a_number() + 2.0 * libm::log(looks.max(1.0))
+}
+
+/// A model and the shapes that are tried against it.
+struct Court<'a> {
+    problem: &'a Problem,
+    state: &'a State,
+    shapes: &'a [Nameless],
+    /// What each effect pays.
+    prices: Vec<f64>,
+}
+
+/// A shape with its fit, and its evidence against the effects in whose place it stands.
+struct Claim<'a> {
+    placed: Placed<'a>,
+    fit: Fit,
+    ahead: f64,
+}
+
+impl Court<'_> {
+    /// The shape that explains more than a group of effects in their place, and by how much.
+    fn in_place_of(&self, group: &[usize]) -> Option<(f64, Structure)> {
+        let kept = (0..self.state.components.len()).filter(|index| !group.contains(index));
+        let others: Vec<Component> =
+            kept.map(|index| self.state.components[index].clone()).collect();
+        let base = Columns::of(self.problem, &others).ok()?;
+        let claim = self.best(group, &base)?;
+        if claim.ahead <= MARGIN {
+            return None;
+        }
+        let structure = if group.is_empty() {
+            self.beside_all(&claim)?
+        } else {
+            self.instead_of(group, &base, &claim)
+        };
+        Some((claim.ahead, structure))
+    }
+
+    /// The best shape in a group's place: found under the model's noise and under white noise, in
+    /// which slow noise hides nothing.
+    fn best(&self, group: &[usize], base: &Columns) -> Option<Claim<'_>> {
+        let noises = [self.state.fit.noises.clone(), plain_noises(self.problem, &self.state.fit)];
+        let mut claims: Vec<Claim<'_>> = Vec::new();
+        for noises in noises {
+            let stage = Stage::new(self.problem, base, &noises);
+            claims.extend(self.shortlist(&stage, group).into_iter().map(|placed| {
+                let fit = self.fitted(base, &placed, &stage);
+                let ahead = self.ahead(group, &placed, &fit);
+                Claim { placed, fit, ahead }
+            }));
+        }
+        claims.into_iter().max_by(|a, b| a.ahead.total_cmp(&b.ahead))
+    }
+
+    /// The shapes that take the most away under a stage's noise.
+    fn shortlist(&self, stage: &Stage<'_>, group: &[usize]) -> Vec<Placed<'_>> {
+        let mut entries: Vec<Entry> =
+            group.iter().map(|&index| self.state.components[index].term.entry).collect();
+        if group.is_empty() || self.problem.sensors.len() == 1 {
+            entries = Entry::ALL.into_iter().filter(|entry| self.problem.sees(*entry)).collect();
+            entries.truncate(1);
+        }
+        entries.sort();
+        entries.dedup();
+        let tried = entries.iter().flat_map(|&entry| {
+            let shapes =
+                self.shapes.iter().filter(|one| group.is_empty() || one.looks() < MOST_LOOKS);
+            shapes.filter_map(move |shape| shape.best(stage, entry))
+        });
+        let mut tried: Vec<Placed<'_>> = tried.collect();
+        let worth = |placed: &Placed<'_>| placed.gain - self.price(placed);
+        tried.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
+        tried.truncate(SHORTLIST);
+        tried
+    }
+
+    fn price(&self, placed: &Placed<'_>) -> f64 {
+        placed.shape.price(self.problem.price_of_a_number())
+    }
+
+    /// The model with a shape, under the likelier of two noises: that of the model adjusted, and
+    /// one looked for from the start.
+    fn fitted(&self, base: &Columns, placed: &Placed<'_>, stage: &Stage<'_>) -> Fit {
+        let problem = self.problem;
+        let columns = base.and(&placed.columns);
+        let near = settle(problem, &columns, &self.state.fit.noises);
+        let rough = with_noise(&problem.layout, &columns, &problem.residual(), &stage.noises);
+        let anew = settle(problem, &columns, &noises_of(problem, &rough.left));
+        if near.log_likelihood < anew.log_likelihood { anew } else { near }
+    }
+
+    /// Evidence by which a shape is ahead of the effects in whose place it stands.
+    fn ahead(&self, group: &[usize], placed: &Placed<'_>, fit: &Fit) -> f64 {
+        // The shape's noise may suit the effects, too.
+        let own = settle(self.problem, &self.state.columns, &fit.noises).log_likelihood;
+        let own = own.max(self.state.fit.log_likelihood);
+        let saved: f64 = group.iter().map(|&index| self.prices[index]).sum();
+        2.0 * (fit.log_likelihood - own) + saved - self.price(placed)
+    }
+
+    /// Chance of what a shape takes away beside all effects in noise, which may have tails.
+    fn chance(&self, placed: &Placed<'_>, fit: &Fit) -> f64 {
+        let looks = placed.shape.looks() * count(self.shapes.len());
+        // Between the places looked at, every number goes on to where it gains most.
+        let freedom = count(placed.columns.raw.len()) + placed.shape.numbers();
+        let of_gain = |gain| looks * chi_squared_tail(gain, freedom);
+        let gain = 2.0 * (fit.log_likelihood - self.state.fit.log_likelihood);
+        let chance = of_gain(gain);
+        if SIGNIFICANCE <= chance {
+            return chance.min(1.0);
+        }
+        chance.max(chance_with_tails(self.problem, [&self.state.fit, fit], of_gain)).min(1.0)
+    }
+
+    /// What a shape shows beside all effects; `None` when it is chance or too small.
+    fn beside_all(&self, claim: &Claim<'_>) -> Option<Structure> {
+        let placed = &claim.placed;
+        let nothing = vec![0.0; self.problem.rows.len()];
+        let shown = placed.columns.left(&nothing, &placed.coefficients);
+        let p_value = self.chance(placed, &claim.fit);
+        let shape = placed.shape.shape.to_owned();
+        let told = structure(placed, shape, rms(&self.problem.layout, &shown), p_value);
+        is_left(self.problem, &self.state.fit, &told).then_some(told)
+    }
+
+    /// What a shape shows in the place of some effects; its chance is the odds that they are right.
+    fn instead_of(&self, group: &[usize], base: &Columns, claim: &Claim<'_>) -> Structure {
+        let name = |&index: &usize| self.state.components[index].term.name.as_str();
+        let mut names: Vec<&str> = group.iter().map(name).collect();
+        names.sort_unstable();
+        names.dedup();
+        let shape = format!("{}, better than {}", claim.placed.shape.shape, names.join(" and "));
+        let without = settle(self.problem, base, &self.state.fit.noises).left;
+        let rms_um = rms(&self.problem.layout, &without);
+        structure(&claim.placed, shape, rms_um, libm::exp(-0.5 * claim.ahead))
+    }
+}
+
+fn structure(placed: &Placed<'_>, shape: String, rms_um: f64, p_value: f64) -> Structure {
+    let along = placed.shape.along.clone();
+    Structure { along, shape, rms_um, p_value, at: placed.at, at_stderr: None, line: None }
+}
