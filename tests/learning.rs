@@ -4,6 +4,8 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
+use helixlock_plant::prediction::predict;
+use helixlock_plant::{Model, Record, Samples};
 use helixlock_traces::{parquet::write_parquet, read_table};
 use serde_json::Value;
 
@@ -114,6 +116,57 @@ fn an_effect_of_the_users_own_is_learned() {
     };
     let (before, after) = rms(&with);
     assert!(after < 0.3 * before, "{before} → {after}");
+}
+
+/// Beside something unexplained nothing is added unasked, not even a space.
+#[test]
+fn what_is_unexplained_leaves_the_machine_file_alone() {
+    let folder = scratch();
+    let (out, out_word) = word(&folder, "learned");
+    let example = "examples/outside-the-catalogue";
+    let words = [&format!("{example}/machine.toml"), &format!("{example}/data.csv")];
+    let learned = json(&helixlock(&["learn", words[0], words[1], "-o", &out_word, "--json"]));
+    assert_eq!((&learned["verdict"], &learned["accepted"]), (&"unexplained".into(), &false.into()));
+    let bytes = |path: &Path| fs::read(path).expect("a machine file");
+    assert_eq!(bytes(&out.join("machine.toml")), bytes(&repository().join(words[0])));
+    let standing = |round: &&Value| round["taken_back"] != true;
+    let book = ledger(&out);
+    assert_eq!(book["rounds"].as_array().expect("rounds").iter().filter(standing).count(), 1);
+}
+
+/// Data with the wrong sign are doubted: exit status 1, no effect, the file as it was.
+#[test]
+fn doubtful_input_teaches_nothing() {
+    let folder = scratch();
+    let machine = example("hidden-gear/machine.toml");
+    let known = "\n[[effect]]\nkind = \"screw-wear\"\nheight = \"2.5 um\"\nposition = \"200 mm\"\nwidth = \"30 mm\"\n[[effect]]\nkind = \"screw-periodic\"\namplitude = \"3 um\"\nphase = \"40 deg\"\n";
+    let (path, machine_word) = word(&folder, "machine.toml");
+    put(&path, &format!("{machine}{known}"));
+    let (_, predicted) = word(&folder, "data.csv");
+    turned(&path, Path::new(&predicted));
+    let (out, out_word) = word(&folder, "learned");
+    let run = helixlock(&["learn", &machine_word, &predicted, "-o", &out_word, "--json"]);
+    assert_eq!((run.status, run.stderr.as_str()), (1, ""));
+    let value: Value = serde_json::from_str(&run.stdout).expect("JSON");
+    assert_eq!(value["verdict"], "doubtful-input", "{value}");
+    assert_eq!(value["doubts"][0]["what"], "sign");
+    assert_eq!(names(&value["effects"]), [""; 0]);
+    assert_eq!(fs::read(out.join("machine.toml")).expect("file"), fs::read(&path).expect("file"));
+}
+
+/// What a machine shows on 400 mm, with the opposite sign.
+fn turned(machine: &Path, data: &Path) {
+    let model = Model::read(machine).expect("a machine");
+    let places: Vec<f64> = (0..800).map(|row| 0.5 * f64::from(row)).collect();
+    let samples = Samples { position_mm: Some(places.clone()), ..Samples::default() };
+    let record = Record::new(&model, &samples).expect("a record");
+    let shown = predict(&model, &record).expect("a prediction").error_um;
+    let mut text = "position_mm,error_um\n".to_owned();
+    for (row, (place, error_um)) in places.iter().zip(shown).enumerate() {
+        let noise_um = f64::from(u8::try_from(row * 37 % 101).expect("small")) / 1000.0;
+        writeln!(text, "{place},{}", noise_um - error_um).expect("text");
+    }
+    put(data, &text);
 }
 
 /// With `--refit` the effects of the file give way; without, they stay as they are.

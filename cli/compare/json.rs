@@ -5,13 +5,14 @@ use helixlock_lab::{
     sensor_column,
 };
 
-use crate::shared::diagnosis_json::StructureJson;
+use crate::shared::diagnosis_json::{DoubtJson, StructureJson};
 use crate::shared::keys::keys;
 
 keys! {
     /// A whole comparison.
     ComparisonJson<'a>(found: &'a Comparison, measurement: &'a Measurement) {
         unit: &'static str = measurement.unit_word(),
+        doubts: Vec<DoubtJson<'a>> = found.doubts.iter().map(DoubtJson::new).collect(),
         noise_only: bool = found.noise_only,
         noise_p_value: f64 = found.noise_p_value,
         sensors: Vec<SensorJson> =

@@ -6,12 +6,13 @@ use helixlock_report::{Colour, Page, Part, Series, Style, Table};
 use crate::shared::page_pieces::{panel, picture};
 use crate::shared::residual_picture::{points, x_axis};
 use crate::shared::spectrum;
-use crate::shared::words::{chance, with_error};
+use crate::shared::words::{chance, doubted, with_error};
 
 /// The page.
 pub(crate) fn page(problem: &Problem, comparison: &Comparison) -> Page {
     let unit = problem.measurement.unit();
     let mut parts = vec![Part::Numbers(numbers(comparison, problem))];
+    parts.extend(comparison.doubts.iter().map(|doubt| Part::Note(doubted(doubt))));
     for (index, sensor) in comparison.sensors.iter().enumerate() {
         let residual = panel(
             &format!("{}: residual", sensor_column(sensor.sensor, problem.measurement.rotary)),

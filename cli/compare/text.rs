@@ -4,6 +4,7 @@ use std::io::Write;
 
 use helixlock_lab::{Comparison, Measurement, NamedLine, sensor_column};
 
+use crate::shared::diagnosis_text::print_doubts;
 use crate::shared::words::{with_error, with_p};
 
 /// Sizes, where it fails, and the lines.
@@ -44,6 +45,7 @@ pub(crate) fn print(
     for line in &comparison.lines {
         print_line(out, line, unit)?;
     }
+    print_doubts(out, &comparison.doubts)?;
     for note in &measurement.notes {
         writeln!(out, "note: {note}")?;
     }

@@ -12,6 +12,7 @@ use crate::shared::diagnosis_text::print;
 use crate::shared::effect_file::own_effects;
 use crate::shared::measured::Files;
 use crate::shared::output::print_json;
+use crate::shared::words::status;
 
 /// Name the effects that a machine file lacks, with evidence, rivals, and the experiment that tells
 #[derive(Debug, Args)]
@@ -27,7 +28,7 @@ pub(crate) struct Diagnose {
 }
 
 impl Diagnose {
-    /// Prints the diagnosis; the verdict does not change the exit status.
+    /// Prints the diagnosis; exit status 1 when the input itself is doubted, else 0.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         let (file, mut problem) = self.files.read()?;
         if let Some(custom) = &self.custom {
@@ -39,6 +40,6 @@ impl Diagnose {
         } else {
             print(out, &diagnosis, problem.measurement.unit())?;
         }
-        Ok(ExitCode::SUCCESS)
+        Ok(status(diagnosis.verdict))
     }
 }

@@ -17,6 +17,7 @@ keys! {
         #[serde(flatten)]
         diagnosis: DiagnosisJson<'a> = DiagnosisJson::new(found, &problem.measurement),
         data_hash: &'a str = &book.data_hash,
+        accepted: bool = book.accepted,
         final_check: Option<CheckJson<'a>> = check_json(check),
     }
 
@@ -28,6 +29,7 @@ keys! {
         data: String = data.display().to_string(),
         data_hash: &'a str = &book.data_hash,
         verdict: &'static str = found.verdict.word(),
+        accepted: bool = book.accepted,
         rounds: Vec<EntryJson<'a>> =
             book.entries.iter().map(|entry| EntryJson::new(entry, book)).collect(),
         final_check: Option<CheckJson<'a>> = check_json(check),
@@ -41,7 +43,7 @@ keys! {
         rms_before_um: f64 = entry.rms_before_um,
         holdout_rms_before_um: f64 = entry.holdout_rms_before_um,
         data_hash: &'a str = &book.data_hash,
-        taken_back: bool = false,
+        taken_back: bool = !book.accepted && 0 < entry.round.round,
         machine: &'a str = &entry.machine,
     }
 

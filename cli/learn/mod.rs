@@ -12,7 +12,9 @@ use std::process::ExitCode;
 
 use anyhow::{Context, bail};
 use clap::Args;
-use helixlock_lab::{Diagnosis, Ledger, Problem, diagnose, ledger, lines_left, spectra, written};
+use helixlock_lab::{
+    Diagnosis, Ledger, Problem, Verdict, diagnose, ledger, lines_left, spectra, written,
+};
 use helixlock_plant::MachineFile;
 use helixlock_report::Page;
 use serde_json::Value;
@@ -22,6 +24,7 @@ use self::json::{LearnJson, LedgerJson};
 use crate::shared::captured::Signals;
 use crate::shared::effect_file::own_effects;
 use crate::shared::output::{Batch, print_json};
+use crate::shared::words::status;
 use crate::shared::{diagnosis_text, measured};
 
 /// Find what a machine file lacks and write the better file, its ledger and a report
@@ -39,6 +42,9 @@ pub(crate) struct Learn {
     /// TOML file with custom effects to try beside the catalogue
     #[arg(long, value_name = "EFFECTS")]
     custom: Option<PathBuf>,
+    /// Add what was found even if something is left that no effect accounts for
+    #[arg(long)]
+    accept: bool,
     /// Take the last round in the folder's ledger back
     #[arg(long, requires = "output", conflicts_with_all = ["machine", "data"])]
     undo: bool,
@@ -50,7 +56,7 @@ pub(crate) struct Learn {
 }
 
 impl Learn {
-    /// Writes the folder; the verdict does not change the exit status.
+    /// Writes the folder; exit status 1 when the input itself is doubted, else 0.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         match (&self.machine, &self.data, &self.output) {
             (Some(machine), Some(data), folder) => {
@@ -76,32 +82,60 @@ impl Learn {
         let diagnosis = diagnose(&problem);
         let check = checked(&file, &problem, &diagnosis)?;
         let bytes = std::fs::read(data).with_context(|| format!("{}", data.display()))?;
-        let book = ledger(&file, &diagnosis, &bytes)?;
+        let book =
+            Ledger { accepted: self.accepts(&diagnosis), ..ledger(&file, &diagnosis, &bytes)? };
         if let Some(folder) = folder {
             let spectra = (spectra(&problem, &diagnosis), lines_left(&problem));
             let page = page::page(&problem, &diagnosis, &spectra, &check);
             let json = LedgerJson::new(data, &diagnosis, &book, &check, &problem);
-            write_folder(folder, &book, &json, &page)?;
+            let last = book.entries.last().filter(|_| book.accepted);
+            let learned = match last {
+                Some(last) => last.machine.clone(),
+                None => std::fs::read_to_string(machine)
+                    .with_context(|| format!("{}", machine.display()))?,
+            };
+            write_folder(folder, &learned, &json, &page)?;
         }
         if self.json {
             print_json(out, &LearnJson::new(&diagnosis, &book, &check, &problem))?;
         } else {
             diagnosis_text::print(out, &diagnosis, problem.measurement.unit())?;
             check.print(out)?;
+            print_offer(out, &book)?;
         }
-        Ok(ExitCode::SUCCESS)
+        Ok(status(diagnosis.verdict))
     }
+
+    /// Whether what was found goes into the machine file: not beside something unexplained, unless
+    /// the user says so, and never on doubtful input.
+    fn accepts(&self, diagnosis: &Diagnosis) -> bool {
+        match diagnosis.verdict {
+            Verdict::Unexplained => self.accept,
+            Verdict::DoubtfulInput => false,
+            _ => true,
+        }
+    }
+}
+
+/// Effects that were found and not added.
+fn print_offer(out: &mut impl Write, book: &Ledger) -> anyhow::Result<()> {
+    let last = book.entries.last().filter(|_| !book.accepted);
+    let effects = last.map_or(&[][..], |last| &last.round.effects);
+    let names: Vec<&str> = effects.iter().map(|effect| effect.name.as_str()).collect();
+    if !names.is_empty() {
+        writeln!(out, "offered, not added: {} (`--accept` adds them)", names.join(", "))?;
+    }
+    Ok(())
 }
 
 fn write_folder(
     folder: &Path,
-    book: &Ledger,
+    learned: &str,
     json: &LedgerJson<'_>,
     page: &Page,
 ) -> anyhow::Result<()> {
     let mut files = Batch::new(folder)?;
-    let last = book.entries.last().map(|entry| entry.machine.as_str()).unwrap_or_default();
-    files.write_content("machine.toml", last)?;
+    files.write_content("machine.toml", learned)?;
     files.write_json("ledger.json", json)?;
     files.write_content("report.html", page.html())?;
     files.keep()

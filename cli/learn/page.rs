@@ -5,7 +5,7 @@ use helixlock_report::{Page, Part, Table};
 
 use super::closed_loop_check::Checked;
 use super::pictures::{Left, Spectra, before_and_after, closed_loop, falling};
-use crate::shared::words::chance;
+use crate::shared::words::{chance, doubted};
 
 /// The page.
 pub(crate) fn page(
@@ -16,6 +16,7 @@ pub(crate) fn page(
 ) -> Page {
     let unit = problem.measurement.unit();
     let mut parts = vec![Part::Numbers(numbers(diagnosis, unit))];
+    parts.extend(diagnosis.doubts.iter().map(|doubt| Part::Note(doubted(doubt))));
     parts.extend(diagnosis.residual.iter().map(|left| {
         Part::Note(format!(
             "Left: {} along {}{}, {:.4} {unit} rms, chance {}.",
@@ -70,6 +71,7 @@ fn sentence(diagnosis: &Diagnosis, unit: &str) -> String {
         Verdict::NothingMissing => {
             format!("Nothing is missing: what the model leaves, {before:.3} {unit} rms, is noise.")
         }
+        Verdict::DoubtfulInput => "The data or the machine file look mistaken: no effect is named, and nothing is added, before that is settled.".to_owned(),
     }
 }
 

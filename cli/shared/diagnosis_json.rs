@@ -1,7 +1,8 @@
 //! The keys of `diagnose --json` and `learn --json`; they do not change.
 
 use helixlock_lab::{
-    Advice, Diagnosis, FittedEffect, FittedParameter, Line, Measurement, Ranked, Round, Structure,
+    Advice, Diagnosis, Doubt, FittedEffect, FittedParameter, Line, Measurement, Ranked, Round,
+    Structure,
 };
 use serde::Serializer;
 
@@ -11,6 +12,7 @@ keys! {
     /// A whole diagnosis.
     DiagnosisJson<'a>(found: &'a Diagnosis, measurement: &'a Measurement) {
         verdict: &'static str = found.verdict.word(),
+        doubts: Vec<DoubtJson<'a>> = found.doubts.iter().map(DoubtJson::new).collect(),
         unit: &'static str = measurement.unit_word(),
         noise_um: f64 = found.noise_um,
         rounds: Vec<RoundJson<'a>> = found.rounds.iter().map(RoundJson::new).collect(),
@@ -21,6 +23,14 @@ keys! {
         experiments: Vec<ExperimentJson<'a>> =
             found.experiments.iter().take(5).map(ExperimentJson::new).collect(),
         notes: &'a [String] = &measurement.notes,
+    }
+
+    /// Something that looks mistaken.
+    DoubtJson<'a>(one: &'a Doubt) {
+        what: &'static str = one.what,
+        evidence: f64 = one.evidence,
+        says: &'a str = &one.says,
+        mend: &'a str = &one.mend,
     }
 
     /// One round; `parameters` are those of the effect it added.

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use helixlock_lab::{Diagnosis, FittedEffect};
+use helixlock_lab::{Diagnosis, Doubt, FittedEffect};
 
 use crate::shared::words::{with_error, with_p};
 
@@ -12,6 +12,11 @@ const SMALL: f64 = 5e-4;
 /// The diagnosis for people: verdict, rounds, candidates, what is left, what to do next.
 pub(crate) fn print(out: &mut impl Write, diagnosis: &Diagnosis, unit: &str) -> anyhow::Result<()> {
     writeln!(out, "verdict: {}", diagnosis.verdict.word())?;
+    print_doubts(out, &diagnosis.doubts)?;
+    if !diagnosis.doubts.is_empty() {
+        writeln!(out, "no effect is named, and none is added, before this is settled")?;
+        return Ok(());
+    }
     writeln!(out, "left as noise: {:.4} {unit} rms\n", diagnosis.noise_um)?;
     for round in &diagnosis.rounds {
         let added = round.added.as_deref().unwrap_or("the model as it is");
@@ -37,6 +42,16 @@ pub(crate) fn print(out: &mut impl Write, diagnosis: &Diagnosis, unit: &str) -> 
             left.rms_um,
             with_p(left.p_value)
         )?;
+    }
+    Ok(())
+}
+
+/// What looks mistaken, each with the line that mends it.
+pub(crate) fn print_doubts(out: &mut impl Write, doubts: &[Doubt]) -> anyhow::Result<()> {
+    for doubt in doubts {
+        writeln!(out, "doubt: {}: {} (evidence {:.0})", doubt.what, doubt.says, doubt.evidence)?;
+        writeln!(out, "to mend it:")?;
+        doubt.mend.lines().try_for_each(|line| writeln!(out, "  {line}"))?;
     }
     Ok(())
 }

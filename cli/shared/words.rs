@@ -1,4 +1,8 @@
-//! Numbers in the words of a report.
+//! Numbers in the words of a report, and a verdict as an exit status.
+
+use std::process::ExitCode;
+
+use helixlock_lab::{Doubt, Verdict};
 
 /// Chances below this come from rounding, and say no more than that it is very small.
 const SMALLEST: f64 = 1e-99;
@@ -35,6 +39,17 @@ pub(crate) fn with_error(value: f64, stderr: f64) -> String {
         decimals += 1;
     }
     format!("{value:.decimals$} ± {stderr:.decimals$}")
+}
+
+/// A doubt as a sentence of a page.
+pub(crate) fn doubted(doubt: &Doubt) -> String {
+    let mend = doubt.mend.replace('\n', "; ");
+    format!("Doubtful input: {}. To mend it: {mend}", doubt.says)
+}
+
+/// Exit status of a diagnosis: 1 when the input itself is doubted.
+pub(crate) fn status(verdict: Verdict) -> ExitCode {
+    if verdict == Verdict::DoubtfulInput { ExitCode::from(1) } else { ExitCode::SUCCESS }
 }
 
 #[cfg(test)]

@@ -3,11 +3,13 @@
 use std::io::{self, Write};
 use std::path::Path;
 
+use helixlock_lab::divider_doubt;
 use helixlock_plant::Machine;
 use helixlock_sim::{Course, Findings, Hunting, Pass, PassFindings, Playback, Simulation};
 
 use crate::shared::keys::keys;
 use crate::shared::wheels::Wheels;
+use crate::shared::words::doubted;
 
 keys! {
     /// `summary.json`: keys are stable, units are in the names.
@@ -132,7 +134,8 @@ fn hunting(simulation: &Simulation, findings: &Findings) -> Option<HuntingSummar
 /// What a user should not have to find out alone.
 fn notes(machine: &Machine, simulation: &Simulation, findings: &Findings) -> Vec<String> {
     let (course, open, closed) = (&simulation.course, &simulation.open, &simulation.closed);
-    let mut notes = Vec::new();
+    let misfit = divider_doubt(machine);
+    let mut notes: Vec<String> = misfit.iter().map(doubted).collect();
     let asked = machine.dividers.compensation_um_per_m;
     let given = course.dialled.compensation_um_per_m;
     if (asked - given).abs() > 0.0005 {

@@ -12,6 +12,8 @@ mod noise;
 
 mod model;
 
+mod doubts;
+
 mod spectrum;
 
 mod hypotheses;
@@ -30,6 +32,7 @@ pub use answer::{
 pub use challenge::{
     Challenge, ChallengeError, Figure, Hidden, Outcome, Score, Share, challenge, judge,
 };
+pub use doubts::{Doubt, divider_doubt, doubts};
 pub use hypotheses::Structure;
 pub use measurement::{LabError, Measurement, Nominal, PulseTrains, Steps, sensor_column};
 pub use model::{Problem, Row};

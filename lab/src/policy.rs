@@ -22,5 +22,6 @@
 pub(crate) mod chance;
 pub(crate) mod evidence;
 pub(crate) mod extent;
+pub(crate) mod mistakes;
 pub(crate) mod reading;
 pub(crate) mod size;

@@ -40,6 +40,7 @@ pub use model::{MachineFile, Model};
 pub use motion::Motion;
 pub use nature::Nature;
 pub use play::Play;
+pub use rationalisation::rationalisation_um_per_m;
 pub use record::{
     Bridging, COVARIATES, Columns, Covariate, HeaderUnit, Instant, LOGGED_COLUMNS, LoggedColumn,
     Record, Samples, Setting,

@@ -12,7 +12,8 @@ pub(crate) fn implied_um_per_m(machine: &Machine) -> f64 {
 }
 
 /// What the dividers leave of the travel, µm/m.
-pub(crate) fn rationalisation_um_per_m(machine: &Machine) -> f64 {
+#[must_use]
+pub fn rationalisation_um_per_m(machine: &Machine) -> f64 {
     let dividers = &machine.dividers;
     let fringes_per_turn =
         f64::from(machine.grating.lines) * f64::from(dividers.b) / f64::from(dividers.a);

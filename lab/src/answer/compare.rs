@@ -2,6 +2,7 @@
 
 use helixlock_plant::prediction::Sensor;
 
+use crate::doubts::{Doubt, doubts};
 use crate::hypotheses::{Structure, all_structures, taken_for_noise};
 use crate::model::{Problem, State};
 use crate::noise::{Noise, effective_samples, rms};
@@ -69,6 +70,8 @@ pub struct SensorResidual {
 /// A comparison of a model with a measurement.
 #[derive(Debug, Clone)]
 pub struct Comparison {
+    /// What looks mistaken in the data or the machine file, clearest first.
+    pub doubts: Vec<Doubt>,
     /// One entry a sensor.
     pub sensors: Vec<SensorResidual>,
     /// Everything that was looked along, clearest first; chances count all looks. A smooth curve
@@ -103,6 +106,7 @@ pub fn compare(problem: &Problem) -> Comparison {
         .map(|sensor| sensor_residual(problem, (small, &state), &residual, sensor))
         .collect();
     Comparison {
+        doubts: doubts(problem),
         sensors,
         lines: lines(small, &state.columns, &state.fit),
         noise_only,

@@ -4,6 +4,7 @@ use helixlock_plant::{Role, Term};
 use rayon::prelude::*;
 
 use super::experiment::{self, Advice};
+use crate::doubts::{Doubt, doubts};
 use crate::hypotheses::{Structure, structures};
 use crate::model::{
     Component, JointCovariance, Judged, Problem, State, holdout_rms, joint_covariance,
@@ -27,6 +28,8 @@ pub enum Verdict {
     Unexplained,
     /// The model leaves nothing but noise.
     NothingMissing,
+    /// The data or the machine file look mistaken; no effect is named.
+    DoubtfulInput,
 }
 
 impl Verdict {
@@ -38,6 +41,7 @@ impl Verdict {
             Self::Ambiguous => "ambiguous",
             Self::Unexplained => "unexplained",
             Self::NothingMissing => "nothing-missing",
+            Self::DoubtfulInput => "doubtful-input",
         }
     }
 }
@@ -113,6 +117,8 @@ pub struct Ranked {
 pub struct Diagnosis {
     /// The verdict.
     pub verdict: Verdict,
+    /// What looks mistaken, by evidence; empty but for [`Verdict::DoubtfulInput`].
+    pub doubts: Vec<Doubt>,
     /// Size of what the final model leaves as noise, µm (arcsec).
     pub noise_um: f64,
     /// Rounds of the search, the first without any effect.
@@ -131,10 +137,33 @@ pub struct Diagnosis {
 
 /// Diagnoses a problem.
 ///
+/// Mistakes of input come first: with one of them nothing is searched for.
 /// The search works on at most a few thousand rows, means of neighbours where there are more;
 /// every figure that is reported is fitted to all rows.
 #[must_use]
 pub fn diagnose(problem: &Problem) -> Diagnosis {
+    let doubts = doubts(problem);
+    if doubts.is_empty() { searched(problem) } else { doubtful(problem, doubts) }
+}
+
+/// The diagnosis of mistaken input: the model as it is, and nothing added.
+fn doubtful(problem: &Problem, doubts: Vec<Doubt>) -> Diagnosis {
+    let steps = [Step::to(State::bare(problem), None, Vec::new())];
+    let state = steps[0].state.clone();
+    Diagnosis {
+        verdict: Verdict::DoubtfulInput,
+        doubts,
+        noise_um: rms(&problem.layout, &state.fit.left),
+        rounds: rounds(problem, &steps, std::slice::from_ref(&state)),
+        candidates: Vec::new(),
+        residual: Vec::new(),
+        experiments: Vec::new(),
+        left: state.fit.left,
+        before: problem.residual(),
+    }
+}
+
+fn searched(problem: &Problem) -> Diagnosis {
     let mut small = problem.thinned(SEARCHED_ROWS).unwrap_or_else(|| problem.clone());
     let mut steps = search(&mut small);
     let (problem, mut states) = on_all_rows(problem, &small, &steps);
@@ -154,6 +183,7 @@ pub fn diagnose(problem: &Problem) -> Diagnosis {
     let state = states[states.len() - 1].clone();
     Diagnosis {
         verdict: verdict(&state, &found, &residual),
+        doubts: Vec::new(),
         noise_um: rms(&problem.layout, &state.fit.left),
         rounds: rounds(&problem, &steps, &states),
         candidates: ranked(&state, &found, &steps[0].tried, &experiments),

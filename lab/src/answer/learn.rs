@@ -76,6 +76,8 @@ pub struct LedgerEntry {
 pub struct Ledger {
     /// Fingerprint of the data, so that a ledger is not taken for that of another file.
     pub data_hash: String,
+    /// True when the rounds stand: what they added goes into the machine file.
+    pub accepted: bool,
     /// Rounds, the first with the machine file as it was.
     pub entries: Vec<LedgerEntry>,
 }
@@ -102,7 +104,7 @@ pub fn ledger(
             holdout_rms_before_um: before.1,
         });
     }
-    Ok(Ledger { data_hash: fingerprint(data), entries })
+    Ok(Ledger { data_hash: fingerprint(data), accepted: true, entries })
 }
 
 /// 64-bit FNV-1a of some bytes, in hexadecimal: tells files apart, proves nothing.

@@ -10,6 +10,7 @@ pub(super) const SECONDS: &[HeaderUnit] = &[
     ("us", 1e-6, 0.0),
     ("min", 60.0, 0.0),
     ("h", 3600.0, 0.0),
+    ("day", 86_400.0, 0.0),
 ];
 pub(super) const MILLIMETRES: &[HeaderUnit] = &[
     ("mm", 1.0, 0.0),
@@ -19,8 +20,16 @@ pub(super) const MILLIMETRES: &[HeaderUnit] = &[
     ("in", 25.4, 0.0),
     ("inch", 25.4, 0.0),
 ];
-pub(super) const MICROMETRES: &[HeaderUnit] =
-    &[("um", 1.0, 0.0), ("nm", 1e-3, 0.0), ("mm", 1e3, 0.0), ("m", 1e6, 0.0)];
+pub(super) const MICROMETRES: &[HeaderUnit] = &[
+    ("um", 1.0, 0.0),
+    ("nm", 1e-3, 0.0),
+    ("mm", 1e3, 0.0),
+    ("m", 1e6, 0.0),
+    ("pm", 1e-6, 0.0),
+    ("in", 25_400.0, 0.0),
+    ("mil", 25.4, 0.0),
+    ("uin", 0.0254, 0.0),
+];
 pub(super) const TURNS: &[HeaderUnit] = &[
     ("rev", 1.0, 0.0),
     ("turns", 1.0, 0.0),
@@ -35,8 +44,12 @@ pub(super) const ARCSECONDS: &[HeaderUnit] = &[
     ("mrad", 648.0 / std::f64::consts::PI, 0.0),
     ("urad", 0.648 / std::f64::consts::PI, 0.0),
 ];
-pub(super) const TURNS_A_MINUTE: &[HeaderUnit] =
-    &[("rpm", 1.0, 0.0), ("1/min", 1.0, 0.0), ("1/s", 60.0, 0.0)];
+pub(super) const TURNS_A_MINUTE: &[HeaderUnit] = &[
+    ("rpm", 1.0, 0.0),
+    ("1/min", 1.0, 0.0),
+    ("1/s", 60.0, 0.0),
+    ("rad/s", 30.0 / std::f64::consts::PI, 0.0),
+];
 pub(super) const CELSIUS: &[HeaderUnit] =
     &[("c", 1.0, 0.0), ("degc", 1.0, 0.0), ("k", 1.0, -273.15), ("degf", 5.0 / 9.0, -160.0 / 9.0)];
 pub(super) const HECTOPASCALS: &[HeaderUnit] = &[
@@ -46,6 +59,8 @@ pub(super) const HECTOPASCALS: &[HeaderUnit] = &[
     ("kpa", 10.0, 0.0),
     ("bar", 1e3, 0.0),
     ("mmhg", 1.333_223_874, 0.0),
+    ("inhg", 33.863_886_4, 0.0),
 ];
 pub(super) const PER_CENT: &[HeaderUnit] = &[("%", 1.0, 0.0), ("pct", 1.0, 0.0), ("%rh", 1.0, 0.0)];
-pub(super) const NEWTONS: &[HeaderUnit] = &[("n", 1.0, 0.0), ("kn", 1e3, 0.0)];
+pub(super) const NEWTONS: &[HeaderUnit] =
+    &[("n", 1.0, 0.0), ("kn", 1e3, 0.0), ("kgf", 9.806_65, 0.0)];

@@ -1,0 +1,75 @@
+//! Mistakes of input, asked for before physics: does a sign, a unit, a swap or a shift explain
+//! more with less than any effect?
+//!
+//! Each mistake is a hypothesis without a free number (a shift has one) before one court: twice
+//! the log likelihood under noise fitted to what it leaves, with what workshops are usually like,
+//! less the price of all looks. It must beat the file as it is, the file without its effects, and
+//! the file's effects at any size.
+
+mod column;
+mod common;
+mod court;
+mod dividers;
+mod doubt;
+mod factor;
+mod hypothesis;
+mod law;
+mod shift;
+mod swap;
+mod view;
+
+use crate::model::Problem;
+use crate::policy::extent::SEARCHED_ROWS;
+
+use court::Court;
+pub use dividers::divider_doubt;
+pub use doubt::Doubt;
+use hypothesis::Hypothesis;
+
+/// Most mistakes in one file: each is looked for with the others mended.
+const MOST: usize = 3;
+
+/// What looks mistaken in a measurement or in its machine file; empty for sound input.
+///
+/// The largest evidence comes first. Looks at no more than a few thousand rows.
+#[must_use]
+pub fn doubts(problem: &Problem) -> Vec<Doubt> {
+    let small = problem.thinned(SEARCHED_ROWS);
+    // Laid out anew, so that a mend changes nothing but what it mends.
+    let small = small.and_then(|small| Problem::new(&small.model, &small.measurement).ok());
+    let mut now = small.unwrap_or_else(|| problem.clone());
+    let mut doubts: Vec<Doubt> = Vec::new();
+    while doubts.len() < MOST {
+        let all = hypotheses(&now);
+        let Some((one, mended)) = Court::of(&now, all.len()).judged(all) else { break };
+        if doubts.iter().any(|other| other.mend == one.mend) {
+            break;
+        }
+        doubts.push(one);
+        now = mended;
+    }
+    doubts
+}
+
+fn hypotheses(problem: &Problem) -> Vec<Hypothesis> {
+    let mut all = column::units(problem);
+    all.extend(swap::swaps(problem));
+    all.extend(shift::shift(problem));
+    all.extend(dividers::other_dividers(problem));
+    if !follows_steps(problem) {
+        all.extend(factor::factors(problem));
+        all.extend(hypothesis::another_machine(problem));
+    }
+    all
+}
+
+/// True when the prediction holds what logged steps have moved.
+///
+/// What they corrected is not in the error: an effect that the file lacks then looks like a
+/// prediction that should be smaller, or not be there.
+fn follows_steps(problem: &Problem) -> bool {
+    problem.measurement.covariates.contains_key("steps")
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,29 @@
+//! What every measurement has of its own: no mistake is seen by a slope, a curve or a drift.
+
+use crate::model::{Columns, Problem, Row};
+
+/// Straight lines over the way, a sensor each.
+pub(super) fn slopes(problem: &Problem) -> Columns {
+    let turns: Vec<f64> = problem.record.turns().collect();
+    a_sensor_each(problem, &[&|sample| turns[sample]])
+}
+
+/// Parabolas over the way, and straight lines in time, a sensor each.
+pub(super) fn curves(problem: &Problem) -> Columns {
+    let turns: Vec<f64> = problem.record.turns().collect();
+    let time_s = &problem.record.time_s;
+    a_sensor_each(problem, &[&|sample| turns[sample] * turns[sample], &|sample| time_s[sample]])
+}
+
+fn a_sensor_each(problem: &Problem, shapes: &[&dyn Fn(usize) -> f64]) -> Columns {
+    let column = |sensor, shape: &dyn Fn(usize) -> f64| {
+        let value = |row: &Row| {
+            if row.sensor == sensor { shape(row.sample) } else { 0.0 }
+        };
+        problem.rows.iter().map(value).collect()
+    };
+    let sensors = problem.sensors.iter();
+    Columns::free(
+        sensors.flat_map(|&sensor| shapes.iter().map(move |shape| column(sensor, shape))).collect(),
+    )
+}

@@ -1,0 +1,203 @@
+//! One judge for all mistakes: evidence against the file as it is, and against its effects at any
+//! size or none.
+
+use helixlock_plant::{Model, Parameter, Role, Term};
+
+use super::column::all_physics;
+use super::common::{curves, slopes};
+use super::doubt::Doubt;
+use super::hypothesis::{Hypothesis, with_effects};
+use super::view::{View, rough_noises};
+use crate::model::{Columns, Fit, Problem, noises_of, settle, with_noise};
+use crate::numerics::count;
+use crate::policy::mistakes::{DOUBT, NEAR_THE_BEST_DOUBT, SMALLER, WORTH_A_FIT};
+
+/// A problem before the court.
+pub(super) struct Court<'a> {
+    problem: &'a Problem,
+    /// What is so common that no mistake is seen by it: nothing, slopes, or curves and drifts too.
+    common: [Columns; 3],
+    /// Predictions of nothing at all, and of a machine without effects.
+    absent: Vec<Vec<f64>>,
+    /// What the number of looks costs.
+    price: f64,
+}
+
+/// Most mistakes whose noise is fitted under either view.
+const FITTED: usize = 6;
+
+/// Most effects of known size that are tried in every combination.
+const MOST_PHYSICS: usize = 4;
+
+impl<'a> Court<'a> {
+    pub(super) fn of(problem: &'a Problem, tried: usize) -> Self {
+        let price = 2.0 * libm::log(count(tried.max(1)));
+        let lines = slopes(problem);
+        let curves = lines.and(&curves(problem));
+        let bare = Model { effects: Vec::new(), ..problem.model.clone() };
+        let bare = predicted_by(problem, &bare).filter(|_| !problem.model.effects.is_empty());
+        let absent = std::iter::once(vec![0.0; problem.rows.len()]).chain(bare).collect();
+        Self { problem, common: [Columns::default(), lines, curves], absent, price }
+    }
+
+    /// The mistake that beats every other explanation, with the problem after its mend.
+    pub(super) fn judged(&self, all: Vec<Hypothesis>) -> Option<(Doubt, Problem)> {
+        let rough = self.view(&rough_noises(self.problem));
+        let all: Vec<Hypothesis> = all.into_iter().filter(|one| self.told(&rough, one)).collect();
+        if all.is_empty() {
+            return None;
+        }
+        let (base, fit) = self.evidence(&self.problem.predicted, &Columns::default());
+        let gains = [self.gains(&rough, &all), self.gains(&self.view(&fit.noises), &all)];
+        let worth = worth_a_fit(&all, &gains);
+        let judged = all.into_iter().zip(worth).filter(|(_, worth)| *worth).map(|(one, _)| one);
+        let with_evidence = judged.map(|one| (self.own_evidence(&one) - base, one));
+        let mut likely: Vec<(f64, Hypothesis)> =
+            with_evidence.filter(|(evidence, _)| DOUBT < *evidence).collect();
+        likely.sort_by(|a, b| a.1.last_resort().cmp(&b.1.last_resort()).then(b.0.total_cmp(&a.0)));
+        likely.into_iter().find_map(|(evidence, one)| {
+            let evidence = evidence - (self.rival(&one) - base).max(0.0);
+            let Hypothesis { what, says, mend, mended, .. } = one;
+            (DOUBT < evidence).then_some((Doubt { what, evidence, says, mend }, mended))
+        })
+    }
+
+    fn view(&self, noises: &[crate::noise::Noise]) -> View {
+        View::new(self.problem, &self.common[2], noises)
+    }
+
+    /// True when the data can tell a mistake, and it leaves less than the file as it is.
+    fn told(&self, rough: &View, one: &Hypothesis) -> bool {
+        if DOUBT < one.usual {
+            return true;
+        }
+        let left = |predicted: &[f64]| rough.left(self.problem, predicted);
+        let after = left(&one.mended.predicted);
+        let moved: Vec<f64> =
+            one.mended.predicted.iter().zip(&self.problem.predicted).map(|(a, b)| a - b).collect();
+        let smaller = after < SMALLER * left(&self.problem.predicted);
+        let needed = one.lets_go() || self.absent.iter().all(|bare| after < SMALLER * left(bare));
+        WORTH_A_FIT < rough.square(&moved) && smaller && needed
+    }
+
+    /// What each mistake gains under a fixed noise.
+    fn gains(&self, view: &View, all: &[Hypothesis]) -> Vec<f64> {
+        let before = view.left(self.problem, &self.problem.predicted);
+        let gain =
+            |one: &Hypothesis| before - view.left(self.problem, &one.mended.predicted) + one.usual;
+        all.iter().map(gain).collect()
+    }
+
+    fn own_evidence(&self, one: &Hypothesis) -> f64 {
+        let numbers = one.numbers * self.problem.price_of_a_number();
+        let looks = self.price + 2.0 * libm::log(one.looks);
+        self.evidence(&one.mended.predicted, &Columns::default()).0 + one.usual - looks - numbers
+    }
+
+    /// The best of all other explanations.
+    fn rival(&self, best: &Hypothesis) -> f64 {
+        let evidence = |predicted: &[f64]| self.evidence(predicted, &Columns::default()).0;
+        let mut rivals = vec![self.freed()];
+        if best.physics {
+            rivals.extend(self.with_physics().iter().map(|predicted| evidence(predicted)));
+        }
+        // Whatever makes a wrong prediction vanish looks like a mend.
+        if !best.last_resort() {
+            rivals.extend(self.absent.iter().map(|predicted| evidence(predicted)));
+        }
+        rivals.into_iter().fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Twice the log likelihood of a prediction with what is common, less the price of that.
+    fn evidence(&self, predicted: &[f64], more: &Columns) -> (f64, Fit) {
+        let of = |common: &Columns| {
+            let fit = self.fitted(predicted, &common.and(more));
+            let number = self.problem.price_of_a_number();
+            let price = |at: usize| {
+                let (value, variance) =
+                    (fit.linear.coefficients[at], fit.linear.covariance[(at, at)]);
+                libm::log1p(value * value / variance.max(f64::MIN_POSITIVE)).max(number)
+            };
+            let price: f64 = (0..common.raw.len()).map(price).sum();
+            (2.0 * fit.log_likelihood - price, fit)
+        };
+        let [none, slopes, curves] = &self.common;
+        [slopes, curves]
+            .into_iter()
+            .map(of)
+            .fold(of(none), |best, other| if best.0 < other.0 { other } else { best })
+    }
+
+    /// A prediction with its noise, columns free.
+    fn fitted(&self, predicted: &[f64], columns: &Columns) -> Fit {
+        let trial = Problem { predicted: predicted.to_vec(), ..self.problem.clone() };
+        let noises = rough_noises(&trial);
+        let rough = with_noise(&trial.layout, columns, &trial.residual(), &noises);
+        settle(&trial, columns, &noises_of(&trial, &rough.left))
+    }
+
+    /// Evidence of the file's own effects at any size, integrated over sizes as large as theirs.
+    fn freed(&self) -> f64 {
+        let effects = &self.problem.model.effects;
+        let columns = effects.iter().filter_map(|term| departures(self.problem, term));
+        let more = columns.fold(Columns::default(), |all, one| all.and(&one));
+        if more.raw.is_empty() {
+            return f64::NEG_INFINITY;
+        }
+        let (evidence, fit) = self.evidence(&self.problem.predicted, &more);
+        let width = more.raw.len();
+        let from = fit.linear.coefficients.len() - width;
+        let posterior = fit.linear.covariance.view((from, from), (width, width)).determinant();
+        let prior: f64 = more.priors.iter().flatten().map(|(_, sd)| 2.0 * libm::log(*sd)).sum();
+        evidence - (prior - libm::log(posterior.max(f64::MIN_POSITIVE))).max(0.0)
+    }
+
+    /// Predictions with every set of the effects of known size that the file does not have.
+    fn with_physics(&self) -> Vec<Vec<f64>> {
+        let all = all_physics(self.problem);
+        let all = &all[..all.len().min(MOST_PHYSICS)];
+        let member = |set: usize| move |(index, _): &(usize, &Term)| set & (1 << index) != 0;
+        let sets = (1_usize..1 << all.len()).map(|set| {
+            all.iter().enumerate().filter(member(set)).map(|(_, term)| term.clone()).collect()
+        });
+        let model = &self.problem.model;
+        sets.filter_map(|set: Vec<Term>| predicted_by(self.problem, &with_effects(model, &set)))
+            .collect()
+    }
+}
+
+fn predicted_by(problem: &Problem, model: &Model) -> Option<Vec<f64>> {
+    let other = Problem::new(model, &problem.measurement).ok()?;
+    (other.rows == problem.rows).then_some(other.predicted)
+}
+
+/// Columns by which an effect of the file may differ from what the file says.
+fn departures(problem: &Problem, term: &Term) -> Option<Columns> {
+    let raw = problem.design(term).ok()?.columns;
+    let values = term.coefficients();
+    let size = values.iter().fold(0.0, |most: f64, one| most.max(one.abs()));
+    let fixed = |what: &Parameter| matches!(what.role, Role::Known { .. });
+    let known = term.parameters.iter().any(fixed);
+    let held = term.priors();
+    let prior = |at: usize| match held.get(at).copied().flatten() {
+        Some((mean, deviation)) if known => (mean - values[at], deviation),
+        _ => (0.0, size.max(f64::MIN_POSITIVE.sqrt())),
+    };
+    let priors = (0..raw.len()).map(|at| Some(prior(at))).collect();
+    Some(Columns { raw, priors, fixed: None })
+}
+
+/// Those that gain enough, or nearly as much as the best, under either noise.
+fn worth_a_fit(all: &[Hypothesis], gains: &[Vec<f64>; 2]) -> Vec<bool> {
+    let mut worth = vec![false; all.len()];
+    for gains in gains {
+        let best = gains.iter().copied().fold(0.0, f64::max);
+        let enough = WORTH_A_FIT.max(NEAR_THE_BEST_DOUBT * best);
+        let mut order: Vec<usize> = (0..all.len()).filter(|&at| enough <= gains[at]).collect();
+        order.sort_by(|&a, &b| gains[b].total_cmp(&gains[a]));
+        for (rank, at) in order.into_iter().enumerate() {
+            worth[at] |= rank < FITTED || all[at].last_resort();
+        }
+    }
+    worth
+}

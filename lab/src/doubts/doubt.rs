@@ -1,0 +1,19 @@
+//! What is said of a mistake.
+
+/// A mistake that explains the data better than any effect.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Doubt {
+    /// What kind of mistake: `sign`, `unit`, `swap`, `shift`, `dividers`, `another-machine`.
+    pub what: &'static str,
+    /// Evidence against the next best explanation, in units of twice the log likelihood.
+    pub evidence: f64,
+    /// The mistake in a sentence.
+    pub says: String,
+    /// The line that puts it right: of a recipe for a column, of the machine file for a setting.
+    pub mend: String,
+}
+
+/// The part of an import's recipe that reads a column otherwise.
+pub(super) fn recipe(column: &str, how: &str) -> String {
+    format!("[[column]]\nfrom = \"{column}\"\nto = \"{column}\"\n{how}")
+}

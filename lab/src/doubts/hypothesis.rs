@@ -1,0 +1,104 @@
+//! A mistake as a hypothesis: what would be predicted, and how usual the readings would be.
+
+use helixlock_plant::{Model, Term};
+
+use crate::measurement::Measurement;
+use crate::model::Problem;
+use crate::policy::mistakes::MACHINE_OF_EFFECTS;
+
+use super::law::usualness;
+
+/// A mistake before the court.
+#[derive(Debug)]
+pub(super) struct Hypothesis {
+    /// Kind of mistake.
+    pub(super) what: &'static str,
+    /// The mistake in a sentence.
+    pub(super) says: String,
+    /// The line that puts it right.
+    pub(super) mend: String,
+    /// The problem with the mistake put right; its observations stay as they were read, so that
+    /// likelihoods compare.
+    pub(super) mended: Problem,
+    /// True when it needs effects of known size that the file does not have.
+    pub(super) physics: bool,
+    /// True for a factor on what a sensor shows.
+    pub(super) scales: bool,
+    /// How much more usual the readings are when it is put right, as evidence.
+    pub(super) usual: f64,
+    /// Free numbers, and places they were looked for at.
+    pub(super) numbers: f64,
+    pub(super) looks: f64,
+}
+
+impl Hypothesis {
+    /// True when it lets the prediction grow, shrink or vanish: then nothing is told from what is
+    /// not there at all.
+    pub(super) fn lets_go(&self) -> bool {
+        self.scales || self.last_resort()
+    }
+
+    /// True when it is said only if no mistake of this machine's data is likely.
+    pub(super) fn last_resort(&self) -> bool {
+        self.what == "another-machine"
+    }
+
+    /// A mistake in a measurement; `None` when the mended one cannot be laid out alike.
+    pub(super) fn of_measurement(
+        problem: &Problem,
+        mended: &Measurement,
+        (what, says, mend): (&'static str, String, String),
+    ) -> Option<Self> {
+        Self::with(problem, mended, &[], (what, says, mend))
+    }
+
+    /// The same with further effects that the machine must then have.
+    pub(super) fn with(
+        problem: &Problem,
+        mended: &Measurement,
+        more: &[Term],
+        (what, says, mend): (&'static str, String, String),
+    ) -> Option<Self> {
+        let model = with_effects(&problem.model, more);
+        let usual = usualness(mended, &model) - usualness(&problem.measurement, &model);
+        let mended = Problem::new(&model, mended).ok()?;
+        let alike = mended.rows == problem.rows;
+        let mended = Problem { layout: problem.layout.clone(), ..mended };
+        alike.then_some(Self {
+            what,
+            says,
+            mend,
+            mended,
+            physics: !more.is_empty(),
+            scales: false,
+            usual,
+            numbers: 0.0,
+            looks: 1.0,
+        })
+    }
+}
+
+/// A model that has further effects.
+pub(super) fn with_effects(model: &Model, more: &[Term]) -> Model {
+    let mut model = model.clone();
+    model.effects.extend(more.iter().cloned());
+    model
+}
+
+/// The measurement shows nothing of what the file says that its machine has.
+pub(super) fn another_machine(problem: &Problem) -> Option<Hypothesis> {
+    let effects = problem.model.effects.len();
+    let bare = Model { effects: Vec::new(), ..problem.model.clone() };
+    let mended = Problem::new(&bare, &problem.measurement).ok()?;
+    (MACHINE_OF_EFFECTS <= effects && mended.rows == problem.rows).then(|| Hypothesis {
+        what: "another-machine",
+        says: format!("none of the file's {effects} effects is in the data: is it this machine?"),
+        mend: "take the machine file that belongs to the data".to_owned(),
+        mended: Problem { layout: problem.layout.clone(), ..mended },
+        physics: false,
+        scales: false,
+        usual: 0.0,
+        numbers: 0.0,
+        looks: 1.0,
+    })
+}

@@ -1,0 +1,85 @@
+//! How usual readings are: evidence that needs no prediction.
+
+use helixlock_plant::Machine;
+
+use crate::measurement::Measurement;
+use crate::numerics::{count, median, spread};
+use crate::policy::mistakes::{
+    OTHERWISE, OTHERWISE_DEVIATION, SAME_SPEED, SAME_TRAVEL, USUAL, USUAL_SIZE,
+};
+
+/// Twice the log probability of what a measurement says of its workshop, but for a constant.
+pub(super) fn usualness(measurement: &Measurement, machine: &Machine) -> f64 {
+    readings(measurement) + speeds(measurement, machine) + travel(measurement, machine)
+}
+
+fn readings(measurement: &Measurement) -> f64 {
+    let of = |&(column, usual, deviation): &(&str, f64, f64)| {
+        let mut values = measurement.covariates.get(column)?.clone();
+        Some(-((median(&mut values) - usual) / deviation).powi(2))
+    };
+    USUAL.iter().filter_map(of).sum()
+}
+
+/// The same of the size of an error column times a factor.
+pub(super) fn size_of_error(values: &[f64], factor: f64) -> f64 {
+    let mut sizes: Vec<f64> =
+        values.iter().filter(|value| value.is_finite()).map(|value| value.abs()).collect();
+    let usual = factor * median(&mut sizes);
+    if usual <= 0.0 {
+        return 0.0;
+    }
+    let (centre, deviation) = USUAL_SIZE;
+    -((libm::log10(usual) - centre) / deviation).powi(2)
+}
+
+/// Speed by the clock, by its column, and by the machine file.
+fn speeds(measurement: &Measurement, machine: &Machine) -> f64 {
+    let mut told = measurement.speed_rpm.clone();
+    let told = median(&mut told);
+    let clocked = clocked_rpm(measurement);
+    let nominal = machine.spindle.speed_rpm;
+    let pairs = [(told, clocked), (told, nominal)];
+    let of = |(one, other): (f64, f64)| {
+        if 0.0 < one && 0.0 < other { same(libm::log(one / other), SAME_SPEED) } else { 0.0 }
+    };
+    pairs.into_iter().map(of).sum()
+}
+
+/// Usual speed from one sample to the next, rpm.
+pub(super) fn clocked_rpm(measurement: &Measurement) -> f64 {
+    let rows = 1..measurement.len();
+    let mut speeds: Vec<f64> = rows
+        .filter(|&row| measurement.pass[row] == measurement.pass[row - 1])
+        .map(|row| {
+            let turns = measurement.angle_rev[row] - measurement.angle_rev[row - 1];
+            let time_s = measurement.time_s[row] - measurement.time_s[row - 1];
+            60.0 * (turns / time_s).abs()
+        })
+        .filter(|rpm| rpm.is_finite() && 0.0 < *rpm)
+        .collect();
+    median(&mut speeds)
+}
+
+fn travel(measurement: &Measurement, machine: &Machine) -> f64 {
+    let way_mm = spread(&measurement.position_mm);
+    if machine.rotary || way_mm <= 0.0 {
+        return 0.0;
+    }
+    same(libm::log(way_mm / machine.workpiece.length_mm), SAME_TRAVEL)
+}
+
+/// Twice the log density of a difference of logarithms: mostly that of equal ones, else wide.
+fn same(difference: f64, deviation: f64) -> f64 {
+    let normal = |deviation: f64| libm::exp(-0.5 * (difference / deviation).powi(2)) / deviation;
+    let density = (1.0 - OTHERWISE) * normal(deviation) + OTHERWISE * normal(OTHERWISE_DEVIATION);
+    2.0 * libm::log(density.max(f64::MIN_POSITIVE))
+}
+
+/// Share of a column that lies on the run of the clock: 1 when it follows from it.
+pub(super) fn follows_from_clock(measurement: &Measurement, machine: &Machine) -> bool {
+    let turns_per_second = machine.spindle.speed_rpm / 60.0;
+    let off = measurement.angle_rev.iter().zip(&measurement.time_s);
+    let off = off.map(|(angle, time)| (angle - time * turns_per_second).abs());
+    off.fold(0.0, f64::max) < 1e-9 * count(measurement.len())
+}

@@ -1,0 +1,76 @@
+//! When the input is doubted: laws of what workshops are like, and the margin of a doubt.
+//!
+//! A law says how likely a reading is before the model is asked; what is meant to be wide is
+//! wide, for a sound oddity must never be doubted by a law alone.
+
+/// Evidence by which a mistake must beat every other explanation.
+///
+/// Chosen: odds of 270 000 to 1, so that sound data are doubted less than once in five hundred.
+/// Doubled: swapped columns and shifts that move a prediction by few times its noise are not seen.
+pub(crate) const DOUBT: f64 = 25.0;
+
+/// Evidence under the noise of the file as it is from which on a mistake is worth its own fit.
+///
+/// Chosen: a fifth of [`DOUBT`], for the noise that takes a mistake's traces is too large. Doubled:
+/// mistakes in slow noise may be passed over.
+pub(crate) const WORTH_A_FIT: f64 = 5.0;
+
+/// Share of the best of these gains from which on a mistake is fitted as well.
+///
+/// Chosen: a factor of a thousand and one of a million differ by less. Doubled: nothing else is
+/// fitted than the best.
+pub(crate) const NEAR_THE_BEST_DOUBT: f64 = 0.5;
+
+/// Share of the square that a mend may leave of what is left without it.
+///
+/// Chosen: a mistake that moves the prediction by half the noise is not seen. Doubled: no mistake
+/// would have to make the error smaller.
+pub(crate) const SMALLER: f64 = 0.9;
+
+/// Usual reading of a column with its deviation.
+///
+/// Chosen: three deviations hold cellars and foundries, and a pressure at an altitude of 2 km.
+/// Doubled: °F alone are no longer doubted.
+pub(crate) const USUAL: &[(&str, f64, f64)] = &[
+    ("air_temperature_c", 20.0, 8.0),
+    ("workpiece_temperature_c", 24.0, 12.0),
+    ("bed_temperature_c", 24.0, 12.0),
+    ("air_pressure_hpa", 1000.0, 80.0),
+    ("humidity_pct", 50.0, 25.0),
+];
+
+/// Usual size of an error, and its deviation: decimal logarithms of µm (arcsec).
+///
+/// Chosen: a sound machine errs by 0.1 to 100. Doubled: no size is doubted by itself.
+pub(crate) const USUAL_SIZE: (f64, f64) = (0.5, 1.0);
+
+/// Relative deviation of two speeds that are said to be equal.
+///
+/// Chosen: a spindle's slip and a clock's digits. Doubled: an exact match gains 1.4 less.
+pub(crate) const SAME_SPEED: f64 = 5e-3;
+
+/// Logarithmic deviation of the travel of a record from the length of the workpiece.
+///
+/// Chosen: by a factor of 1.6 either way. Doubled: an expected travel gains 1.4 less.
+pub(crate) const SAME_TRAVEL: f64 = 0.5;
+
+/// Share of records in which speeds, or travel and length, differ for a sound reason.
+///
+/// Chosen. Doubled: such a match gains 1.4 less.
+pub(crate) const OTHERWISE: f64 = 0.1;
+
+/// Logarithmic deviation of those.
+///
+/// Chosen: by a factor of 4.5 either way, so that a thousand is 4.6 deviations off. Doubled: a
+/// unit is doubted only where two quantities speak against it.
+pub(crate) const OTHERWISE_DEVIATION: f64 = 1.5;
+
+/// Fewest effects in a file whose absence says that the measurement is another machine's.
+///
+/// Derived: one effect can have been repaired. Doubled: files of two and three are not doubted.
+pub(crate) const MACHINE_OF_EFFECTS: usize = 2;
+
+/// Farthest shift of the position's zero that is looked for, in turns of the spindle.
+///
+/// Chosen. Doubled: twice the time.
+pub(crate) const SHIFT_TURNS: u16 = 6;
