@@ -1,12 +1,18 @@
 //! What becomes of each column: from its name, its unit and what it holds.
 
+mod runs;
+mod units;
+
 use crate::data::{self, Target, Word};
 use crate::decide::Decisions;
 use crate::error::quoted;
+
 use crate::header::{self, Header};
 use crate::question::Answer;
 use crate::recipe::ColumnRule;
 use crate::samples::{Holds, Samples};
+use runs::{run_columns, run_values};
+use units::units;
 
 /// Our columns that a measurement needs one of.
 pub(crate) const OBSERVED: [&str; 4] = ["error_um", "error_arcsec", "lead_error_um", "steps"];
@@ -63,7 +69,7 @@ pub(crate) fn propose(
         .collect();
     candidates.iter_mut().for_each(by_content);
     let runs = run_columns(&mut candidates);
-    positions(&mut candidates, runs, decisions);
+    positions(&mut candidates, runs);
     candidates.iter_mut().for_each(by_word);
     one_of_each(&mut candidates, decisions);
     covariates(&mut candidates);
@@ -112,72 +118,8 @@ fn by_content(candidate: &mut Candidate<'_>) {
     }
 }
 
-/// Columns that each hold a run; true when there are some.
-fn run_columns(candidates: &mut [Candidate<'_>]) -> bool {
-    let open = |candidate: &Candidate<'_>| {
-        candidate.rule.to.is_none() && candidate.samples.holds == Holds::Numbers
-    };
-    let bare_number = |candidate: &Candidate<'_>| {
-        candidate.header.bare.parse::<i64>().ok().filter(|number| (0..10_000).contains(number))
-    };
-    let indexed = |candidate: &Candidate<'_>| index_of(&candidate.header.bare);
-    let mut found: Vec<(usize, Option<i64>, Option<i64>)> = Vec::new();
-    for (index, candidate) in candidates.iter().enumerate().filter(|(_, c)| open(c)) {
-        let run = candidate.header.run.filter(|_| {
-            !["pass", "direction"].contains(&candidate.meaning())
-                || candidate
-                    .header
-                    .run
-                    .is_some_and(|run| run.number.is_some() || run.direction.is_some())
-        });
-        let number = run
-            .and_then(|run| run.number)
-            .or_else(|| bare_number(candidate))
-            .or_else(|| indexed(candidate));
-        let direction = run.and_then(|run| run.direction);
-        if number.is_some() || direction.is_some() {
-            found.push((index, number, direction));
-        }
-    }
-    if found.len() < 2 {
-        return candidates.iter().any(|candidate| candidate.rule.pass.is_some());
-    }
-    let passes = passes(&found);
-    for ((index, _, direction), pass) in found.into_iter().zip(passes) {
-        let candidate = &mut candidates[index];
-        candidate.rule.pass = candidate.rule.pass.or(Some(pass));
-        candidate.rule.direction = candidate.rule.direction.or(direction);
-    }
-    true
-}
-
-/// The last number of `x(i,3)` or `ref_pos[3]`.
-fn index_of(bare: &str) -> Option<i64> {
-    let inside = bare.trim_end().strip_suffix([')', ']'])?;
-    let (_, last) = inside.rsplit_once([',', '(', '['])?;
-    last.trim().parse().ok().filter(|_| inside.contains(','))
-}
-
-/// Runs as they are numbered; there and back under numbers of their own make one run together.
-fn passes(found: &[(usize, Option<i64>, Option<i64>)]) -> Vec<i64> {
-    let numbers: Vec<i64> = found.iter().filter_map(|(_, number, _)| *number).collect();
-    let alternate = found.len().is_multiple_of(2)
-        && found.chunks(2).all(|pair| {
-            matches!((pair[0].2, pair[1].2), (Some(1), Some(-1)) | (Some(-1), Some(1)))
-        })
-        && numbers.windows(2).all(|pair| pair[0] != pair[1]);
-    let counted = |direction: Option<i64>, until: usize| {
-        1 + found[..until].iter().filter(|(_, _, other)| *other == direction).count()
-    };
-    let pass = |(place, (_, number, direction)): (usize, &(usize, Option<i64>, Option<i64>))| {
-        let number = number.filter(|number| 0 < *number && !alternate);
-        number.unwrap_or_else(|| i64::try_from(counted(*direction, place)).unwrap_or(1))
-    };
-    found.iter().enumerate().map(pass).collect()
-}
-
 /// Target and actual position: the one is the coordinate, their difference the error.
-fn positions(candidates: &mut [Candidate<'_>], runs: bool, decisions: &mut Decisions<'_>) {
+fn positions(candidates: &mut [Candidate<'_>], runs: bool) {
     let column =
         |candidate: &Candidate<'_>| if candidate.is_angle() { "angle_rev" } else { "position_mm" };
     let open = |candidate: &Candidate<'_>, meaning: &str| {
@@ -197,7 +139,7 @@ fn positions(candidates: &mut [Candidate<'_>], runs: bool, decisions: &mut Decis
         candidates[*target].decide(to, "the position aimed at");
     }
     if runs {
-        return run_values(candidates, decisions);
+        return run_values(candidates);
     }
     let Some(target) = targets.first().filter(|_| targets.len() == 1) else { return };
     let target = candidates[*target].header.name.clone();
@@ -229,60 +171,6 @@ fn difference(candidate: &mut Candidate<'_>, target: &str) {
     );
     candidate.rule.minus = candidate.rule.minus.take().or(Some(target.to_owned()));
     candidate.rule.sign = candidate.rule.sign.or(Some(-1));
-}
-
-/// What the columns of runs hold: positions near the target, or deviations from it.
-fn run_values(candidates: &mut [Candidate<'_>], decisions: &mut Decisions<'_>) {
-    let coordinate = candidates
-        .iter()
-        .position(|candidate| candidate.is("position_mm") || candidate.is("angle_rev"));
-    let lone = || {
-        candidates.iter().position(|candidate| {
-            candidate.rule.to.is_none()
-                && candidate.rule.pass.is_none()
-                && matches!(candidate.meaning(), "position" | "actual" | "angle")
-        })
-    };
-    let Some(at) = coordinate.or_else(lone) else { return };
-    let to = if candidates[at].is_angle() { "angle_rev" } else { "position_mm" };
-    candidates[at].decide(to, "the position aimed at in every run");
-    let targets = candidates[at].samples.values.clone();
-    let name = candidates[at].header.name.clone();
-    let unit = candidates[at].header.unit.clone();
-    for candidate in candidates.iter_mut().filter(|candidate| candidate.rule.pass.is_some()) {
-        if candidate.rule.unit.is_none() && follows(&candidate.samples.values, &targets) {
-            candidate.rule.unit = candidate.header.unit.clone().or(unit.clone());
-        }
-        if follows(&candidate.samples.values, &targets) {
-            difference(candidate, &name);
-            continue;
-        }
-        let reversed = candidate.word.is_some_and(|word| word.reversed);
-        let to = if candidate.is_angle() { "error_arcsec" } else { "error_um" };
-        if reversed {
-            candidate.rule.sign = candidate.rule.sign.or(Some(-1));
-            candidate.decide(to, "a run; a deviation is actual minus target, the error is positive when the table is behind");
-        } else {
-            candidate
-                .decide(to, "a run; taken with its sign, `sign = -1` if it is actual minus target");
-        }
-    }
-    let _ = decisions;
-}
-
-/// True when values run along with the targets, and do not just differ from them.
-fn follows(values: &[f64], targets: &[f64]) -> bool {
-    let pairs = || values.iter().zip(targets).filter(|(v, t)| v.is_finite() && t.is_finite());
-    let spread = |pick: fn((&f64, &f64)) -> f64| {
-        let (low, high) =
-            pairs().map(pick).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-                (low.min(value), high.max(value))
-            });
-        high - low
-    };
-    let (targets, values, rest) =
-        (spread(|(_, t)| *t), spread(|(v, _)| *v), spread(|(v, t)| v - t));
-    0.0 < targets && rest < 0.1 * targets && 0.8 * targets < values
 }
 
 /// What the words of a name say.
@@ -386,90 +274,8 @@ fn covariates(candidates: &mut [Candidate<'_>]) {
     }
 }
 
-/// Units, or the question what they are.
-fn units(
-    candidates: &mut [Candidate<'_>],
-    preamble_unit: Option<&str>,
-    decisions: &mut Decisions<'_>,
-) {
-    for candidate in candidates.iter_mut() {
-        let Some(target) = candidate.rule.to.as_deref().and_then(by_column) else { continue };
-        if target.kind.is_empty()
-            || candidate.rule.unit.is_some()
-            || candidate.samples.holds == Holds::Instants
-        {
-            continue;
-        }
-        let own = candidate.header.name == target.column;
-        let fits = |unit: &&str| data::unit(unit, target.kind).is_some();
-        let named = candidate.header.unit.as_deref().filter(fits);
-        let unit = named
-            .or(preamble_unit.filter(fits))
-            .or((own || target.kind == "count").then_some(target.unit));
-        match unit.map(ToOwned::to_owned).or_else(|| guessed(candidate, target)) {
-            Some(unit) => candidate.rule.unit = Some(unit),
-            None => ask_unit(candidate, target, decisions),
-        }
-    }
-}
-
 pub(crate) fn by_column(name: &str) -> Option<Target> {
     data::target(name).filter(|target| target.column == name)
-}
-
-/// A unit that the values leave no doubt about.
-fn guessed(candidate: &mut Candidate<'_>, target: Target) -> Option<String> {
-    let finite = || candidate.samples.values.iter().copied().filter(|value| value.is_finite());
-    let within = |low: f64, high: f64| finite().all(|value| (low..=high).contains(&value));
-    let unit = match target.column {
-        "time_s" if within(1e9, 4e9) => "s",
-        "time_s" if within(1e12, 4e12) => "ms",
-        "time_s" if within(1e15, 4e15) => "us",
-        "air_pressure_hpa" if within(850.0, 1100.0) => "hpa",
-        "air_pressure_hpa" if within(85e3, 110e3) => "pa",
-        "air_pressure_hpa" if within(85.0, 110.0) => "kpa",
-        "air_pressure_hpa" if within(640.0, 820.0) => "mmhg",
-        "air_temperature_c" | "workpiece_temperature_c" | "bed_temperature_c"
-            if within(10.0, 40.0) =>
-        {
-            "°C"
-        }
-        "air_temperature_c" | "workpiece_temperature_c" | "bed_temperature_c"
-            if within(50.0, 104.0) =>
-        {
-            "°F"
-        }
-        "humidity_pct" if within(1.0, 100.0) => "%",
-        _ => return None,
-    };
-    candidate.rule.reason.push_str("; the unit fits its values");
-    Some(unit.to_owned())
-}
-
-fn ask_unit(candidate: &mut Candidate<'_>, target: Target, decisions: &mut Decisions<'_>) {
-    let units: &[&str] = match target.kind {
-        "length" if target.column == "position_mm" => &["mm", "m", "um", "inch"],
-        "length" => &["um", "mm", "nm", "inch"],
-        "angle" => &["arcsec", "deg", "rad", "rev"],
-        "time" => &["s", "ms", "us", "min"],
-        "temperature" => &["°C", "°F", "K"],
-        "pressure" => &["hpa", "pa", "kpa", "mmhg"],
-        "turning" => &["rpm", "1/s", "deg/s"],
-        "force" => &["n", "kn"],
-        _ => &["%"],
-    };
-    let name = &candidate.header.name;
-    let answer = |unit: &&str| Answer {
-        label: (*unit).to_owned(),
-        recipe: format!(
-            "[[column]]\nfrom = {}\nunit = \"{unit}\"",
-            toml_edit::Value::from(name.as_str())
-        ),
-    };
-    let text = format!("the unit of column {} is not told", quoted(name));
-    decisions.question(&text, units.iter().map(answer).collect());
-    candidate.rule.unit = Some(units[0].to_owned());
-    candidate.rule.reason.push_str("; its unit is not sure");
 }
 
 /// Asks for what a measurement cannot do without.

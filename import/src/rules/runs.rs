@@ -1,0 +1,121 @@
+//! Columns that each hold a run.
+
+use super::{Candidate, difference};
+use crate::samples::Holds;
+
+/// Columns that each hold a run; true when there are some.
+pub(super) fn run_columns(candidates: &mut [Candidate<'_>]) -> bool {
+    let open = |candidate: &Candidate<'_>| {
+        candidate.rule.to.is_none() && candidate.samples.holds == Holds::Numbers
+    };
+    let bare_number = |candidate: &Candidate<'_>| {
+        candidate.header.bare.parse::<i64>().ok().filter(|number| (0..10_000).contains(number))
+    };
+    let indexed = |candidate: &Candidate<'_>| index_of(&candidate.header.bare);
+    let mut found: Vec<(usize, Option<i64>, Option<i64>)> = Vec::new();
+    for (index, candidate) in candidates.iter().enumerate().filter(|(_, c)| open(c)) {
+        let run = candidate.header.run.filter(|_| {
+            !["pass", "direction"].contains(&candidate.meaning())
+                || candidate
+                    .header
+                    .run
+                    .is_some_and(|run| run.number.is_some() || run.direction.is_some())
+        });
+        let number = run
+            .and_then(|run| run.number)
+            .or_else(|| bare_number(candidate))
+            .or_else(|| indexed(candidate));
+        let direction = run.and_then(|run| run.direction);
+        if number.is_some() || direction.is_some() {
+            found.push((index, number, direction));
+        }
+    }
+    if found.len() < 2 {
+        return candidates.iter().any(|candidate| candidate.rule.pass.is_some());
+    }
+    let passes = passes(&found);
+    for ((index, _, direction), pass) in found.into_iter().zip(passes) {
+        let candidate = &mut candidates[index];
+        candidate.rule.pass = candidate.rule.pass.or(Some(pass));
+        candidate.rule.direction = candidate.rule.direction.or(direction);
+    }
+    true
+}
+
+/// The last number of `x(i,3)` or `ref_pos[3]`.
+fn index_of(bare: &str) -> Option<i64> {
+    let inside = bare.trim_end().strip_suffix([')', ']'])?;
+    let (_, last) = inside.rsplit_once([',', '(', '['])?;
+    last.trim().parse().ok().filter(|_| inside.contains(','))
+}
+
+/// Runs as they are numbered; there and back under numbers of their own make one run together.
+fn passes(found: &[(usize, Option<i64>, Option<i64>)]) -> Vec<i64> {
+    let numbers: Vec<i64> = found.iter().filter_map(|(_, number, _)| *number).collect();
+    let alternate = found.len().is_multiple_of(2)
+        && found.chunks(2).all(|pair| {
+            matches!((pair[0].2, pair[1].2), (Some(1), Some(-1)) | (Some(-1), Some(1)))
+        })
+        && numbers.windows(2).all(|pair| pair[0] != pair[1]);
+    let counted = |direction: Option<i64>, until: usize| {
+        1 + found[..until].iter().filter(|(_, _, other)| *other == direction).count()
+    };
+    let pass = |(place, (_, number, direction)): (usize, &(usize, Option<i64>, Option<i64>))| {
+        let number = number.filter(|number| 0 < *number && !alternate);
+        number.unwrap_or_else(|| i64::try_from(counted(*direction, place)).unwrap_or(1))
+    };
+    found.iter().enumerate().map(pass).collect()
+}
+
+/// What the columns of runs hold: positions near the target, or deviations from it.
+pub(super) fn run_values(candidates: &mut [Candidate<'_>]) {
+    let coordinate = candidates
+        .iter()
+        .position(|candidate| candidate.is("position_mm") || candidate.is("angle_rev"));
+    let lone = || {
+        candidates.iter().position(|candidate| {
+            candidate.rule.to.is_none()
+                && candidate.rule.pass.is_none()
+                && matches!(candidate.meaning(), "position" | "actual" | "angle")
+        })
+    };
+    let Some(at) = coordinate.or_else(lone) else { return };
+    let to = if candidates[at].is_angle() { "angle_rev" } else { "position_mm" };
+    candidates[at].decide(to, "the position aimed at in every run");
+    let targets = candidates[at].samples.values.clone();
+    let name = candidates[at].header.name.clone();
+    let unit = candidates[at].header.unit.clone();
+    for candidate in candidates.iter_mut().filter(|candidate| candidate.rule.pass.is_some()) {
+        if candidate.rule.unit.is_none() && follows(&candidate.samples.values, &targets) {
+            candidate.rule.unit = candidate.header.unit.clone().or(unit.clone());
+        }
+        if follows(&candidate.samples.values, &targets) {
+            difference(candidate, &name);
+            continue;
+        }
+        let reversed = candidate.word.is_some_and(|word| word.reversed);
+        let to = if candidate.is_angle() { "error_arcsec" } else { "error_um" };
+        if reversed {
+            candidate.rule.sign = candidate.rule.sign.or(Some(-1));
+            candidate.decide(to, "a run; a deviation is actual minus target, the error is positive when the table is behind");
+        } else {
+            candidate
+                .decide(to, "a run; taken with its sign, `sign = -1` if it is actual minus target");
+        }
+    }
+}
+
+/// True when values run along with the targets, and do not just differ from them.
+fn follows(values: &[f64], targets: &[f64]) -> bool {
+    let pairs = || values.iter().zip(targets).filter(|(v, t)| v.is_finite() && t.is_finite());
+    let spread = |pick: fn((&f64, &f64)) -> f64| {
+        let (low, high) =
+            pairs().map(pick).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+                (low.min(value), high.max(value))
+            });
+        high - low
+    };
+    let (targets, values, rest) =
+        (spread(|(_, t)| *t), spread(|(v, _)| *v), spread(|(v, t)| v - t));
+    0.0 < targets && rest < 0.1 * targets && 0.8 * targets < values
+}
