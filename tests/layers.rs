@@ -4,6 +4,7 @@
 const LAYERS: &[(&str, &[&str])] = &[
     ("rtl", &[]),
     ("netlist", &[]),
+    ("original", &[]),
     ("traces", &[]),
     ("import", &["traces"]),
     ("metrology", &[]),

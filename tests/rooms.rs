@@ -12,6 +12,7 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 const ROOTS: &[(&str, &str)] = &[
     ("rtl", "rtl/src/lib.rs"),
     ("netlist", "netlist/src/lib.rs"),
+    ("original", "original/src/lib.rs"),
     ("traces", "traces/src/lib.rs"),
     ("import", "import/src/lib.rs"),
     ("metrology", "metrology/src/lib.rs"),

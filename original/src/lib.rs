@@ -1,0 +1,27 @@
+//! The device as it was built: gates and flip-flops with delays, no clock.
+//!
+//! [`circuit`] says what is joined to what, out of the parts in [`library`]; [`figures`] has a
+//! circuit for each logic drawing of document 1. Everything else is made from that one
+//! description: [`Simulator`] runs it, [`verilog()`] prints it for another simulator, [`dump()`]
+//! writes its waveforms.
+
+pub mod circuit;
+pub mod figures;
+pub mod hazards;
+pub mod library;
+
+mod delays;
+mod dump;
+mod error;
+mod pulses;
+mod simulator;
+mod verilog;
+
+pub use circuit::{Circuit, Element, Function, Net};
+pub use delays::{Corner, Delays};
+pub use dump::dump;
+pub use error::Error;
+pub use hazards::{Hazard, hazards};
+pub use pulses::{Change, Train, at_every_pin};
+pub use simulator::{Check, Edge, Finding, Simulator};
+pub use verilog::{bench, verilog};
