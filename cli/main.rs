@@ -10,6 +10,7 @@ mod effects;
 mod faults;
 mod r#gen;
 mod import;
+mod init;
 mod learn;
 mod scale;
 mod screw;
@@ -23,6 +24,7 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::Parser;
+use helixlock_plant::MachineError;
 
 /// Laser correction of a lead-screw grinder: simulate it, build it, compare it with measurements
 #[derive(Debug, Parser)]
@@ -38,6 +40,7 @@ enum Command {
     Faults(faults::FaultsCommand),
     Gen(r#gen::Gen),
     Import(import::Import),
+    Init(init::Init),
     Learn(learn::Learn),
     Scale(Box<scale::ScaleCommand>),
     Screw(screw::Screw),
@@ -54,9 +57,21 @@ fn main() -> ExitCode {
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
             // Nothing is left to tell the user if this fails too.
-            let _ = writeln!(io::stderr(), "helixlock: {error:#}");
+            let _ = writeln!(io::stderr(), "helixlock: {error:#}{}", hint(&error));
             ExitCode::from(2)
         }
+    }
+}
+
+/// What to try where something else was read as a machine file.
+fn hint(error: &anyhow::Error) -> &'static str {
+    let mut causes = error.chain().filter_map(|cause| cause.downcast_ref::<MachineError>());
+    let other = causes.find_map(MachineError::other_kind_of_file);
+    let table = other.is_some_and(|path| path.extension().is_none_or(|tail| tail != "toml"));
+    if table {
+        "\n\nhint: the machine file comes first, the data behind it; `helixlock init` writes a machine file"
+    } else {
+        ""
     }
 }
 
@@ -72,6 +87,7 @@ fn run(command: Command, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         Command::Faults(faults) => faults.run(out),
         Command::Gen(command) => command.run(out),
         Command::Import(command) => command.run(out),
+        Command::Init(command) => command.run(out),
         Command::Learn(command) => command.run(out),
         Command::Scale(scale) => scale.run(out),
         Command::Screw(screw) => screw.run(out),

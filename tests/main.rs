@@ -56,6 +56,7 @@ mod support;
 mod sweep;
 mod synchronisers;
 mod tables;
+mod templates;
 mod verdict_properties;
 mod waveform_readers;
 mod what_is_left;

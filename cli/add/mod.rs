@@ -9,6 +9,7 @@ use clap::Args;
 use helixlock_lab::{Added, add, written};
 use helixlock_plant::{MachineFile, Term};
 
+use crate::shared::angular::in_unit;
 use crate::shared::captured::Signals;
 use crate::shared::diagnosis_json::{EffectJson, effects};
 use crate::shared::effect_file::{effect_text, own_effects};
@@ -63,7 +64,7 @@ impl Add {
         self.write(&written(&base, &added.effects)?)?;
         let unit = problem.measurement.unit_word();
         if self.json {
-            output::print_json(out, &AddedJson::new(&added, unit))?;
+            output::print_json(out, &in_unit(&AddedJson::new(&added, unit), unit)?)?;
         } else {
             print(out, &added, problem.measurement.unit())?;
         }
@@ -73,7 +74,7 @@ impl Add {
     /// The effect as it stands before the fit.
     fn term(&self, file: &MachineFile) -> anyhow::Result<Term> {
         if let Some(card) = Term::card(&self.effect).filter(|card| !card.parameters.is_empty()) {
-            return Ok(Term::candidate(card));
+            return Ok(Term::candidate(card, file.model.rotary));
         }
         own_effects(file, Path::new(&self.effect)).map(|mut terms| terms.remove(0))
     }

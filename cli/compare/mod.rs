@@ -12,6 +12,7 @@ use clap::Args;
 use helixlock_lab::compare;
 
 use self::json::ComparisonJson;
+use crate::shared::angular::in_unit;
 use crate::shared::measured::Files;
 use crate::shared::output::{Batch, print_json};
 
@@ -40,7 +41,8 @@ impl Compare {
             files.keep()?;
         }
         if self.json {
-            print_json(out, &ComparisonJson::new(&comparison, &problem.measurement))?;
+            let json = ComparisonJson::new(&comparison, &problem.measurement);
+            print_json(out, &in_unit(&json, problem.measurement.unit_word())?)?;
         } else {
             text::print(out, &comparison, &problem.measurement)?;
         }

@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use clap::Args;
 use helixlock_lab::diagnose;
 
+use crate::shared::angular::in_unit;
 use crate::shared::diagnosis_json::DiagnosisJson;
 use crate::shared::diagnosis_text::print;
 use crate::shared::effect_file::own_effects;
@@ -36,7 +37,8 @@ impl Diagnose {
         }
         let diagnosis = diagnose(&problem);
         if self.json {
-            print_json(out, &DiagnosisJson::new(&diagnosis, &problem.measurement))?;
+            let json = DiagnosisJson::new(&diagnosis, &problem.measurement);
+            print_json(out, &in_unit(&json, problem.measurement.unit_word())?)?;
         } else {
             print(out, &diagnosis, problem.measurement.unit())?;
         }

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use anyhow::bail;
 use comfy_table::{Table, presets};
 use helixlock_plant::effects::page;
+use helixlock_plant::nearest::one_of;
 use helixlock_plant::{CATALOGUE, Card, Parameter, Role};
 
 use crate::shared::keys::keys;
@@ -37,7 +38,7 @@ impl Effects {
 fn named(name: &str) -> anyhow::Result<&'static Card> {
     let Some(card) = CATALOGUE.iter().find(|card| card.kind == name) else {
         let kinds: Vec<_> = CATALOGUE.iter().map(|card| card.kind).collect();
-        bail!("effect `{name}` is unknown, expected one of {}", kinds.join(", "));
+        bail!("effect `{name}` is unknown, expected {}", one_of(name, &kinds));
     };
     Ok(card)
 }
@@ -63,6 +64,7 @@ keys! {
         formula: &'static str = card.formula,
         example: &'static str = card.example,
         parameters: Vec<ParameterJson> = card.parameters.iter().map(ParameterJson::new).collect(),
+        parts: Vec<&'static str> = card.parts.iter().map(|part| part.word()).collect(),
         needs: &'static [&'static str] = card.needs,
         signature: &'static str = card.signature,
         confused_with: &'static [&'static str] = card.confused_with,

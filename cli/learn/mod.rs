@@ -21,6 +21,7 @@ use serde_json::Value;
 
 use self::closed_loop_check::Checked;
 use self::json::{LearnJson, LedgerJson};
+use crate::shared::angular::in_unit;
 use crate::shared::captured::Signals;
 use crate::shared::effect_file::own_effects;
 use crate::shared::output::{Batch, print_json};
@@ -88,6 +89,7 @@ impl Learn {
             let spectra = (spectra(&problem, &diagnosis), lines_left(&problem));
             let page = page::page(&problem, &diagnosis, &spectra, &check);
             let json = LedgerJson::new(data, &diagnosis, &book, &check, &problem);
+            let json = in_unit(&json, problem.measurement.unit_word())?;
             let last = book.entries.last().filter(|_| book.accepted);
             let learned = match last {
                 Some(last) => last.machine.clone(),
@@ -97,7 +99,8 @@ impl Learn {
             write_folder(folder, &learned, &json, &page)?;
         }
         if self.json {
-            print_json(out, &LearnJson::new(&diagnosis, &book, &check, &problem))?;
+            let json = LearnJson::new(&diagnosis, &book, &check, &problem);
+            print_json(out, &in_unit(&json, problem.measurement.unit_word())?)?;
         } else {
             diagnosis_text::print(out, &diagnosis, problem.measurement.unit())?;
             check.print(out)?;
@@ -128,12 +131,7 @@ fn print_offer(out: &mut impl Write, book: &Ledger) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn write_folder(
-    folder: &Path,
-    learned: &str,
-    json: &LedgerJson<'_>,
-    page: &Page,
-) -> anyhow::Result<()> {
+fn write_folder(folder: &Path, learned: &str, json: &Value, page: &Page) -> anyhow::Result<()> {
     let mut files = Batch::new(folder)?;
     files.write_content("machine.toml", learned)?;
     files.write_json("ledger.json", json)?;

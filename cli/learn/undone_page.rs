@@ -4,6 +4,7 @@ use helixlock_report::{Page, Part, Table};
 use serde_json::Value;
 
 use super::pictures::{Left, falling};
+use crate::shared::angular::key_in;
 
 /// The page of a ledger whose last standing round has been taken back.
 pub(crate) fn page(book: &Value) -> Page {
@@ -15,7 +16,7 @@ pub(crate) fn page(book: &Value) -> Page {
         let names: Vec<&str> = rounds.iter().filter_map(|round| round["added"].as_str()).collect();
         if names.is_empty() { "nothing".to_owned() } else { names.join(", ") }
     };
-    let left: Vec<Left> = standing.iter().map(|round| left(round)).collect();
+    let left: Vec<Left> = standing.iter().map(|round| left(round, unit)).collect();
     let summary = format!(
         "The machine file has {} in it; taken back: {}. The pictures of the data were of the last round: learn again to see them.",
         names(&standing),
@@ -30,8 +31,9 @@ pub(crate) fn page(book: &Value) -> Page {
     Page { title: format!("{title}: what the model lacked"), summary, parts }
 }
 
-fn left(round: &Value) -> Left<'_> {
-    let number = |key: &str| round[key].as_f64().unwrap_or(0.0);
+fn left<'a>(round: &'a Value, unit: &str) -> Left<'a> {
+    let unit = if unit == "arcsec" { "arcsec" } else { "um" };
+    let number = |key: &str| round[key_in(key, unit)].as_f64().unwrap_or(0.0);
     Left {
         added: round["added"].as_str(),
         rms_um: number("rms_um"),
@@ -43,7 +45,7 @@ fn table(rounds: &[Value], unit: &str) -> Table {
     let (seen, unseen) = (format!("rms in {unit}"), format!("held out in {unit}"));
     let mut table = Table::new(["round", "added", seen.as_str(), unseen.as_str(), ""]);
     for round in rounds {
-        let left = left(round);
+        let left = left(round, unit);
         table.row([
             round["round"].to_string(),
             left.added.unwrap_or("the file's model").to_owned(),

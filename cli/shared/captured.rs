@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::{anyhow, bail};
 use clap::Args;
 use helixlock_lab::{PulseTrains, Steps};
-use helixlock_plant::Model;
+use helixlock_plant::{Model, Part};
 use helixlock_traces::{Capture, CapturedSignal, read_capture};
 
 /// Signals of a captured value change dump; without them they are found by their names.
@@ -49,6 +49,9 @@ impl Signals {
                 "{}: found a value change dump, expected a table for a rotary chain\nhint: `helixlock transmission` makes one of two captured encoders",
                 path.display()
             );
+        }
+        if let Some(part) = machine.lacks(&[Part::Grating, Part::Laser, Part::Dividers]) {
+            bail!("{}: found a value change dump, whose pulses need {part}", path.display());
         }
         let capture = read_capture(path)?;
         let (grating, laser) = self.references(&capture, machine)?;

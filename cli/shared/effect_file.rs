@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Context, bail};
+use helixlock_plant::nearest::one_of;
 use helixlock_plant::{CATALOGUE, MachineFile, Term};
 
 /// Effects of a user's own file, read as part of the machine.
@@ -21,9 +22,9 @@ pub(crate) fn effect_text(path: &Path) -> anyhow::Result<String> {
     let known = || {
         let kinds: Vec<_> = CATALOGUE.iter().map(|card| card.kind).collect();
         format!(
-            "{}: neither an effect nor a file, expected one of {}, or a TOML file with `[[effect]]`",
+            "{}: neither an effect nor a file, expected {}, or a TOML file with `[[effect]]`",
             path.display(),
-            kinds.join(", ")
+            one_of(&path.to_string_lossy(), &kinds)
         )
     };
     std::fs::read_to_string(path).with_context(known)

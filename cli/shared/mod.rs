@@ -1,5 +1,6 @@
 //! What the commands share: reading measurements, writing files, words, pieces of pages.
 
+pub(crate) mod angular;
 pub(crate) mod captured;
 pub(crate) mod diagnosis_json;
 pub(crate) mod diagnosis_text;

@@ -3,11 +3,14 @@
 //! Divider F is cleared while the device rests and counts the fringes from the start of a pass, so
 //! that the first stair comes a whole cycle after it. A blocked pulse lets the laser lag by λ/2.
 
-use crate::machine::Dividers;
-use crate::{Machine, Record};
+use crate::{Machine, Part, Record};
 
-/// Rate that the wheels show, µm/m: positive blocks pulses.
-pub(crate) fn dialled_um_per_m(dividers: &Dividers) -> f64 {
+/// Rate that the wheels show, µm/m: positive blocks pulses; 0 without wheels.
+pub(crate) fn dialled_um_per_m(machine: &Machine) -> f64 {
+    if !machine.has(Part::Dividers) {
+        return 0.0;
+    }
+    let dividers = &machine.dividers;
     dividers
         .compensation_cycle()
         .map_or(0.0, |cycle| libm::copysign(1e6 / f64::from(cycle), dividers.compensation_um_per_m))
@@ -27,7 +30,7 @@ pub(crate) fn stairs_um(rate_um_per_m: f64, fringe_um: f64, way_mm: f64) -> f64 
 /// The divider counts on when the table turns; a pulse that is missing on the way back is the
 /// laser's lag in the other direction.
 pub(crate) fn compensation_um(machine: &Machine, record: &Record) -> Vec<f64> {
-    let rate_um_per_m = dialled_um_per_m(&machine.dividers);
+    let rate_um_per_m = dialled_um_per_m(machine);
     if rate_um_per_m == 0.0 {
         return vec![0.0; record.len()];
     }

@@ -5,9 +5,9 @@ mod operators;
 use exmex::{Express, FlatEx};
 
 use crate::{Basis, Card, Columns, Effect, EffectError, Entry, Instant, Nature, Parameter, Role};
-use operators::Operators;
+use operators::{Numbers, Operators};
 
-type Expression = FlatEx<f64, Operators>;
+type Expression = FlatEx<f64, Operators, Numbers>;
 
 type Reading = fn(&Instant<'_>) -> f64;
 
@@ -19,6 +19,7 @@ pub(crate) const CARD: Card = Card {
     formula: "as written: + - * / ^, functions, pi, parameters, and columns such as time_s, position_mm, angle_rev, speed_rpm, direction, or any logged one",
     example: "formula = 'a*sin(2*pi*time_s/period)', entry = 'motion', parameters = { a = 1.5, period = 12.0 }",
     parameters: &[],
+    parts: &[],
     needs: &[],
     signature: "what the formula says",
     confused_with: &[],
@@ -306,6 +307,8 @@ mod tests {
         let record = Record::default();
         for (formula, expected) in
             [("8-4-2", 2.0), ("8/4/2", 1.0), ("2+3*4^2", 50.0), ("-2*3", -6.0), ("8/4*2", 4.0)]
+                .into_iter()
+                .chain([("1e-3*1e3", 1.0), ("2.5E+1-1e1", 15.0), ("1e1-1", 9.0), (".5*2", 1.0)])
         {
             let custom = Custom::new("test", formula, &[]).expect(formula);
             let basis = custom.basis(&record.columns, &[], &[]).expect(formula);

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::fmt;
 use std::ops::RangeInclusive;
 
+use crate::machine::Part;
 use crate::nature::Nature;
 use crate::units::Unit;
 use crate::{EffectError, Instant, Machine, Record, record::Columns};
@@ -104,13 +105,19 @@ pub enum Search {
     Fixed,
 }
 
+/// What 1 µm at the teeth of the smallest wheels, of 5.7 mm radius, is as an angle: plausible
+/// values of a rotary chain are those of a servo as well as those of a telescope.
+const ARCSEC_A_UM: f64 = 36.0;
+
 /// A number an effect needs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
     /// Its key in the machine file.
     pub name: Cow<'static, str>,
-    /// Unit of its value; on a rotary chain `um` reads `arcsec`.
+    /// Unit of its value.
     pub unit: Unit,
+    /// True for a length of a part, which stays one where δ is an angle.
+    pub of_part: bool,
     /// Plausible values; a fit that ends at an end has failed.
     pub range: RangeInclusive<f64>,
     /// What stands when the file does not say; `None` makes it required.
@@ -128,6 +135,7 @@ impl Parameter {
         Self {
             name: Cow::Borrowed(name),
             unit,
+            of_part: false,
             range: 0.0..=0.0,
             default: None,
             role,
@@ -184,6 +192,25 @@ impl Parameter {
     #[must_use]
     pub const fn within(mut self, range: RangeInclusive<f64>) -> Self {
         self.range = range;
+        self
+    }
+
+    /// As a length of a part: it stays one on a rotary chain.
+    #[must_use]
+    pub const fn of_part(mut self) -> Self {
+        self.of_part = true;
+        self
+    }
+
+    /// The same parameter on a rotary chain: δ is in seconds of arc there.
+    #[must_use]
+    pub fn on_rotary_chain(mut self) -> Self {
+        let angular = self.unit.on_rotary_chain();
+        if !self.of_part && angular != self.unit {
+            self.unit = angular;
+            let wider = |bound: &f64| ARCSEC_A_UM * bound;
+            self.range = wider(self.range.start())..=wider(self.range.end());
+        }
         self
     }
 
@@ -306,6 +333,8 @@ pub struct Card {
     pub example: &'static str,
     /// Its numbers, in the order of `values`.
     pub parameters: &'static [Parameter],
+    /// Parts of the machine it cannot do without.
+    pub parts: &'static [Part],
     /// Logged columns it cannot do without.
     pub needs: &'static [&'static str],
     /// What gives it away in data.

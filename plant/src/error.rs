@@ -42,7 +42,7 @@ pub enum MachineError {
         message: Box<str>,
     },
     /// A key no table has.
-    #[error("{at}: unknown key `{found}` in `{table}`, expected one of {expected}")]
+    #[error("{at}: unknown key `{found}` in `{table}`, expected {expected}")]
     UnknownKey {
         /// Where the key stands.
         at: At,
@@ -107,6 +107,9 @@ pub enum MachineError {
         /// What is wrong with it.
         message: Box<str>,
     },
+    /// Several things at once, in the order of the file.
+    #[error("{}", lines(.0))]
+    Several(Vec<Self>),
     /// A key that leads nowhere, such as through a value or past the end of an array.
     #[error("{}: key `{key}`: there is no place `{word}`, expected for example `spindle.speed` or `effect.0.amplitude`", path.display())]
     NoSuchKey {
@@ -129,6 +132,46 @@ pub enum MachineError {
     },
 }
 
+impl MachineError {
+    /// One error of all that is wrong with a file.
+    pub(crate) fn all(mut errors: Vec<Self>) -> Self {
+        errors.sort_by_key(|error| error.at().map(|at| (at.line, at.column)));
+        match errors.pop() {
+            Some(only) if errors.is_empty() => only,
+            last => Self::Several(errors.into_iter().chain(last).collect()),
+        }
+    }
+
+    /// Where in the file it is.
+    fn at(&self) -> Option<&At> {
+        match self {
+            Self::Syntax { at, .. }
+            | Self::UnknownKey { at, .. }
+            | Self::Missing { at, .. }
+            | Self::Value { at, .. }
+            | Self::Conflict { at, .. }
+            | Self::Effect { at, .. }
+            | Self::Companion { at, .. } => Some(at),
+            _ => None,
+        }
+    }
+
+    /// The file, when it is no machine file at all, so that another one may have been meant.
+    #[must_use]
+    pub fn other_kind_of_file(&self) -> Option<&Path> {
+        match self {
+            Self::Syntax { at, .. } => Some(&at.path),
+            Self::Encoding { path, .. } => Some(path),
+            _ => None,
+        }
+    }
+}
+
+/// A line for each.
+fn lines(errors: &[MachineError]) -> String {
+    errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+}
+
 /// Why an effect cannot be worked out.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -142,12 +185,12 @@ pub enum EffectError {
         column: String,
     },
     /// It is driven by a part of the machine that the file does not describe.
-    #[error("effect `{effect}` needs `{section}` in the machine file")]
-    MissingSection {
+    #[error("effect `{effect}` needs {part}")]
+    MissingPart {
         /// The effect.
         effect: String,
-        /// The section.
-        section: &'static str,
+        /// The part.
+        part: crate::machine::Part,
     },
     /// The number of values is not the number of parameters.
     #[error("effect `{effect}` got {found} values, expected {expected}")]

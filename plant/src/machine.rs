@@ -1,5 +1,7 @@
 //! The machine: what its file says but for the effects, with defaults filled in.
 
+use std::fmt;
+
 use crate::dividers::{Range, fringes_per_mm, settable_cycle};
 use crate::lead::Lead;
 
@@ -12,6 +14,9 @@ pub struct Machine {
     pub title: String,
     /// True for worm drives and rotary tables: errors are seconds of arc, and there is no thread.
     pub rotary: bool,
+    /// What the machine has of what a machine may lack; the fields of a part that it lacks hold
+    /// values that nothing reads.
+    pub parts: Vec<Part>,
     /// What is ground.
     pub workpiece: Workpiece,
     /// What turns it.
@@ -36,6 +41,50 @@ pub struct Machine {
     pub fpga: Fpga,
     /// What the sensors around the machine say, for runs without a log of their own.
     pub environment: Environment,
+}
+
+/// A part that a machine may do without, and an effect may need.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// Anything that travels: all but a rotary chain.
+    Table,
+    /// A screw that is made.
+    Workpiece,
+    /// The machine's own screw.
+    LeadScrew,
+    /// A circular grating.
+    Grating,
+    /// An interferometer.
+    Laser,
+    /// The device that compares grating and laser.
+    Dividers,
+    /// The motor that corrects.
+    Drive,
+}
+
+impl Part {
+    /// Its section of the machine file, or what it is.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Table => "travel",
+            Self::Workpiece => "`[workpiece]`",
+            Self::LeadScrew => "`[lead_screw]`",
+            Self::Grating => "`[grating]`",
+            Self::Laser => "`[laser]`",
+            Self::Dividers => "`[dividers]`",
+            Self::Drive => "`[drive]`",
+        }
+    }
+}
+
+impl fmt::Display for Part {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Table => f.write_str("travel, but `output.rotary` is `true`"),
+            _ => write!(f, "{} in the machine file", self.word()),
+        }
+    }
 }
 
 /// The screw that is ground.
@@ -84,6 +133,11 @@ pub struct Grating {
     pub diameter_mm: f64,
 }
 
+impl Grating {
+    /// That of document 1.
+    pub(crate) const SG7430: Self = Self { lines: 13_906, diameter_mm: 200.0 };
+}
+
 /// The interferometer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Laser {
@@ -91,6 +145,14 @@ pub struct Laser {
     pub wavelength_um: f64,
     /// Air in which the wavelength holds.
     pub reference: Air,
+}
+
+impl Laser {
+    /// That of document 1, in the usual reference air.
+    pub(crate) const SG7430: Self = Self {
+        wavelength_um: 0.632_819_83,
+        reference: Air { temperature_c: 20.0, pressure_hpa: 1013.25, humidity_pct: 50.0 },
+    };
 }
 
 /// State of the air along the beam.
@@ -120,6 +182,10 @@ pub struct Dividers {
 }
 
 impl Dividers {
+    /// Those of a 6 mm lead in document 1.
+    pub(crate) const SG7430: Self =
+        Self { a: 110, b: 150, range: Range::X2, initial_phase: 150, compensation_um_per_m: 0.0 };
+
     /// Laser pulses between two compensations, as the four thumb wheels can show it.
     ///
     /// `None` when there is no compensation.
@@ -136,6 +202,11 @@ pub struct Drive {
     pub step_um: f64,
     /// Steps a second.
     pub frequency_hz: f64,
+}
+
+impl Drive {
+    /// That of document 1.
+    pub(crate) const SG7430: Self = Self { step_um: 0.0125, frequency_hz: 160.0 };
 }
 
 /// The chip that carries the logic.
@@ -163,6 +234,18 @@ impl Environment {
 }
 
 impl Machine {
+    /// True when the machine has the part.
+    #[must_use]
+    pub fn has(&self, part: Part) -> bool {
+        self.parts.contains(&part)
+    }
+
+    /// The first of these parts that the machine does not have.
+    #[must_use]
+    pub fn lacks(&self, parts: &[Part]) -> Option<Part> {
+        parts.iter().copied().find(|part| !self.has(*part))
+    }
+
     /// Fringes per mm of table travel in the reference air: `N = 2/λ`.
     #[must_use]
     pub fn fringes_per_mm(&self) -> f64 {

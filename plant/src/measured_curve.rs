@@ -13,6 +13,7 @@ pub(crate) const CARD: Card = Card {
     formula: "straight between the points of a table of position_mm and lead_error_um or error_um, level beyond its ends",
     example: "file = 'curve.csv', scale = 1.0",
     parameters: &[],
+    parts: &[],
     needs: &[],
     signature: "the curve itself, in every pass",
     confused_with: &[],

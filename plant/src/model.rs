@@ -1,7 +1,9 @@
 //! The model: a machine with its effects, as a machine file describes both.
 
 mod effects;
+mod keys;
 mod parts;
+mod reference;
 mod section;
 mod write;
 
@@ -11,8 +13,9 @@ use std::path::Path;
 use crate::error::MachineError;
 use crate::machine::Machine;
 use crate::term::Term;
-use section::{Section, Source};
+use section::{Complaints, Section, Source};
 
+pub use reference::reference;
 pub use write::MachineFile;
 
 /// A machine with the effects it is known to have; what is asked of the machine is asked of it.
@@ -37,7 +40,7 @@ impl Model {
     ///
     /// # Errors
     ///
-    /// [`MachineError`] with the place of the first thing that is wrong.
+    /// [`MachineError`] with the place of everything that is wrong.
     pub fn read(path: &Path) -> Result<Self, MachineError> {
         MachineFile::read(path).map(|file| file.model)
     }
@@ -47,7 +50,7 @@ impl Model {
     ///
     /// # Errors
     ///
-    /// [`MachineError`] with the place of the first thing that is wrong.
+    /// [`MachineError`] with the place of everything that is wrong.
     pub fn parse(text: &str, path: &Path) -> Result<Self, MachineError> {
         Self::parse_source(Source { path, text, behind: None })
     }
@@ -58,10 +61,18 @@ impl Model {
                 at: source.at(Some(error.span().unwrap_or_default())),
                 message: error.message().trim().replace('\n', ", ").into(),
             })?;
-        let root = Section::root(source, document.as_table());
-        let machine = parts::machine(&root)?;
-        let effects = effects::effects(&root, &machine)?;
-        Ok(Self { machine, effects })
+        let complaints = Complaints::default();
+        let root = Section::root(source, document.as_table(), &complaints);
+        let chain = parts::chain(&root);
+        let machine = parts::machine(&root, &chain);
+        let effects = effects::effects(&root, &chain, machine.as_ref());
+        let complaints = complaints.take();
+        match (machine, effects) {
+            (Some(machine), Some(effects)) if complaints.is_empty() => {
+                Ok(Self { machine, effects })
+            }
+            _ => Err(MachineError::all(complaints)),
+        }
     }
 
     /// Time constants of the recorder's own lags, s; the loop does not go through it.

@@ -49,7 +49,8 @@ pub struct Estimate {
 }
 
 impl Term {
-    /// An effect of the catalogue with given values, one for each parameter of its card.
+    /// An effect of the catalogue of a machine that travels, with a value for each parameter of its
+    /// card.
     ///
     /// # Errors
     ///
@@ -62,17 +63,20 @@ impl Term {
                 expected: card.parameters.len(),
             });
         }
-        Ok(Self { values: values.into(), ..Self::candidate(card) })
+        Ok(Self { values: values.into(), ..Self::candidate(card, false) })
     }
 
-    /// An effect of the catalogue at its defaults; what has none is 0.
+    /// An effect of the catalogue at its defaults, on a rotary chain or not; what has none is 0.
     #[must_use]
-    pub fn candidate(card: &'static Card) -> Self {
+    pub fn candidate(card: &'static Card, rotary: bool) -> Self {
+        let on_chain = |what: &Parameter| {
+            if rotary { what.clone().on_rotary_chain() } else { what.clone() }
+        };
         let values = card.parameters.iter().map(|p| p.default.unwrap_or(0.0)).collect();
         Self {
             name: card.kind.into(),
             entry: card.entry,
-            parameters: card.parameters.to_vec(),
+            parameters: card.parameters.iter().map(on_chain).collect(),
             values,
             formula: Formula::Card(card),
         }
@@ -141,7 +145,7 @@ impl Term {
     ///
     /// # Errors
     ///
-    /// [`EffectError`] when a column or a section of the machine file is missing.
+    /// [`EffectError`] when a column or a part of the machine is missing.
     pub fn basis(&self, context: &Context<'_>) -> Result<Basis, EffectError> {
         if let Some(column) = self.needs().into_iter().find(|name| !context.columns.has(name)) {
             return Err(EffectError::MissingColumn {
@@ -150,6 +154,10 @@ impl Term {
             });
         }
         let nonlinear = self.nonlinear();
+        let parts = Self::card(self.kind()).map_or(&[][..], |card| card.parts);
+        if let Some(part) = context.machine.lacks(parts) {
+            return Err(EffectError::MissingPart { effect: self.name.clone(), part });
+        }
         match &self.formula {
             Formula::Card(card) => (card.basis)(context, &nonlinear),
             Formula::Custom(custom) => custom.basis(context.columns, &self.parameters, &nonlinear),

@@ -144,7 +144,6 @@ pub const NUMBER: Unit = Unit::new("", Dimension::Number, (1.0, 1.0));
 pub const UNITS: &[Unit] = &[
     MM,
     UM,
-    Unit::new("µm", Dimension::Length, (1.0, 1e6)),
     Unit::new("nm", Dimension::Length, (1.0, 1e9)),
     Unit::new("cm", Dimension::Length, (1.0, 100.0)),
     M,
@@ -187,15 +186,12 @@ pub const UNITS: &[Unit] = &[
     Unit::new("day", Dimension::Time, (86_400.0, 1.0)),
     UM_PER_M,
     PPM,
-    Unit::new("µm/m", Dimension::Slope, (1.0, 1e6)),
     Unit::new("nm/mm", Dimension::Slope, (1.0, 1e6)),
     Unit::new("um/mm", Dimension::Slope, (1.0, 1e3)),
     Unit::new("mm/m", Dimension::Slope, (1.0, 1e3)),
     Unit::new("ppb", Dimension::Slope, (1.0, 1e9)),
     UM_PER_M2,
-    Unit::new("µm/m^2", Dimension::Curvature, (1.0, 1e6)),
     UM_PER_M3,
-    Unit::new("µm/m^3", Dimension::CurvatureChange, (1.0, 1e6)),
     PPM_PER_K,
     Unit::new("um/m/K", Dimension::Expansion, (1.0, 1e6)),
     Unit::new("1/K", Dimension::Expansion, (1.0, 1.0)),
@@ -263,7 +259,9 @@ pub fn read_quantity(text: &str, wanted: &Unit) -> Result<f64, QuantityError> {
     if !value.is_finite() {
         return Err(QuantityError::NotFinite);
     }
-    let symbol = symbol.trim();
+    // The micro sign and the Greek letter look alike.
+    let symbol = symbol.trim().replace(['\u{b5}', '\u{3bc}'], "u");
+    let symbol = symbol.as_str();
     if symbol == wanted.symbol {
         return Ok(value);
     }
@@ -292,7 +290,7 @@ pub fn spellings(dimension: Dimension) -> String {
 }
 
 /// Bytes of the longest beginning of `text` that is a decimal number.
-fn number_length(text: &str) -> usize {
+pub(crate) fn number_length(text: &str) -> usize {
     let bytes = text.as_bytes();
     let digits =
         |from: usize| bytes[from..].iter().take_while(|byte| byte.is_ascii_digit()).count() + from;
@@ -327,6 +325,9 @@ mod tests {
         assert_eq!(read_quantity("12 MHz", &HZ), Ok(12e6));
         assert_eq!(read_quantity("101.325 kPa", &HPA), Ok(1013.25));
         assert_eq!(read_quantity("1 day", &S), Ok(86_400.0));
+        // The micro sign and the Greek letter.
+        assert_eq!(read_quantity("1 \u{b5}m", &UM), Ok(1.0));
+        assert_eq!(read_quantity("1 \u{3bc}m/m^2", &UM_PER_M2), Ok(1.0));
     }
 
     #[test]

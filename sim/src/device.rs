@@ -25,6 +25,7 @@ mod generated {
 pub use device_pins::DevicePins;
 pub(crate) use device_pins::find;
 pub use generated::DeviceKernel;
+pub(crate) use settings::dividers_fit;
 pub use settings::{Dialled, settings_for};
 pub use wheels::set_wheels;
 

@@ -1,6 +1,6 @@
 //! What can go wrong between a machine file and its run.
 
-use helixlock_plant::EffectError;
+use helixlock_plant::{EffectError, Lead, Part};
 use helixlock_rtl::settings::SettingsError as WheelError;
 use thiserror::Error;
 
@@ -97,4 +97,27 @@ pub enum SettingsError {
     /// A rotary chain has no table, so there is nothing to correct.
     #[error("output.rotary: the device corrects the table of a grinder, expected a workpiece")]
     Rotary,
+    /// The machine has no correction device, or only a part of it.
+    #[error("the device needs {part}; a machine without it is compared with data, not simulated")]
+    Part {
+        /// What the machine file does not describe.
+        part: Part,
+    },
+    /// The dividers stand for another lead, so that the corrector runs to its end.
+    #[error(
+        "dividers `a = {a}`, `b = {b}` do not fit the lead of {lead}: they leave {left_um_per_m:.0} \
+         µm/m, expected at most ±{most_um_per_m} µm/m\n\nhint: `helixlock dividers --lead \"{lead}\"` finds those that do"
+    )]
+    Dividers {
+        /// Grating divider.
+        a: u16,
+        /// Laser divider.
+        b: u16,
+        /// Lead of the workpiece.
+        lead: Lead,
+        /// What they leave, µm/m.
+        left_um_per_m: f64,
+        /// What the compensator can take out, µm/m.
+        most_um_per_m: f64,
+    },
 }

@@ -73,9 +73,9 @@ pub(super) fn term(
     chance: &mut ChaCha8Rng,
 ) -> Term {
     let Some(card) = Term::card(recipe.kind) else {
-        return Term::candidate(helixlock_plant::CATALOGUE[0]);
+        return Term::candidate(helixlock_plant::CATALOGUE[0], machine.rotary);
     };
-    let mut term = Term::candidate(card);
+    let mut term = Term::candidate(card, machine.rotary);
     for index in 0..term.parameters.len() {
         let what = &term.parameters[index];
         let share: f64 = chance.random_range(0.0..1.0);

@@ -98,7 +98,7 @@ pub(super) fn physics(problem: &Problem, columns: &[&str]) -> Vec<Vec<Term>> {
 /// Every effect of known size that the data would show and the file does not have.
 pub(super) fn all_physics(problem: &Problem) -> Vec<Term> {
     let cards = CATALOGUE.iter().filter(|card| known(problem, card));
-    cards.map(|card| Term::candidate(card)).collect()
+    cards.map(|card| Term::candidate(card, problem.model.rotary)).collect()
 }
 
 fn known(problem: &Problem, card: &'static Card) -> bool {
@@ -107,5 +107,6 @@ fn known(problem: &Problem, card: &'static Card) -> bool {
         && card.parameters.iter().any(|what| matches!(what.role, Role::Known { .. }))
         && card.needs.iter().all(|need| record.has(need))
         && problem.sees(card.entry)
+        && problem.model.lacks(card.parts).is_none()
         && problem.model.effects.iter().all(|term| term.kind() != card.kind)
 }

@@ -3,7 +3,7 @@
 use helixlock_plant::dividers::{
     COMPENSATOR_REACH_PPM, LARGEST_PRESET, Task, fringes_per_mm, solve,
 };
-use helixlock_plant::{Entry, Machine, Model, rationalisation_um_per_m};
+use helixlock_plant::{Entry, Machine, Model, Part, rationalisation_um_per_m};
 
 use super::doubt::Doubt;
 use super::hypothesis::Hypothesis;
@@ -52,7 +52,7 @@ fn slope(problem: &Problem) -> f64 {
 
 /// What is wrong with the dividers, the lines that put it right, and the machine with them.
 fn misfit(machine: &Machine) -> Option<(String, String, Machine)> {
-    if machine.rotary {
+    if machine.rotary || !machine.has(Part::Dividers) {
         return None;
     }
     let left = rationalisation_um_per_m(machine);

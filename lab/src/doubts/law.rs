@@ -1,6 +1,6 @@
 //! How usual readings are: evidence that needs no prediction.
 
-use helixlock_plant::Machine;
+use helixlock_plant::{Machine, Part};
 
 use crate::measurement::Measurement;
 use crate::numerics::{count, median, spread};
@@ -63,7 +63,7 @@ pub(super) fn clocked_rpm(measurement: &Measurement) -> f64 {
 
 fn travel(measurement: &Measurement, machine: &Machine) -> f64 {
     let way_mm = spread(&measurement.position_mm);
-    if machine.rotary || way_mm <= 0.0 {
+    if machine.lacks(&[Part::Table, Part::Workpiece]).is_some() || way_mm <= 0.0 {
         return 0.0;
     }
     same(libm::log(way_mm / machine.workpiece.length_mm), SAME_TRAVEL)

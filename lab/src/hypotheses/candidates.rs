@@ -31,7 +31,8 @@ pub(super) const INSTANTS: usize = 96;
 /// Most grid points of an effect.
 const MOST: usize = 3000;
 
-/// Every effect of the catalogue that the sensors could see and whose logs are there.
+/// Every effect of the catalogue that the sensors could see and whose logs are there, of parts that
+/// the machine has.
 ///
 /// The user's own effects of [`Problem::extra`] take part like any other. `found` are the effects
 /// the search has added so far.
@@ -41,8 +42,9 @@ pub(crate) fn candidates(stage: &Stage<'_>, found: &[Component]) -> Vec<Candidat
     CATALOGUE
         .iter()
         .filter(|card| card.candidate && !card.random && problem.sees(card.entry))
+        .filter(|card| problem.model.lacks(card.parts).is_none())
         .filter(|card| card.entry != Entry::Actuator || corrector_moves(problem))
-        .map(|card| in_unit_of(problem, Term::candidate(card)))
+        .map(|card| Term::candidate(card, problem.model.rotary))
         .chain(problem.extra.iter().cloned())
         .filter(|term| logged(problem, term))
         .filter_map(|term| candidate(stage, term))
@@ -83,14 +85,6 @@ fn freed(candidate: &Candidate) -> Option<Candidate> {
     what.range = ANOTHER_MATERIAL;
     let looks = candidate.looks * libm::exp(0.5 * MARGIN);
     Some(Candidate { term, looks, ..candidate.clone() })
-}
-
-/// Parameters in µm are in seconds of arc on a rotary chain.
-fn in_unit_of(problem: &Problem, mut term: Term) -> Term {
-    for what in term.parameters.iter_mut().filter(|_| problem.model.rotary) {
-        what.unit = what.unit.on_rotary_chain();
-    }
-    term
 }
 
 /// An effect with its grid; `None` when there is no place to look for it.

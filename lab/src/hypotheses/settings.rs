@@ -4,7 +4,7 @@
 //! as a plain factor. A slope that equals such a ratio to within its error is a setting, not
 //! physics.
 
-use helixlock_plant::{CATALOGUE, Machine, Term};
+use helixlock_plant::{CATALOGUE, Card, Machine, Term};
 
 /// Leads taken for each other: inch for metric, two starts, π as 22/7.
 const LEAD_RATIOS: [f64; 5] =
@@ -14,8 +14,8 @@ const LEAD_RATIOS: [f64; 5] =
 /// of two, the other track, inch for metric.
 #[must_use]
 pub(crate) fn alternatives(machine: &Machine) -> Vec<Term> {
-    let Some(card) = CATALOGUE.iter().find(|card| card.nature.is_setting() && !machine.rotary)
-    else {
+    let has = |card: &&&Card| card.nature.is_setting() && machine.lacks(card.parts).is_none();
+    let Some(card) = CATALOGUE.iter().find(has) else {
         return Vec::new();
     };
     let lead_mm = machine.workpiece.lead.mm();
@@ -28,7 +28,7 @@ pub(crate) fn alternatives(machine: &Machine) -> Vec<Term> {
         .into_iter()
         .flat_map(|reading| all.iter().map(move |what| (*what, reading)))
         .filter_map(|((parameter, value), reading)| {
-            let mut term = Term::candidate(card);
+            let mut term = Term::candidate(card, machine.rotary);
             let place = |name| term.parameters.iter().position(|what| what.name == name);
             let (index, how) = (place(parameter)?, place("reading")?);
             term.values[index] = value;

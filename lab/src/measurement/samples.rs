@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use helixlock_plant::prediction::Sensor;
-use helixlock_plant::{COVARIATES, LoggedColumn, Machine};
+use helixlock_plant::{COVARIATES, LoggedColumn, Machine, Part};
 use helixlock_traces::{Table, TextColumn};
 
 use super::error::LabError;
@@ -22,6 +22,8 @@ pub struct Nominal {
     pub step_um: f64,
     /// True for chains without a workpiece, measured in arcsec.
     pub rotary: bool,
+    /// True when a step of the corrector has a size, so that counted steps mean something.
+    pub drive: bool,
     /// True when the corrector works, so that a counter without a recorder is a sensor.
     pub closed: bool,
 }
@@ -35,6 +37,7 @@ impl Nominal {
             speed_rpm: machine.spindle.speed_rpm,
             step_um: machine.drive.step_um,
             rotary: machine.rotary,
+            drive: machine.has(Part::Drive),
             closed: machine.loop_closed,
         }
     }
@@ -291,6 +294,10 @@ fn covariates(
         own && !is_of_another_run(name)
     };
     for column in table.columns.iter().filter(|column| covariate(&column.name)) {
+        if column.name == "steps" && !nominal.drive {
+            notes.push("column `steps` is left out: the machine file has no `[drive]`".to_owned());
+            continue;
+        }
         let values: Vec<f64> = passes.rows.iter().map(|&row| column.values[row]).collect();
         if !values.iter().any(|value| value.is_finite()) {
             notes.push(format!("column `{}` is empty and left out", column.name));

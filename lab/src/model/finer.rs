@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use helixlock_plant::prediction::Prediction;
-use helixlock_plant::{Machine, Record};
+use helixlock_plant::{Machine, Part, Record};
 
 use crate::measurement::means;
 
@@ -30,7 +30,7 @@ impl Finer {
     /// to be had.
     #[must_use]
     pub(crate) fn between(machine: &Machine, record: &Record) -> Option<Self> {
-        if machine.rotary {
+        if machine.rotary || !machine.has(Part::Dividers) {
             return None;
         }
         let (record, measured) = record.refined(machine.turns_a_comparison())?;

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use helixlock_plant::prediction::{Sensor, gain, meter_um, observe, predict};
-use helixlock_plant::{Effect, EffectError, Entry, Machine, Model, Record, Samples, Term};
+use helixlock_plant::{Effect, EffectError, Entry, Machine, Model, Part, Record, Samples, Term};
 
 use super::designs::Designs;
 use super::finer::Finer;
@@ -239,7 +239,9 @@ impl Problem {
     /// Where the compensator began to count is not in the file: at the first sample of each pass,
     /// or at travel zero before it, whichever leaves the smaller steps between neighbours.
     fn find_start(&mut self) -> Result<(), EffectError> {
-        if self.model.rotary || self.model.dividers.compensation_cycle().is_none() {
+        if self.model.lacks(&[Part::Table, Part::Dividers]).is_some()
+            || self.model.dividers.compensation_cycle().is_none()
+        {
             return Ok(());
         }
         let mut other = Self { record: self.record.begun_at_zero(), ..self.clone() };
@@ -299,7 +301,7 @@ fn as_measured(model: &Model, measurement: &Measurement) -> Model {
 /// where neighbours differ too little for it.
 fn hunting_um(problem: &Problem, residual: &[f64]) -> f64 {
     let machine = &problem.model;
-    if !machine.loop_closed || machine.rotary {
+    if !machine.loop_closed || machine.lacks(&[Part::Table, Part::Dividers]).is_some() {
         return 0.0;
     }
     let speeds = problem.record.speed_rpm.iter().copied();

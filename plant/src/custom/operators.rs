@@ -1,6 +1,8 @@
 //! What a formula may contain, with the same results on every platform.
 
-use exmex::{BinOp, MakeOperators, Operator};
+use exmex::{BinOp, MakeOperators, MatchLiteral, Operator};
+
+use crate::units::number_length;
 
 /// Operators, functions and constants of formulas.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -20,6 +22,18 @@ impl MakeOperators<f64> for Operators {
         ];
         operators.extend(FUNCTIONS.iter().map(|(name, apply)| Operator::make_unary(name, *apply)));
         operators
+    }
+}
+
+/// Numbers as everywhere in a machine file: `1e-3` is one.
+#[derive(Clone, Debug)]
+pub(super) struct Numbers;
+
+impl MatchLiteral for Numbers {
+    fn is_literal(text: &str) -> Option<&str> {
+        // A sign is an operator.
+        let number = &text[..number_length(text)];
+        (!text.starts_with(['+', '-']) && number.parse::<f64>().is_ok()).then_some(number)
     }
 }
 

@@ -8,6 +8,7 @@
 //!
 //! 50 mm and 2″ are 0.485 µm.
 
+use crate::machine::Part;
 use crate::units::MM;
 use crate::{Basis, Card, Covariate, Effect, Entry, Instant, Nature, Parameter};
 
@@ -22,6 +23,7 @@ pub(super) const CARD: Card = Card {
     example: "h = 50 mm, 2″: 0.485 µm",
     parameters: &[Parameter::linear("offset", MM, "height of the beam over the grinding point")
         .within(-500.0..=500.0)],
+    parts: &[Part::Table, Part::Laser],
     needs: &["bed_pitch_arcsec"],
     signature: "follows the logged pitch of the carriage",
     confused_with: &["screw-progressive"],

@@ -10,6 +10,7 @@
 
 use super::air_index::slope;
 use super::shape::polynomial;
+use crate::machine::Part;
 use crate::{Basis, Card, Covariate, Entry, Nature, Parameter};
 
 pub(super) const CARD: Card = Card {
@@ -19,6 +20,7 @@ pub(super) const CARD: Card = Card {
     formula: "x·10⁶·(1 − n/n_ref) ≈ +0.0085·x·Δ%RH, n after Ciddor",
     example: "1 m and 10 % are 0.085 µm",
     parameters: &[Parameter::known(0.02, "factor on the physics")],
+    parts: &[Part::Table, Part::Laser],
     needs: &["humidity_pct"],
     signature: "follows x times the logged humidity",
     confused_with: &["air-temperature", "air-pressure", "cosine"],

@@ -10,6 +10,7 @@
 
 use super::air_index::slope;
 use super::shape::polynomial;
+use crate::machine::Part;
 use crate::{Basis, Card, Covariate, Entry, Nature, Parameter};
 
 pub(super) const CARD: Card = Card {
@@ -19,6 +20,7 @@ pub(super) const CARD: Card = Card {
     formula: "x·10⁶·(1 − n/n_ref) ≈ +0.93·x·ΔT[K], n after Ciddor",
     example: "1 m and 1 K are 0.95 µm at 50 % humidity",
     parameters: &[Parameter::known(0.02, "factor on the physics")],
+    parts: &[Part::Table, Part::Laser],
     needs: &["air_temperature_c"],
     signature: "follows x times the logged air temperature",
     confused_with: &[

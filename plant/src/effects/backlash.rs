@@ -19,6 +19,7 @@ pub(super) const CARD: Card = Card {
     formula: "b·d/2",
     example: "b = 4 µm: +2 µm forward, −2 µm in reverse",
     parameters: &[Parameter::linear("width", UM, "lost motion").within(-200.0..=200.0)],
+    parts: &[],
     needs: &[],
     signature: "a jump at each reversal inside a pass",
     confused_with: &["wind-up"],

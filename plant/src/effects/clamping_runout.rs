@@ -9,6 +9,7 @@
 //! It is ground into the thread, and neither recorder nor counter sees it: 1 µm is 1 µm on the thread.
 
 use super::wave::{Run, indexed};
+use crate::machine::Part;
 use crate::units::UM;
 use crate::{Basis, Card, Covariate, Entry, Nature, Parameter};
 
@@ -24,6 +25,7 @@ pub(super) const CARD: Card = Card {
         Parameter::amplitude("amplitude2", UM, "twice a turn").within(0.0..=100.0).or(0.0),
         Parameter::phase("phase2", "its phase at spindle angle 0"),
     ],
+    parts: &[Part::Workpiece],
     needs: &[],
     signature: "one and two waves per turn on the thread, none on the recorder",
     confused_with: &["grating-eccentricity"],

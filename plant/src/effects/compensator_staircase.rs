@@ -10,6 +10,7 @@
 
 use super::shape::rough;
 use crate::compensation::stairs_um;
+use crate::machine::Part;
 use crate::units::UM_PER_M;
 use crate::{Basis, Card, Entry, Nature, Parameter, Search};
 
@@ -26,6 +27,7 @@ pub(super) const CARD: Card = Card {
         "compensation that is on",
     )
     .within(-100.0..=100.0)],
+    parts: &[Part::Table, Part::Dividers],
     needs: &[],
     signature: "stairs of λ/2 over travel",
     confused_with: &["cosine", "screw-progressive"],

@@ -8,6 +8,7 @@
 //!
 //! w = 0.1 µm is 8 steps of 0.0125 µm that a reversal loses; the loop hunts that much wider.
 
+use crate::machine::Part;
 use crate::units::UM;
 use crate::{
     Basis, Card, Covariate, Effect, Entry, Instant, Nature, Parameter, Play, Record, Search,
@@ -22,6 +23,7 @@ pub(super) const CARD: Card = Card {
     parameters: &[
         Parameter::nonlinear("width", UM, Search::Logarithmic, "play").within(0.005..=20.0)
     ],
+    parts: &[Part::Drive],
     needs: &["steps"],
     signature: "the counter runs ahead of the table by the play after each reversal",
     confused_with: &["lost-steps", "backlash"],

@@ -9,6 +9,7 @@
 //! 1 mrad over 1 m is 0.5 µm. The laser reads short, so the thread comes out long.
 
 use super::shape::polynomial;
+use crate::machine::Part;
 use crate::units::MRAD;
 use crate::{Basis, Card, Entry, Nature, Parameter};
 
@@ -19,6 +20,7 @@ pub(super) const CARD: Card = Card {
     formula: "½·10⁶·x·α²",
     example: "α = 1 mrad, x = 1 m: 0.5 µm",
     parameters: &[Parameter::squared("angle", MRAD, "between beam and travel").within(0.0..=30.0)],
+    parts: &[Part::Table, Part::Laser],
     needs: &[],
     signature: "a slope over travel, always to the same side",
     confused_with: &["screw-progressive", "air-temperature", "air-pressure", "workpiece-expansion"],

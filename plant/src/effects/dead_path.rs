@@ -10,6 +10,7 @@
 
 use super::air_index::{logged, slope};
 use super::shape::polynomial;
+use crate::machine::Part;
 use crate::units::M;
 use crate::{Basis, Card, Covariate, Entry, Nature, Parameter};
 
@@ -21,6 +22,7 @@ pub(super) const CARD: Card = Card {
     example: "D₀ = 0.3 m, 2 K: 0.57 µm",
     parameters: &[Parameter::linear("path", M, "beam between interferometer and start of travel")
         .within(-5.0..=5.0)],
+    parts: &[Part::Table, Part::Laser],
     needs: &["air_temperature_c"],
     signature: "follows the logged air, whatever the travel",
     confused_with: &["headstock-growth", "phase-drift"],

@@ -11,6 +11,7 @@
 use std::f64::consts::PI;
 
 use super::shape::feedback;
+use crate::machine::Part;
 use crate::units::NUMBER;
 use crate::{Basis, Card, Entry, Nature, Parameter};
 
@@ -23,6 +24,7 @@ pub(super) const CARD: Card = Card {
     parameters: &[
         Parameter::linear("mixing", NUMBER, "ratio of the wrong polarisation").within(-1.0..=1.0)
     ],
+    parts: &[Part::Table, Part::Laser],
     needs: &[],
     signature: "a ripple over the error itself, every λ/2 of it",
     confused_with: &["meter-dead-zone"],

@@ -24,6 +24,7 @@ pub(super) const CARD: Card = Card {
         Parameter::nonlinear("order", NUMBER, Search::GearOrder, "waves per spindle turn")
             .within(1e-6..=1e9),
     ],
+    parts: &[],
     needs: &[],
     signature: "a line at the order of a [[gear]], or at its order times its teeth; beside it, overtones",
     confused_with: &["screw-periodic", "grating-graduation", "vibration"],

@@ -13,6 +13,7 @@
 //! On a rotary chain it is 2e/D itself, 2.06 seconds of arc for the same disc.
 
 use super::wave::{Run, indexed};
+use crate::machine::Part;
 use crate::units::UM;
 use crate::{Card, Covariate, Entry, Nature, Parameter};
 
@@ -24,9 +25,11 @@ pub(super) const CARD: Card = Card {
     example: "e = 1 µm, D = 200 mm, S = 6 mm: 0.0095 µm",
     parameters: &[
         Parameter::amplitude("eccentricity", UM, "distance of the disc from the axis")
-            .within(0.0..=500.0),
+            .within(0.0..=500.0)
+            .of_part(),
         Parameter::phase("phase", "phase at spindle angle 0, disc not turned"),
     ],
+    parts: &[Part::Grating],
     needs: &[],
     signature: "one wave per spindle turn that turns with the disc (grating_index_deg)",
     confused_with: &["screw-periodic", "clamping-runout"],

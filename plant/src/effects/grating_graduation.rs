@@ -9,6 +9,7 @@
 //! 0.05 µm at k = 2 and 6 mm of lead is 10.8 seconds of arc on the disc. k = 1 is eccentricity.
 
 use super::wave::{Run, indexed};
+use crate::machine::Part;
 use crate::units::{NUMBER, UM};
 use crate::{Card, Covariate, Entry, Nature, Parameter, Search};
 
@@ -25,6 +26,7 @@ pub(super) const CARD: Card = Card {
             .within(2.0..=24.0)
             .or(2.0),
     ],
+    parts: &[Part::Grating],
     needs: &[],
     signature: "whole waves per turn, from 2, that turn with the disc (grating_index_deg)",
     confused_with: &["gear-error", "screw-periodic", "clamping-runout"],

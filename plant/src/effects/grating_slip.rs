@@ -9,6 +9,7 @@
 //! One line at 6 mm and 13906 lines is 0.431 µm, for good; on a rotary chain 360°/M.
 
 use super::shape::{rough, since};
+use crate::machine::Part;
 use crate::units::{NUMBER, S};
 use crate::{Basis, Card, Entry, Nature, Parameter, Search};
 
@@ -22,6 +23,7 @@ pub(super) const CARD: Card = Card {
         Parameter::linear("count", NUMBER, "how many, a whole number").within(-1000.0..=1000.0),
         Parameter::nonlinear("time", S, Search::Time, "when").within(0.0..=1e7),
     ],
+    parts: &[Part::Grating],
     needs: &[],
     signature: "a step for good at one moment",
     confused_with: &["fringe-slip", "lost-steps"],

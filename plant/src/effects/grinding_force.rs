@@ -9,6 +9,7 @@
 //! 0.01 µm/N under 50 N is 0.5 µm.
 
 use super::shape::polynomial;
+use crate::machine::Part;
 use crate::units::UM_PER_N;
 use crate::{Basis, Card, Covariate, Entry, Nature, Parameter};
 
@@ -21,6 +22,7 @@ pub(super) const CARD: Card = Card {
     parameters: &[
         Parameter::linear("compliance", UM_PER_N, "of workpiece and wheel").within(-1.0..=1.0)
     ],
+    parts: &[Part::Workpiece],
     needs: &["force_n"],
     signature: "follows the logged force, on the thread only",
     confused_with: &["workpiece-expansion", "wind-up"],

@@ -16,6 +16,10 @@ pub fn page(card: &Card) -> String {
     line("δ", card.formula);
     line("example", card.example);
     line("entry", card.entry.word());
+    if !card.parts.is_empty() {
+        let parts: Vec<_> = card.parts.iter().map(|part| part.word()).collect();
+        line("of a machine with", &parts.join(", "));
+    }
     if !card.needs.is_empty() {
         line("needs", &format!("`{}`", card.needs.join("`, `")));
     }

@@ -9,6 +9,7 @@
 //! a = 2 µm, τ = 600 s: 1.26 µm after ten minutes, whatever the travel.
 
 use super::shape::banded;
+use crate::machine::Part;
 use crate::units::{S, UM};
 use crate::{Basis, Card, Entry, Nature, Parameter, Search, Smoothness};
 
@@ -23,6 +24,7 @@ pub(super) const CARD: Card = Card {
         Parameter::nonlinear("time_constant", S, Search::Logarithmic, "of warming up")
             .within(10.0..=1e5),
     ],
+    parts: &[Part::Table],
     needs: &[],
     signature: "a saturating drift in time, whatever the travel",
     confused_with: &["dead-path", "wheel-wear", "phase-drift"],

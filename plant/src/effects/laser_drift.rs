@@ -10,6 +10,7 @@
 //! A hop at time 0 is none.
 
 use super::shape::{polynomial, rough, since};
+use crate::machine::Part;
 use crate::units::{PPM, PPM_PER_H, S};
 use crate::{Basis, Card, Entry, Nature, Parameter, Search};
 
@@ -28,6 +29,7 @@ pub(super) const CARD: Card = Card {
             .within(0.0..=1e7)
             .or(0.0),
     ],
+    parts: &[Part::Table, Part::Laser],
     needs: &[],
     signature: "a slope over travel that changes with time",
     confused_with: &["air-temperature", "air-pressure"],

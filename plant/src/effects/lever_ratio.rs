@@ -10,6 +10,7 @@
 //! off its middle by u and an arm R: below 3 nm at the end of the stroke, which rules it out.
 
 use super::shape::polynomial;
+use crate::machine::Part;
 use crate::units::NUMBER;
 use crate::{Basis, Card, Covariate, Entry, Nature, Parameter};
 
@@ -22,6 +23,7 @@ pub(super) const CARD: Card = Card {
     parameters: &[Parameter::linear("gain", NUMBER, "true ratio over nominal")
         .within(0.5..=1.5)
         .or(1.0)],
+    parts: &[Part::Drive],
     needs: &["steps"],
     signature: "the counter shows more or fewer steps than the error is worth",
     confused_with: &["lost-steps"],

@@ -9,6 +9,7 @@
 //! 40 steps of 0.0125 µm are 0.5 µm. The closed loop makes them up, and the counter shows it.
 
 use super::shape::{rough, since};
+use crate::machine::Part;
 use crate::units::{NUMBER, S};
 use crate::{Basis, Card, Entry, Nature, Parameter, Search};
 
@@ -22,6 +23,7 @@ pub(super) const CARD: Card = Card {
         Parameter::linear("count", NUMBER, "how many, a whole number").within(-1000.0..=1000.0),
         Parameter::nonlinear("time", S, Search::Time, "when").within(0.0..=1e7),
     ],
+    parts: &[Part::Drive],
     needs: &[],
     signature: "a step for good at one moment",
     confused_with: &["corrector-lost-motion", "fringe-slip"],

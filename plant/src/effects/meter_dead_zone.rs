@@ -10,6 +10,7 @@
 //! At 180° it is out of sight; at m = 0 and w = 0.5 µm an error of 0.2 µm reads 0.
 
 use super::shape::feedback;
+use crate::machine::Part;
 use crate::units::UM;
 use crate::{Basis, Card, Covariate, Entry, Nature, Parameter, Search};
 
@@ -26,6 +27,7 @@ pub(super) const CARD: Card = Card {
         "shortest pulse, as table travel",
     )
     .within(0.01..=20.0)],
+    parts: &[Part::Table, Part::Dividers],
     needs: &["initial_phase"],
     signature: "a flat piece near 0° and 360° that moves with the initial phase",
     confused_with: &["fringe-nonlinearity"],

@@ -21,6 +21,7 @@ pub(super) const CARD: Card = Card {
     parameters: &[
         Parameter::linear("rate", UM_PER_H, "drift of the reading").within(-1000.0..=1000.0)
     ],
+    parts: &[],
     needs: &[],
     signature: "a straight drift in time, whatever the travel",
     confused_with: &["headstock-growth", "dead-path", "wheel-wear"],

@@ -20,6 +20,7 @@ pub(super) const CARD: Card = Card {
     example: "τ = 2 s, ramp 0.1 µm/s: −0.2 µm",
     parameters: &[Parameter::nonlinear("time_constant", S, Search::Logarithmic, "of the recorder")
         .within(0.01..=1000.0)],
+    parts: &[],
     needs: &[],
     signature: "waves come smaller and later the faster the spindle turns",
     confused_with: &["screw-periodic"],

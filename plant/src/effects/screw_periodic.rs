@@ -9,6 +9,7 @@
 //! a = 1.5 µm at P = 12 mm: 3 µm from peak to peak every 12 mm, which is what document 1 found.
 
 use super::wave::{Run, pair};
+use crate::machine::Part;
 use crate::units::{NUMBER, UM};
 use crate::{Card, EffectError, Entry, Nature, Parameter, Search};
 
@@ -25,6 +26,7 @@ pub(super) const CARD: Card = Card {
             .within(1.0..=12.0)
             .or(1.0),
     ],
+    parts: &[Part::Table, Part::LeadScrew],
     needs: &[],
     signature: "a line at a whole multiple of S/P waves per spindle turn, fixed to the travel",
     confused_with: &["grating-eccentricity", "grating-graduation", "gear-error"],
@@ -37,7 +39,7 @@ pub(super) const CARD: Card = Card {
     nature: Nature { high_harmonic: Some(3.0), ..Nature::PLAIN },
     basis: |context, nonlinear| {
         let turns_per_mm = context.machine.screw_turns_per_mm().ok_or_else(|| {
-            EffectError::MissingSection { effect: "screw-periodic".into(), section: "[lead_screw]" }
+            EffectError::MissingPart { effect: "screw-periodic".into(), part: Part::LeadScrew }
         })?;
         Ok(pair(Run::Travel { per_mm: nonlinear[0] * turns_per_mm }, 1.0))
     },

@@ -8,6 +8,7 @@
 //!
 //! c1 = 35 µm/m over 1 m: 35 µm at the end, the cumulative error of document 1.
 
+use crate::machine::Part;
 use crate::units::{UM_PER_M, UM_PER_M2, UM_PER_M3};
 use crate::{Basis, Card, Effect, Entry, Instant, Nature, Parameter, Smoothness};
 
@@ -24,6 +25,7 @@ pub(super) const CARD: Card = Card {
             .within(-2000.0..=2000.0)
             .or(0.0),
     ],
+    parts: &[Part::Table],
     needs: &[],
     signature: "a smooth curve over travel, the same in every pass",
     confused_with: &["cosine", "air-temperature", "air-pressure", "workpiece-expansion"],

@@ -9,6 +9,7 @@
 //! A bump of 2 µm, 30 mm wide, is 1.21 µm high 30 mm beside its middle.
 
 use super::shape::banded;
+use crate::machine::Part;
 use crate::units::{MM, UM};
 use crate::{Basis, Card, Entry, Nature, Parameter, Search, Smoothness};
 
@@ -25,6 +26,7 @@ pub(super) const CARD: Card = Card {
         Parameter::nonlinear("width", MM, Search::Logarithmic, "its standard deviation")
             .within(0.5..=500.0),
     ],
+    parts: &[Part::Table],
     needs: &[],
     signature: "a bump at one place, the same in every pass",
     confused_with: &["screw-progressive", "steady-sag"],

@@ -11,6 +11,7 @@
 use std::f64::consts::TAU;
 
 use super::shape::banded;
+use crate::machine::Part;
 use crate::units::{MM, UM};
 use crate::{Basis, Card, Entry, Nature, Parameter, Search, Smoothness};
 
@@ -25,6 +26,7 @@ pub(super) const CARD: Card = Card {
         Parameter::nonlinear("spacing", MM, Search::Logarithmic, "from rest to rest")
             .within(20.0..=2000.0),
     ],
+    parts: &[Part::Workpiece],
     needs: &[],
     signature: "a wave over travel on the thread only, as long as the rests are apart",
     confused_with: &["screw-progressive", "screw-wear"],

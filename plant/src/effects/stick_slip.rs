@@ -29,6 +29,7 @@ pub(super) const CARD: Card = Card {
         Parameter::nonlinear("critical_speed", RPM, Search::Fixed, "above it the table slides")
             .within(0.01..=1000.0),
     ],
+    parts: &[],
     needs: &[],
     signature: "scatter below a certain speed",
     confused_with: &["fringe-slip", "vibration", "turbulence"],

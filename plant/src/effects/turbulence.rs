@@ -16,6 +16,7 @@
 use std::f64::consts::TAU;
 
 use super::shape::rough;
+use crate::machine::Part;
 use crate::units::{NUMBER, UM};
 use crate::{Basis, Card, Entry, Nature, Parameter, Search};
 
@@ -31,6 +32,7 @@ pub(super) const CARD: Card = Card {
             .within(0.0..=4_294_967_295.0)
             .or(1.0),
     ],
+    parts: &[Part::Table, Part::Laser],
     needs: &[],
     signature: "noise that grows with the travel",
     confused_with: &["vibration"],

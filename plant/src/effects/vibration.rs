@@ -25,6 +25,7 @@ pub(super) const CARD: Card = Card {
         Parameter::nonlinear("frequency", HZ, Search::Logarithmic, "frequency of the shaking")
             .within(1e-3..=1e4),
     ],
+    parts: &[],
     needs: &[],
     signature: "a line at a fixed frequency, or its alias, whatever the spindle does",
     confused_with: &["gear-error", "screw-periodic"],

@@ -9,6 +9,7 @@
 //! 3 µm/m over 1 m leave the end 3 µm behind. Each pass starts with a dressed wheel.
 
 use super::shape::polynomial;
+use crate::machine::Part;
 use crate::units::UM_PER_M;
 use crate::{Basis, Card, Entry, Nature, Parameter};
 
@@ -19,6 +20,7 @@ pub(super) const CARD: Card = Card {
     formula: "−w·s, s way ground since the dressing",
     example: "w = 3 µm/m, 1 m: −3 µm",
     parameters: &[Parameter::linear("rate", UM_PER_M, "wear per way ground").within(-100.0..=100.0)],
+    parts: &[Part::Workpiece],
     needs: &[],
     signature: "a slope over the way ground, on the thread only, also in a reverse pass",
     confused_with: &["workpiece-expansion", "headstock-growth"],

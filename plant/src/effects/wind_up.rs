@@ -25,6 +25,7 @@ pub(super) const CARD: Card = Card {
             .within(0.01..=50.0)
             .or(1.0),
     ],
+    parts: &[],
     needs: &["force_n"],
     signature: "follows the logged force, with its sign turned by the direction",
     confused_with: &["backlash", "grinding-force"],

@@ -9,6 +9,7 @@
 //! Steel of 11.5 ppm/K, 1 m, 2 K too warm: 23 µm too short. Physics fixes the coefficient to 5 %.
 
 use super::shape::polynomial;
+use crate::machine::Part;
 use crate::{Basis, Card, Covariate, Entry, Nature, Parameter};
 
 pub(super) const CARD: Card = Card {
@@ -18,6 +19,7 @@ pub(super) const CARD: Card = Card {
     formula: "−α·x·(T_w − 20 °C)",
     example: "α = 11.5 ppm/K, x = 1 m, 22 °C: −23 µm",
     parameters: &[Parameter::known(0.05, "factor on the physics")],
+    parts: &[Part::Workpiece],
     needs: &["workpiece_temperature_c"],
     signature: "follows x times the logged workpiece temperature, on the thread only",
     confused_with: &["wheel-wear", "screw-progressive", "air-temperature"],

@@ -16,6 +16,7 @@
 //! travel is worked out from the file's lead, and the scale is that of B′.
 
 use super::shape::polynomial;
+use crate::machine::Part;
 use crate::rationalisation::implied_um_per_m;
 use crate::units::{MM, NUMBER};
 use crate::{Basis, Card, Entry, Nature, Parameter, Search};
@@ -46,6 +47,7 @@ pub(super) const CARD: Card = Card {
         .within(0.0..=2.0)
         .or(0.0),
     ],
+    parts: &[Part::Table, Part::Dividers],
     needs: &[],
     signature: "a slope of a small-integer ratio, far beyond physics",
     confused_with: &["screw-progressive", "cosine"],

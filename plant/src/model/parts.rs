@@ -1,265 +1,220 @@
 //! The sections of a machine file.
 
+use super::keys::{self, Key};
 use super::section::Section;
 use crate::dividers::{Range, centre_phase};
-use crate::error::MachineError;
 use crate::lead::{Lead, LeadUnit};
 use crate::machine::{
-    Air, Dividers, Drive, Environment, Fpga, Gear, Grating, Laser, Machine, Spindle, Workpiece,
+    Air, Dividers, Drive, Environment, Fpga, Gear, Grating, Laser, Machine, Part, Spindle,
+    Workpiece,
 };
 use crate::record::LOGGED_COLUMNS;
-use crate::units::{ARCSEC, DEG_C, HPA, HZ, MM, PCT, PPM_PER_K, RPM, UM, UM_PER_M};
 use num_rational::Ratio;
 
-type Result<T> = std::result::Result<T, MachineError>;
+/// What the effects of a file refer to, known even where the machine is not.
+#[derive(Clone, Debug)]
+pub(super) struct Chain {
+    /// True where δ is an angle.
+    pub(super) rotary: bool,
+    /// Shafts that effects name.
+    pub(super) gears: Vec<Gear>,
+}
 
-/// Speeds between a telescope and a dentist's drill, rpm.
-const SPEEDS_RPM: std::ops::RangeInclusive<f64> = 1e-7..=1e5;
+pub(super) fn chain(root: &Section<'_>) -> Chain {
+    let output = root.part(&keys::OUTPUT);
+    let rotary = output.and_then(|section| section.flag(keys::ROTARY.name)).unwrap_or_default();
+    Chain { rotary, gears: gears(root) }
+}
 
-pub(super) fn machine(root: &Section<'_>) -> Result<Machine> {
-    root.only(&[
-        "title",
-        "workpiece",
-        "output",
-        "spindle",
-        "lead_screw",
-        "gear",
-        "grating",
-        "laser",
-        "dividers",
-        "drive",
-        "filter",
-        "loop",
-        "fpga",
-        "environment",
-        "effect",
-    ])?;
-    let rotary = rotary(root)?;
-    Ok(Machine {
-        title: root.text("title")?.unwrap_or_default().into(),
-        rotary,
-        workpiece: workpiece(root, rotary)?,
-        spindle: spindle(root)?,
-        lead_screw: lead_screw(root)?,
-        gears: gears(root)?,
-        grating: grating(root, rotary)?,
-        laser: laser(root, rotary)?,
-        dividers: dividers(root, rotary)?,
-        drive: drive(root, rotary)?,
-        filter_cutoff_hz: filter(root)?,
-        loop_closed: loop_closed(root)?,
-        fpga: fpga(root)?,
-        environment: environment(root)?,
+/// The machine; `None` when anything that it needs is missing or wrong.
+pub(super) fn machine(root: &Section<'_>, chain: &Chain) -> Option<Machine> {
+    root.only(&keys::root_names());
+    let title = root.text_of(&keys::TITLE).unwrap_or_default();
+    let spindle = spindle(root);
+    let lead_screw = root.part(&keys::LEAD_SCREW).and_then(|part| part.lead_of(&keys::SCREW_LEAD));
+    let workpiece = workpiece(root, chain, lead_screw);
+    let grating = root.part(&keys::GRATING).map(|part| grating(&part));
+    let laser = root.part(&keys::LASER).map(|part| laser(&part));
+    let dividers = root.part(&keys::DIVIDERS).map(|part| dividers(&part));
+    let drive = root.part(&keys::DRIVE).map(|part| drive(&part, chain));
+    let filter = root.part(&keys::FILTER).and_then(|part| part.number_of(&keys::CUTOFF, None));
+    let (loop_closed, fpga) = (loop_closed(root), fpga(root));
+    let environment = environment(root);
+    device_is_whole(root, chain);
+    let mut parts = Vec::new();
+    let mut found = |part: Part, there: bool| parts.extend(there.then_some(part));
+    found(Part::Table, !chain.rotary);
+    found(Part::Workpiece, root.has(keys::WORKPIECE.name));
+    found(Part::LeadScrew, lead_screw.is_some());
+    found(Part::Grating, grating.is_some());
+    found(Part::Laser, laser.is_some());
+    found(Part::Dividers, dividers.is_some());
+    found(Part::Drive, drive.is_some());
+    Some(Machine {
+        title: title.into(),
+        rotary: chain.rotary,
+        parts,
+        workpiece: workpiece?,
+        spindle: spindle?,
+        lead_screw,
+        gears: chain.gears.clone(),
+        grating: grating.unwrap_or(Some(Grating::SG7430))?,
+        laser: laser.unwrap_or(Some(Laser::SG7430))?,
+        dividers: dividers.unwrap_or(Some(Dividers::SG7430))?,
+        drive: drive.unwrap_or(Some(Drive::SG7430))?,
+        filter_cutoff_hz: filter,
+        loop_closed,
+        fpga: fpga?,
+        environment,
     })
 }
 
-fn rotary(root: &Section<'_>) -> Result<bool> {
-    let Some(section) = root.section("output")? else { return Ok(false) };
-    section.only(&["rotary"])?;
-    section.flag("rotary").map(Option::unwrap_or_default)
+/// The dividers compare a grating with a laser.
+fn device_is_whole(root: &Section<'_>, chain: &Chain) {
+    let needs = |part: &keys::Table| {
+        if !root.has(part.name) {
+            let example = part.keys[0].line();
+            root.refuse::<()>(
+                root.missing(part.name, &format!("[{}]` with `{example}", part.name)),
+            );
+        }
+    };
+    if root.has(keys::DIVIDERS.name) && !chain.rotary {
+        needs(&keys::GRATING);
+        needs(&keys::LASER);
+    }
 }
 
-/// A part that a rotary chain can do without.
-fn part<'a>(
-    root: &Section<'a>,
-    rotary: bool,
-    key: &str,
-    example: &str,
-) -> Result<Option<Section<'a>>> {
-    let section = root.section(key)?;
-    if section.is_none() && !rotary { Err(root.missing(key, example)) } else { Ok(section) }
+fn spindle(root: &Section<'_>) -> Option<Spindle> {
+    if !root.has(keys::SPINDLE.name) {
+        return root.refuse(root.missing(keys::SPINDLE.name, "[spindle]"));
+    }
+    let section = root.part(&keys::SPINDLE)?;
+    Some(Spindle { speed_rpm: section.number_of(&keys::SPEED, None)? })
 }
 
-fn workpiece(root: &Section<'_>, rotary: bool) -> Result<Workpiece> {
+/// The screw that is made; where none is, what one turn of the axis' own screw moves.
+fn workpiece(root: &Section<'_>, chain: &Chain, lead_screw: Option<Lead>) -> Option<Workpiece> {
     let standard = Workpiece {
         lead: Lead { ratio: Ratio::from_integer(6), unit: LeadUnit::Mm },
         length_mm: 1000.0,
         expansion_ppm_per_k: 11.5,
     };
-    let Some(section) = part(root, rotary, "workpiece", "[workpiece]")? else {
-        return Ok(standard);
-    };
-    section.only(&["lead", "length", "expansion"])?;
-    Ok(Workpiece {
-        lead: lead(&section, "lead")?.ok_or_else(|| section.missing("lead", "lead = \"6 mm\""))?,
-        length_mm: section.quantity("length", &MM, 0.1..=1e5)?.unwrap_or(standard.length_mm),
-        expansion_ppm_per_k: section
-            .quantity("expansion", &PPM_PER_K, -50.0..=500.0)?
-            .unwrap_or(standard.expansion_ppm_per_k),
-    })
+    if root.has(keys::WORKPIECE.name) {
+        let section = root.part(&keys::WORKPIECE)?;
+        let lead = section.lead_of(&keys::LEAD);
+        let length_mm = section.number_of(&keys::LENGTH, None);
+        let expansion_ppm_per_k = section.number_of(&keys::EXPANSION, None)?;
+        return Some(Workpiece { lead: lead?, length_mm: length_mm?, expansion_ppm_per_k });
+    }
+    match lead_screw {
+        Some(lead) => Some(Workpiece { lead, ..standard }),
+        None if chain.rotary || root.has(keys::LEAD_SCREW.name) => Some(standard),
+        None => root.refuse(root.missing(
+            keys::WORKPIECE.name,
+            "[workpiece]` with the lead of a screw that is made, or `[lead_screw]` with that of the axis, or `output.rotary = true",
+        )),
+    }
 }
 
-fn lead(section: &Section<'_>, key: &str) -> Result<Option<Lead>> {
-    let Some(text) = section.text(key)? else { return Ok(None) };
-    let expected = "a lead from 0.001 mm to 1000 mm such as \"6 mm\", \"1/6 in\" or \"0.5 pi mm\"";
-    text.parse().map(Some).map_err(|_| section.wrong(key, expected))
-}
-
-fn spindle(root: &Section<'_>) -> Result<Spindle> {
-    let section = root.required_section("spindle", "[spindle]")?;
-    section.only(&["speed"])?;
-    let speed_rpm = section
-        .quantity("speed", &RPM, SPEEDS_RPM)?
-        .ok_or_else(|| section.missing("speed", "speed = \"6 rpm\""))?;
-    Ok(Spindle { speed_rpm })
-}
-
-fn lead_screw(root: &Section<'_>) -> Result<Option<Lead>> {
-    let Some(section) = root.section("lead_screw")? else { return Ok(None) };
-    section.only(&["lead"])?;
-    let found = lead(&section, "lead")?;
-    found.map(Some).ok_or_else(|| section.missing("lead", "lead = \"12 mm\""))
-}
-
-fn gears(root: &Section<'_>) -> Result<Vec<Gear>> {
+fn gears(root: &Section<'_>) -> Vec<Gear> {
     let mut gears: Vec<Gear> = Vec::new();
-    for section in root.sections("gear")? {
-        let gear = gear(&section)?;
+    for section in root.sections(keys::GEAR.name) {
+        let Some(gear) = gear(&section) else { continue };
         if gears.iter().any(|other| other.name == gear.name) {
-            return Err(section.conflict("name", "another gear has that name"));
+            let conflict = "another gear has that name";
+            section.refuse::<()>(section.conflict(keys::GEAR_NAME.name, conflict));
         }
         gears.push(gear);
     }
-    Ok(gears)
+    gears
 }
 
-fn gear(section: &Section<'_>) -> Result<Gear> {
-    section.only(&["name", "order", "teeth"])?;
-    let name = section.text("name")?;
-    let order = section.number("order", 1e-6..=1e9)?;
-    let teeth = section.whole("teeth", 1..=1_000_000)?;
-    Ok(Gear {
-        name: name.ok_or_else(|| section.missing("name", "name = \"change gear 1\""))?.into(),
-        order: order.ok_or_else(|| section.missing("order", "order = 2.5"))?,
-        teeth: teeth.and_then(|teeth| u32::try_from(teeth).ok()),
-    })
+fn gear(section: &Section<'_>) -> Option<Gear> {
+    section.only(&keys::GEAR.keys.iter().map(|key| key.name).collect::<Vec<_>>());
+    let name = section.text_of(&keys::GEAR_NAME);
+    let order = section.number_of(&keys::GEAR_ORDER, None);
+    let teeth = section.whole_of(&keys::GEAR_TEETH);
+    Some(Gear { name: name?.into(), order: order?, teeth })
 }
 
-fn grating(root: &Section<'_>, rotary: bool) -> Result<Grating> {
-    let Some(section) = part(root, rotary, "grating", "[grating]")? else {
-        return Ok(Grating { lines: 13_906, diameter_mm: 200.0 });
-    };
-    section.only(&["lines", "diameter"])?;
-    let lines = section
-        .whole("lines", 1..=10_000_000)?
-        .and_then(|lines| u32::try_from(lines).ok())
-        .ok_or_else(|| section.missing("lines", "lines = 13906"))?;
-    let diameter_mm = section.quantity("diameter", &MM, 1.0..=1e4)?.unwrap_or(200.0);
-    Ok(Grating { lines, diameter_mm })
+fn grating(section: &Section<'_>) -> Option<Grating> {
+    let lines = section.whole_of(&keys::LINES);
+    let diameter_mm = section.number_of(&keys::DIAMETER, None)?;
+    Some(Grating { lines: lines?, diameter_mm })
 }
 
-fn laser(root: &Section<'_>, rotary: bool) -> Result<Laser> {
-    let mut air = Air { temperature_c: 20.0, pressure_hpa: 1013.25, humidity_pct: 50.0 };
-    let Some(section) = part(root, rotary, "laser", "[laser]")? else {
-        return Ok(Laser { wavelength_um: 0.632_819_83, reference: air });
-    };
-    section.only(&[
-        "wavelength",
-        "reference_temperature",
-        "reference_pressure",
-        "reference_humidity",
-    ])?;
-    let wavelength = section.quantity("wavelength", &UM, 0.2..=20.0)?;
-    let wavelength_um = wavelength
-        .ok_or_else(|| section.missing("wavelength", "wavelength = \"0.63281983 um\""))?;
-    if let Some(found) = section.quantity("reference_temperature", &DEG_C, -40.0..=100.0)? {
-        air.temperature_c = found;
-    }
-    if let Some(found) = section.quantity("reference_pressure", &HPA, 500.0..=1200.0)? {
-        air.pressure_hpa = found;
-    }
-    if let Some(found) = section.quantity("reference_humidity", &PCT, 0.0..=100.0)? {
-        air.humidity_pct = found;
-    }
-    Ok(Laser { wavelength_um, reference: air })
+fn laser(section: &Section<'_>) -> Option<Laser> {
+    let number = |key: &Key| section.number_of(key, None);
+    let wavelength_um = number(&keys::WAVELENGTH);
+    let temperature_c = number(&keys::REFERENCE_TEMPERATURE);
+    let pressure_hpa = number(&keys::REFERENCE_PRESSURE);
+    let humidity_pct = number(&keys::REFERENCE_HUMIDITY)?;
+    let reference =
+        Air { temperature_c: temperature_c?, pressure_hpa: pressure_hpa?, humidity_pct };
+    Some(Laser { wavelength_um: wavelength_um?, reference })
 }
 
-fn dividers(root: &Section<'_>, rotary: bool) -> Result<Dividers> {
-    let Some(section) = part(root, rotary, "dividers", "[dividers]")? else {
-        let (range, compensation_um_per_m) = (Range::X2, 0.0);
-        return Ok(Dividers { a: 110, b: 150, range, initial_phase: 150, compensation_um_per_m });
-    };
-    section.only(&["a", "b", "range", "initial_phase", "compensation"])?;
-    let preset = |key, low| -> Result<Option<u16>> {
-        let found = section.whole(key, low..=999)?;
-        Ok(found.and_then(|preset| u16::try_from(preset).ok()))
-    };
-    let a = preset("a", 1)?.ok_or_else(|| section.missing("a", "a = 110"))?;
-    let b = preset("b", 1)?.ok_or_else(|| section.missing("b", "b = 150"))?;
-    let range = if section.whole("range", 1..=2)? == Some(2) { Range::X2 } else { Range::X1 };
-    let initial_phase = preset("initial_phase", 0)?.unwrap_or_else(|| centre_phase(b, range));
+fn dividers(section: &Section<'_>) -> Option<Dividers> {
+    let a = section.whole_of(&keys::A);
+    let b: Option<u16> = section.whole_of(&keys::B);
+    let range: Option<u8> = section.whole_of(&keys::RANGE);
+    let phase: Option<u16> = section.whole_of(&keys::INITIAL_PHASE);
+    let compensation_um_per_m = compensation(section)?;
+    let (a, b) = (a?, b?);
+    let range = if range == Some(2) { Range::X2 } else { Range::X1 };
+    let initial_phase = phase.unwrap_or_else(|| centre_phase(b, range));
     if range.factor() * b < initial_phase {
-        return Err(section.conflict(
-            "initial_phase",
-            &format!("a whole turn of phase is {} laser pulses", range.factor() * b),
-        ));
+        let conflict = format!("a whole turn of phase is {} laser pulses", range.factor() * b);
+        return section.refuse(section.conflict(keys::INITIAL_PHASE.name, &conflict));
     }
-    Ok(Dividers { a, b, range, initial_phase, compensation_um_per_m: compensation(&section)? })
+    Some(Dividers { a, b, range, initial_phase, compensation_um_per_m })
 }
 
 /// Seven decades of which four can be set: cycles of 1 000 to 9 999 000 pulses.
-fn compensation(section: &Section<'_>) -> Result<f64> {
-    let Some(rate) = section.quantity("compensation", &UM_PER_M, -1000.0..=1000.0)? else {
-        return Ok(0.0);
-    };
+fn compensation(section: &Section<'_>) -> Option<f64> {
+    let rate = section.number_of(&keys::COMPENSATION, None)?;
     if rate != 0.0 && crate::dividers::settable_cycle(rate).is_none() {
         let expected = "0 or between 0.1001 and 1000 um/m in size, which is what the four thumb \
                         wheels can show";
-        return Err(section.wrong("compensation", expected));
+        return section.refuse(section.wrong(keys::COMPENSATION.name, expected));
     }
-    Ok(rate)
+    Some(rate)
 }
 
-fn drive(root: &Section<'_>, rotary: bool) -> Result<Drive> {
-    let Some(section) = part(root, rotary, "drive", "[drive]")? else {
-        return Ok(Drive { step_um: 0.0125, frequency_hz: 160.0 });
-    };
-    section.only(&["step", "frequency"])?;
-    let unit = if rotary { &ARCSEC } else { &UM };
-    let step_um = section.quantity("step", unit, 1e-6..=1e3)?;
-    let frequency_hz = section.quantity("frequency", &HZ, 1e-3..=1e7)?;
-    Ok(Drive {
-        step_um: step_um.ok_or_else(|| section.missing("step", "step = \"0.0125 um\""))?,
-        frequency_hz: frequency_hz
-            .ok_or_else(|| section.missing("frequency", "frequency = \"160 Hz\""))?,
-    })
+fn drive(section: &Section<'_>, chain: &Chain) -> Option<Drive> {
+    let unit = keys::unit_on(&keys::STEP, chain.rotary);
+    let step_um = section.number_of(&keys::STEP, unit.as_ref());
+    let frequency_hz = section.number_of(&keys::FREQUENCY, None)?;
+    Some(Drive { step_um: step_um?, frequency_hz })
 }
 
-fn filter(root: &Section<'_>) -> Result<Option<f64>> {
-    let Some(section) = root.section("filter")? else { return Ok(None) };
-    section.only(&["cutoff"])?;
-    section
-        .quantity("cutoff", &HZ, 1e-6..=1e6)?
-        .map(Some)
-        .ok_or_else(|| section.missing("cutoff", "cutoff = \"1 Hz\""))
+fn loop_closed(root: &Section<'_>) -> bool {
+    let Some(section) = root.part(&keys::LOOP) else { return false };
+    let closed = section.flag(keys::CLOSED.name).unwrap_or_default();
+    if closed && !root.has(keys::DRIVE.name) {
+        let conflict = "there is no `[drive]` that could correct";
+        section.refuse::<()>(section.conflict(keys::CLOSED.name, conflict));
+    }
+    closed
 }
 
-fn loop_closed(root: &Section<'_>) -> Result<bool> {
-    let Some(section) = root.section("loop")? else { return Ok(false) };
-    section.only(&["closed"])?;
-    section.flag("closed").map(Option::unwrap_or_default)
+fn fpga(root: &Section<'_>) -> Option<Fpga> {
+    if !root.has(keys::FPGA.name) {
+        return Some(Fpga { clock_hz: 12e6, board: None });
+    }
+    let section = root.part(&keys::FPGA)?;
+    let board = section.text_of(&keys::BOARD).map(Into::into);
+    Some(Fpga { clock_hz: section.number_of(&keys::CLOCK, None)?, board })
 }
 
-fn fpga(root: &Section<'_>) -> Result<Fpga> {
-    let Some(section) = root.section("fpga")? else {
-        return Ok(Fpga { clock_hz: 12e6, board: None });
-    };
-    section.only(&["clock", "board"])?;
-    Ok(Fpga {
-        clock_hz: section.quantity("clock", &HZ, 1e3..=1e9)?.unwrap_or(12e6),
-        board: section.text("board")?.map(Into::into),
-    })
-}
-
-fn environment(root: &Section<'_>) -> Result<Environment> {
-    let Some(section) = root.section("environment")? else { return Ok(Environment::default()) };
+fn environment(root: &Section<'_>) -> Environment {
+    let Some(section) = root.section(keys::ENVIRONMENT) else { return Environment::default() };
     let known = || LOGGED_COLUMNS.iter().filter_map(|of| Some((of.name, of.setting.as_ref()?)));
-    section.only(&known().map(|(_, setting)| setting.key).collect::<Vec<_>>())?;
-    let mut readings = Vec::new();
-    for (column, setting) in known() {
-        if let Some(value) = section.quantity(setting.key, &setting.unit, setting.range.clone())? {
-            readings.push((column.into(), value));
-        }
-    }
-    Ok(Environment { readings })
+    section.only(&known().map(|(_, setting)| setting.key).collect::<Vec<_>>());
+    let readings = known().filter_map(|(column, setting)| {
+        let value = section.quantity(setting.key, &setting.unit, setting.range.clone())?;
+        Some((column.into(), value))
+    });
+    Environment { readings: readings.collect() }
 }

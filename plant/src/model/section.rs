@@ -1,5 +1,9 @@
 //! One table of a machine file, read key by key; every complaint names its place.
+//!
+//! Reading goes on after a complaint, so that one run tells all of them: what a table cannot give is
+//! `None`, and why lies with the complaints.
 
+use std::cell::RefCell;
 use std::ops::{Range, RangeInclusive};
 use std::path::Path;
 
@@ -7,7 +11,10 @@ use toml_edit::{Item, TableLike, Value};
 
 use helixlock_traces::At;
 
+use super::keys::{Absent, Key, Kind, Table};
 use crate::error::{MachineError, place};
+use crate::lead::Lead;
+use crate::nearest::one_of;
 use crate::units::{QuantityError, Unit, read_quantity, spellings};
 
 /// The text a machine was read from.
@@ -36,78 +43,140 @@ impl Source<'_> {
     }
 }
 
+/// What is wrong with a file so far.
+pub(crate) type Complaints = RefCell<Vec<MachineError>>;
+
 /// A table with its name.
 #[derive(Clone)]
 pub(crate) struct Section<'a> {
     pub(crate) source: Source<'a>,
+    complaints: &'a Complaints,
     name: String,
     table: &'a dyn TableLike,
     span: Option<Range<usize>>,
 }
 
-type Result<T> = std::result::Result<T, MachineError>;
-
 impl<'a> Section<'a> {
     /// The whole file.
-    pub(crate) fn root(source: Source<'a>, table: &'a toml_edit::Table) -> Self {
-        Self { source, name: String::new(), table, span: None }
+    pub(crate) fn root(
+        source: Source<'a>,
+        table: &'a toml_edit::Table,
+        complaints: &'a Complaints,
+    ) -> Self {
+        Self { source, complaints, name: String::new(), table, span: None }
+    }
+
+    /// Notes what is wrong; there is nothing to give.
+    pub(crate) fn refuse<T>(&self, error: MachineError) -> Option<T> {
+        self.complaints.borrow_mut().push(error);
+        None
     }
 
     /// Refuses keys that are not in `keys`.
-    pub(crate) fn only(&self, keys: &[&str]) -> Result<()> {
-        let unknown = self.table.iter().map(|(key, _)| key).find(|key| !keys.contains(key));
-        unknown.map_or(Ok(()), |found| {
+    pub(crate) fn only(&self, keys: &[&str]) {
+        for found in self.keys().into_iter().filter(|key| !keys.contains(key)) {
             let table = if self.name.is_empty() { "the file" } else { &self.name };
-            Err(MachineError::UnknownKey {
+            self.refuse::<()>(MachineError::UnknownKey {
                 at: self.key_at(found),
                 table: table.into(),
                 found: found.into(),
-                expected: keys.join(", ").into(),
-            })
-        })
+                expected: one_of(found, keys).into(),
+            });
+        }
     }
 
     /// A table below this one, when it is there.
-    pub(crate) fn section(&self, key: &str) -> Result<Option<Self>> {
-        let Some(item) = self.table.get(key) else { return Ok(None) };
+    pub(crate) fn section(&self, key: &str) -> Option<Self> {
+        let item = self.table.get(key)?;
         let name = self.path_of(key);
-        let table = item
-            .as_table_like()
-            .ok_or_else(|| self.value_error(key, item, &format!("a table `[{name}]`")))?;
+        let Some(table) = item.as_table_like() else {
+            return self.refuse(self.value_error(key, item, &format!("a table `[{name}]`")));
+        };
         let span = item.span().or_else(|| self.table.key(key).and_then(toml_edit::Key::span));
-        Ok(Some(Self { source: self.source, name, table, span }))
+        Some(Self { name, table, span, ..self.clone() })
     }
 
-    /// A table below this one that has no default.
-    pub(crate) fn required_section(&self, key: &str, example: &str) -> Result<Self> {
-        self.section(key)?.ok_or_else(|| self.missing(key, example))
+    /// A section of the list, when it is there, with none but its keys.
+    pub(crate) fn part(&self, part: &Table) -> Option<Self> {
+        let section = self.section(part.name)?;
+        section.only(&part.keys.iter().map(|key| key.name).collect::<Vec<_>>());
+        Some(section)
     }
 
     /// The tables of an array `[[key]]`.
-    pub(crate) fn sections(&self, key: &str) -> Result<Vec<Self>> {
-        let Some(item) = self.table.get(key) else { return Ok(Vec::new()) };
+    pub(crate) fn sections(&self, key: &str) -> Vec<Self> {
+        let Some(item) = self.table.get(key) else { return Vec::new() };
         let name = self.path_of(key);
-        let refuse = || self.value_error(key, item, &format!("tables `[[{name}]]`"));
+        let refuse = || self.refuse(self.value_error(key, item, &format!("tables `[[{name}]]`")));
+        let below = |table: &'a dyn TableLike, span| Self {
+            name: name.clone(),
+            table,
+            span,
+            ..self.clone()
+        };
         if let Some(array) = item.as_array_of_tables() {
-            return Ok(array.iter().map(|table| self.below(&name, table, table.span())).collect());
+            return array.iter().map(|table| below(table, table.span())).collect();
         }
-        let array = item.as_array().ok_or_else(refuse)?;
-        array
-            .iter()
-            .map(|value| {
-                let table = value.as_inline_table().ok_or_else(refuse)?;
-                Ok(self.below(&name, table, table.span()))
-            })
-            .collect()
-    }
-
-    fn below(&self, name: &str, table: &'a dyn TableLike, span: Option<Range<usize>>) -> Self {
-        Self { source: self.source, name: name.into(), table, span }
+        let Some(array) = item.as_array() else { return refuse().unwrap_or_default() };
+        let tables = array.iter().map(|value| {
+            let table = value.as_inline_table()?;
+            Some(below(table, table.span()))
+        });
+        tables.collect::<Option<_>>().or_else(refuse).unwrap_or_default()
     }
 
     /// Keys in this table.
     pub(crate) fn keys(&self) -> Vec<&'a str> {
         self.table.iter().map(|(key, _)| key).collect()
+    }
+
+    /// True when something stands at `key`, right or wrong.
+    pub(crate) fn has(&self, key: &str) -> bool {
+        self.table.get(key).is_some()
+    }
+
+    /// The number of a key of the list, or what holds when it is not there.
+    pub(crate) fn number_of(&self, key: &Key, unit: Option<&Unit>) -> Option<f64> {
+        let found = match (&key.kind, unit) {
+            (Kind::Quantity(own, range), unit) => {
+                self.quantity(key.name, unit.unwrap_or(own), range.clone())
+            }
+            (Kind::Number(range), _) => self.number(key.name, range.clone()),
+            _ => None,
+        };
+        found.or_else(|| match key.absent {
+            Absent::Number(number) if !self.has(key.name) => Some(number),
+            _ => self.missing_key(key),
+        })
+    }
+
+    /// The whole number of a key of the list.
+    pub(crate) fn whole_of<T: TryFrom<i64>>(&self, key: &Key) -> Option<T> {
+        let Kind::Whole(range) = &key.kind else { return None };
+        let found = self.whole(key.name, range.clone());
+        found.and_then(|whole| T::try_from(whole).ok()).or_else(|| self.missing_key(key))
+    }
+
+    /// The lead of a key of the list.
+    pub(crate) fn lead_of(&self, key: &Key) -> Option<Lead> {
+        if !self.has(key.name) {
+            return self.missing_key(key);
+        }
+        let expected =
+            "a lead from 0.001 mm to 1000 mm such as \"6 mm\", \"1/6 in\" or \"0.5 pi mm\"";
+        let lead = self.text(key.name)?.parse();
+        lead.map_or_else(|_| self.refuse(self.wrong(key.name, expected)), Some)
+    }
+
+    /// The text of a key of the list.
+    pub(crate) fn text_of(&self, key: &Key) -> Option<&'a str> {
+        self.text(key.name).or_else(|| self.missing_key(key))
+    }
+
+    /// Refuses that a key is not there, where the section cannot do without it.
+    fn missing_key<T>(&self, key: &Key) -> Option<T> {
+        let missing = matches!(key.absent, Absent::Refused) && !self.has(key.name);
+        if missing { self.refuse(self.missing(key.name, &key.line())) } else { None }
     }
 
     /// A quantity with a unit, inside a range given in that unit.
@@ -116,59 +185,60 @@ impl<'a> Section<'a> {
         key: &str,
         unit: &Unit,
         range: RangeInclusive<f64>,
-    ) -> Result<Option<f64>> {
-        let Some(item) = self.table.get(key) else { return Ok(None) };
+    ) -> Option<f64> {
+        let item = self.table.get(key)?;
         let units = spellings(unit.dimension);
-        let expected = format!("a quantity in quotes with one of the units {units}");
-        let text = item.as_str().ok_or_else(|| self.value_error(key, item, &expected))?;
-        let value = read_quantity(text, unit).map_err(|error| {
-            let reason = match error {
-                QuantityError::NoNumber => format!("a number and one of the units {units}"),
-                QuantityError::NotFinite => "a finite number".into(),
-                QuantityError::Comma => "a decimal point, not a comma".into(),
-                _ => format!("one of the units {units}"),
-            };
-            self.value_error(key, item, &reason)
-        })?;
-        if range.contains(&value) {
-            return Ok(Some(value));
+        let refuse = |expected: &str| self.refuse(self.value_error(key, item, expected));
+        let Some(text) = item.as_str() else {
+            return refuse(&format!("a quantity in quotes with one of the units {units}"));
+        };
+        match read_quantity(text, unit) {
+            Ok(value) if range.contains(&value) => Some(value),
+            Ok(_) => refuse(&format!("{} to {} {unit}", range.start(), range.end())),
+            Err(QuantityError::NoNumber) => {
+                refuse(&format!("a number and one of the units {units}"))
+            }
+            Err(QuantityError::NotFinite) => refuse("a finite number"),
+            Err(QuantityError::Comma) => refuse("a decimal point, not a comma"),
+            Err(_) => refuse(&format!("one of the units {units}")),
         }
-        let (low, high) = (range.start(), range.end());
-        Err(self.value_error(key, item, &format!("{low} to {high} {unit}")))
     }
 
     /// A number without a unit, inside a range.
-    pub(crate) fn number(&self, key: &str, range: RangeInclusive<f64>) -> Result<Option<f64>> {
-        let Some(item) = self.table.get(key) else { return Ok(None) };
+    pub(crate) fn number(&self, key: &str, range: RangeInclusive<f64>) -> Option<f64> {
+        let item = self.table.get(key)?;
         #[expect(clippy::cast_precision_loss, reason = "the range keeps it below 2⁵³")]
         let value = item.as_float().or_else(|| item.as_integer().map(|whole| whole as f64));
-        let value = value.ok_or_else(|| self.value_error(key, item, "a number without unit"))?;
+        let Some(value) = value else {
+            return self.refuse(self.value_error(key, item, "a number without unit"));
+        };
         if range.contains(&value) {
-            return Ok(Some(value));
+            return Some(value);
         }
-        Err(self.value_error(key, item, &format!("{} to {}", range.start(), range.end())))
+        let expected = format!("{} to {}", range.start(), range.end());
+        self.refuse(self.value_error(key, item, &expected))
     }
 
     /// A whole number inside a range.
-    pub(crate) fn whole(&self, key: &str, range: RangeInclusive<i64>) -> Result<Option<i64>> {
-        let Some(item) = self.table.get(key) else { return Ok(None) };
-        let expected = format!("a whole number from {} to {}", range.start(), range.end());
-        item.as_integer()
-            .filter(|value| range.contains(value))
-            .map(Some)
-            .ok_or_else(|| self.value_error(key, item, &expected))
+    fn whole(&self, key: &str, range: RangeInclusive<i64>) -> Option<i64> {
+        let item = self.table.get(key)?;
+        let value = item.as_integer().filter(|value| range.contains(value));
+        value.or_else(|| {
+            let expected = format!("a whole number from {} to {}", range.start(), range.end());
+            self.refuse(self.value_error(key, item, &expected))
+        })
     }
 
     /// True or false.
-    pub(crate) fn flag(&self, key: &str) -> Result<Option<bool>> {
-        let Some(item) = self.table.get(key) else { return Ok(None) };
-        item.as_bool().map(Some).ok_or_else(|| self.value_error(key, item, "true or false"))
+    pub(crate) fn flag(&self, key: &str) -> Option<bool> {
+        let item = self.table.get(key)?;
+        item.as_bool().or_else(|| self.refuse(self.value_error(key, item, "true or false")))
     }
 
     /// A text in quotes.
-    pub(crate) fn text(&self, key: &str) -> Result<Option<&'a str>> {
-        let Some(item) = self.table.get(key) else { return Ok(None) };
-        item.as_str().map(Some).ok_or_else(|| self.value_error(key, item, "a text in quotes"))
+    pub(crate) fn text(&self, key: &str) -> Option<&'a str> {
+        let item = self.table.get(key)?;
+        item.as_str().or_else(|| self.refuse(self.value_error(key, item, "a text in quotes")))
     }
 
     /// What stands at `key` cannot be; `expected` says what could.

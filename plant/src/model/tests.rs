@@ -2,7 +2,7 @@ use std::path::Path;
 
 use super::{MachineFile, Model};
 use crate::rationalisation::implied_um_per_m;
-use crate::{Lead, Term};
+use crate::{Lead, Part, Term};
 
 pub(crate) const SG7430: &str = r#"# The first example.
 title = "SG7430 grinding a 6 mm screw"
@@ -176,6 +176,71 @@ fn a_section_that_is_not_there_is_made() {
     assert_eq!(gear.text(), SG7430.replace("order = 2.5", "order = 3.5"));
 }
 
+/// One run tells everything that is wrong, in the order of the file.
+#[test]
+fn all_that_is_wrong_is_told_at_once() {
+    let text = "[workpiece]\nlead = \"6\"\nlenght = \"1 m\"\n[spindle]\nspeed = 6\n\
+                [[effect]]\nkind = \"screw_periodic\"\n[[effect]]\nkind = \"backlash\"\n";
+    let said = refusal(text);
+    let lines: Vec<_> = said.lines().collect();
+    assert_eq!(lines.len(), 5, "{said}");
+    assert!(lines[0].starts_with("machine.toml:2:8: `workpiece.lead` is `\"6\"`"), "{said}");
+    assert!(lines[1].contains("unknown key `lenght` in `workpiece`, expected `length`"), "{said}");
+    assert!(lines[2].starts_with("machine.toml:5:9: `spindle.speed` is `6`"), "{said}");
+    assert!(lines[3].contains("expected `screw-periodic`, or another one of"), "{said}");
+    assert!(lines[4].starts_with("machine.toml:8:1: `effect.width` is missing"), "{said}");
+}
+
+/// A linear axis needs its screw and nothing of the grinder; what it lacks has no effect.
+#[test]
+fn an_axis_without_a_device_reads() {
+    let text = "lead_screw.lead = \"5 mm\"\nspindle.speed = \"600 rpm\"\n";
+    let axis = parse(text);
+    assert_eq!(axis.workpiece.lead.to_string(), "5 mm");
+    assert_eq!(implied_um_per_m(&axis).to_bits(), 0.0_f64.to_bits());
+    assert_eq!(axis.lacks(&[Part::Table, Part::LeadScrew]), None);
+    for (kind, part) in
+        [("dead-path", "[laser]"), ("lost-steps", "[drive]"), ("grating-slip", "[grating]")]
+    {
+        let card = Term::card(kind).expect(kind);
+        let pairs = card.parameters.iter().map(|what| {
+            let quotes = if what.unit.symbol.is_empty() { "" } else { "\"" };
+            format!("{} = {quotes}1 {}{quotes}\n", what.name, what.unit)
+        });
+        let effect: String = pairs.collect();
+        let said = refusal(&format!("{text}[[effect]]\nkind = \"{kind}\"\n{effect}"));
+        assert!(
+            said.ends_with(&format!("effect `{kind}` needs `{part}` in the machine file")),
+            "{said}"
+        );
+    }
+    let closed = refusal(&format!("{text}loop.closed = true\n"));
+    assert!(closed.contains("`loop.closed` is `true`, but there is no `[drive]`"), "{closed}");
+    let dividers = refusal(&format!("{text}dividers = {{ a = 110, b = 150 }}\n"));
+    assert_eq!(dividers.lines().count(), 2, "{dividers}");
+}
+
+#[test]
+fn the_reference_is_fresh() {
+    expect_test::expect_file!["../../../docs/machine.md"].assert_eq(&super::reference());
+}
+
+/// What the reference shows can be read.
+#[test]
+fn examples_of_the_reference_read() {
+    use super::keys::TABLES;
+    let mut text = String::new();
+    for table in TABLES.iter().filter(|table| table.name != "output") {
+        let head =
+            if table.many { format!("[[{}]]", table.name) } else { format!("[{}]", table.name) };
+        let lines: Vec<_> = table.keys.iter().map(super::keys::Key::line).collect();
+        text.extend([head.as_str(), "\n", &lines.join("\n"), "\n"]);
+    }
+    let machine = parse(&text);
+    assert_eq!(machine.gears[0].mesh_order(), Some(120.0));
+    assert_eq!(machine.lacks(&[Part::Workpiece, Part::Laser, Part::Dividers, Part::Drive]), None);
+}
+
 /// Rotary chains need nothing of the grinder.
 #[test]
 fn a_rotary_chain_reads() {
@@ -192,6 +257,12 @@ fn a_rotary_chain_reads() {
         ("rate_arcsec_per_h", 3600.0)
     );
     assert_eq!(machine.effects[0].values, [5.0, 0.0, 180.0]);
+    // δ is an angle, and may be a servo's degrees; the size of a part stays a length.
+    let gear = Term::candidate(Term::card("gear-error").expect("known"), true);
+    assert_eq!(gear.parameters[0].key(), "amplitude_arcsec");
+    assert_eq!(gear.parameters[0].range, 0.0..=36_000.0);
+    let disc = Term::candidate(Term::card("grating-eccentricity").expect("known"), true);
+    assert_eq!(disc.parameters[0].key(), "eccentricity_um");
     assert!(
         refusal(
             "output.rotary = true\nspindle.speed = \"1 rpm\"\n[[effect]]\nkind = \"gear-error\"\n\

@@ -29,7 +29,7 @@ impl MachineFile {
     ///
     /// # Errors
     ///
-    /// [`MachineError`] with the place of the first thing that is wrong.
+    /// [`MachineError`] with the place of everything that is wrong.
     pub fn read(path: &Path) -> Result<Self, MachineError> {
         let cannot = |source| MachineError::Read { path: path.into(), source };
         let bytes = std::fs::read(path).map_err(cannot)?;
@@ -45,7 +45,7 @@ impl MachineFile {
     ///
     /// # Errors
     ///
-    /// [`MachineError`] with the place of the first thing that is wrong.
+    /// [`MachineError`] with the place of everything that is wrong.
     pub fn parse(text: &str, path: &Path) -> Result<Self, MachineError> {
         Self::parse_source(Source { path, text, behind: None })
     }

@@ -8,7 +8,7 @@ use super::pass::{Pass, PassPlan, Trace, run_pass};
 use super::pins::clock_of;
 use super::probe::{Probe, signals_of};
 use crate::Error;
-use crate::device::{DeviceEngine, Dialled, device_engine, set_wheels, settings_for};
+use crate::device::{DeviceEngine, Dialled, device_engine, dividers_fit, set_wheels, settings_for};
 use crate::engine::Engine;
 
 /// Comparisons that the waveform shows unless told otherwise, after the initial phase selection.
@@ -74,6 +74,7 @@ impl Course {
     /// [`Error`] when the device cannot serve the machine.
     pub fn new(machine: &Machine, options: &Options) -> Result<Self, Error> {
         let dialled = settings_for(machine)?;
+        dividers_fit(machine)?;
         let length_mm = match options.length_mm {
             Some(asked) => asked.min(machine.workpiece.length_mm),
             None => machine.workpiece.length_mm,

@@ -1,6 +1,7 @@
 //! From the machine file to thumb wheels and switches.
 
-use helixlock_plant::{self as plant, Machine};
+use helixlock_plant::dividers::COMPENSATOR_REACH_PPM;
+use helixlock_plant::{self as plant, Machine, Part, rationalisation_um_per_m};
 use helixlock_rtl::settings::{Range, Settings};
 
 use crate::SettingsError;
@@ -34,6 +35,10 @@ pub fn settings_for(machine: &Machine) -> Result<Dialled, SettingsError> {
     if machine.rotary {
         return Err(SettingsError::Rotary);
     }
+    let whole = [Part::Workpiece, Part::Grating, Part::Laser, Part::Dividers, Part::Drive];
+    if let Some(part) = machine.lacks(&whole) {
+        return Err(SettingsError::Part { part });
+    }
     let dividers = &machine.dividers;
     let compensation_f = compensation_f(dividers.compensation_um_per_m)?;
     let step_period = step_period(machine.drive.frequency_hz, machine.fpga.clock_hz)?;
@@ -64,6 +69,26 @@ fn compensation_f(um_per_m: f64) -> Result<u32, SettingsError> {
         return Err(SettingsError::Compensation { found_um_per_m: um_per_m });
     }
     Ok(if thousands <= 9999.0 { 1000 * whole(thousands) } else { 0 })
+}
+
+/// Refuses dividers that leave more than the compensator takes out: they stand for another lead, and
+/// a run would only show the corrector at its end.
+///
+/// # Errors
+///
+/// [`SettingsError::Dividers`].
+pub(crate) fn dividers_fit(machine: &Machine) -> Result<(), SettingsError> {
+    let left_um_per_m = rationalisation_um_per_m(machine);
+    if left_um_per_m.abs() <= COMPENSATOR_REACH_PPM {
+        return Ok(());
+    }
+    Err(SettingsError::Dividers {
+        a: machine.dividers.a,
+        b: machine.dividers.b,
+        lead: machine.workpiece.lead,
+        left_um_per_m,
+        most_um_per_m: COMPENSATOR_REACH_PPM,
+    })
 }
 
 fn step_period(frequency_hz: f64, clock_hz: f64) -> Result<u32, SettingsError> {
