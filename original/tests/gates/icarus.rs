@@ -39,7 +39,7 @@ fn agrees_on_every_edge_with_drawn_delays() {
 
 /// 100 000 pulses at every pin, three corners and a hundred drawn delay sets.
 #[test]
-#[ignore = "takes an hour; run with `cargo test -p helixlock-original --release -- --ignored`"]
+#[ignore = "takes hours, ten seconds for a set of delays and a small figure; run with `cargo test -p helixlock-original --release -- --ignored`"]
 fn agrees_on_every_edge_of_the_long_run() {
     for figure in FIGURES {
         let circuit = (figure.build)();
