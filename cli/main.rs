@@ -14,6 +14,7 @@ mod init;
 mod learn;
 mod scale;
 mod screw;
+mod serve;
 mod shared;
 mod sim;
 mod straightness;
@@ -44,6 +45,7 @@ enum Command {
     Learn(learn::Learn),
     Scale(Box<scale::ScaleCommand>),
     Screw(screw::Screw),
+    Serve(serve::Serve),
     Sim(sim::Sim),
     Straightness(Box<straightness::StraightnessCommand>),
     Sweep(sweep::Sweep),
@@ -91,6 +93,7 @@ fn run(command: Command, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         Command::Learn(command) => command.run(out),
         Command::Scale(scale) => scale.run(out),
         Command::Screw(screw) => screw.run(out),
+        Command::Serve(serve) => serve.run(out),
         Command::Sim(sim) => sim.run(out),
         Command::Straightness(straightness) => straightness.run(out),
         Command::Sweep(sweep) => sweep.run(out),

@@ -9,6 +9,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("import", &["traces"]),
     ("metrology", &[]),
     ("report", &[]),
+    ("workbench", &[]),
     ("plant", &["traces"]),
     ("gen", &["netlist"]),
     ("sim", &["rtl", "netlist", "plant", "traces"]),

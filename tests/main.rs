@@ -61,3 +61,4 @@ mod verdict_properties;
 mod waveform_readers;
 mod what_is_left;
 mod what_is_named;
+mod workbench;

@@ -17,6 +17,7 @@ const ROOTS: &[(&str, &str)] = &[
     ("import", "import/src/lib.rs"),
     ("metrology", "metrology/src/lib.rs"),
     ("report", "report/src/lib.rs"),
+    ("workbench", "workbench/src/lib.rs"),
     ("plant", "plant/src/lib.rs"),
     ("gen", "gen/src/lib.rs"),
     ("sim", "sim/src/lib.rs"),

@@ -29,6 +29,9 @@ pub(crate) struct Add {
     /// Fit the effects that the machine file has already along with it
     #[arg(long, requires = "fit")]
     refit: bool,
+    /// With `--refit`, leave the first N effects of the machine file as they are
+    #[arg(long, value_name = "N", default_value_t = 0, requires = "refit")]
+    keep: usize,
     /// A parameter, such as `amplitude="1.5 um"`; only without `--fit`
     #[arg(long = "set", value_name = "KEY=VALUE", conflicts_with = "fit")]
     values: Vec<String>,
@@ -53,7 +56,8 @@ impl Add {
             return Ok(ExitCode::SUCCESS);
         };
         let term = self.term(&file)?;
-        let (base, beside) = if self.refit { stripped(&file)? } else { (file, Vec::new()) };
+        let (base, beside) =
+            if self.refit { stripped(&file, self.keep)? } else { (file, Vec::new()) };
         let problem = measured::problem(&base.model, data, &self.signals)?;
         let added = add(&problem, &beside, &term)
             .with_context(|| format!("{}: {} cannot be fitted", data.display(), term.name))?;
@@ -106,12 +110,12 @@ impl Add {
     }
 }
 
-/// The machine file without its effects, and those effects.
-fn stripped(file: &MachineFile) -> anyhow::Result<(MachineFile, Vec<Term>)> {
-    let terms = file.model.effects.clone();
+/// The machine file without its effects behind the first `keep`, and those effects.
+fn stripped(file: &MachineFile, keep: usize) -> anyhow::Result<(MachineFile, Vec<Term>)> {
+    let terms: Vec<Term> = file.model.effects.iter().skip(keep).cloned().collect();
     let mut bare = file.clone();
     for _ in &terms {
-        bare = bare.without_effect(0)?;
+        bare = bare.without_effect(keep)?;
     }
     Ok((bare, terms))
 }

@@ -3,6 +3,9 @@
 use helixlock_lab::NamedLine;
 use helixlock_report::{Axis, Label, Panel};
 
+/// A name farther from a drawn peak than this share of its order is not drawn.
+const NEAR: f64 = 0.02;
+
 /// Most lines that are named in a picture; the table has all.
 const MOST: usize = 6;
 
@@ -12,11 +15,14 @@ const MOST: usize = 6;
 pub(crate) fn named(panel: Panel, lines: &[NamedLine], sensor: usize, rotary: bool) -> Panel {
     let label = "cycles a spindle turn";
     let x = if rotary { Axis::log(label) } else { Axis::linear(label) };
-    Panel { x, labels: labels(lines, sensor, rotary), ..panel }
+    let drawn = panel.series.first().map_or(&[][..], |series| &series.points);
+    let labels = labels(lines, drawn, sensor, rotary);
+    Panel { x, labels, ..panel }
 }
 
-/// Order, or period of a rotary chain, and a question mark where the machine file has no name.
-fn labels(lines: &[NamedLine], sensor: usize, rotary: bool) -> Vec<Label> {
+/// Order, or period of a rotary chain, and a question mark where the machine file has no name; none
+/// where nothing is drawn that it could stand at.
+fn labels(lines: &[NamedLine], drawn: &[[f64; 2]], sensor: usize, rotary: bool) -> Vec<Label> {
     let mut lines: Vec<_> = lines.iter().filter(|line| line.sensor == sensor).collect();
     lines.sort_by(|a, b| b.line.amplitude.total_cmp(&a.line.amplitude));
     let unnamed = |line: &NamedLine| {
@@ -26,9 +32,30 @@ fn labels(lines: &[NamedLine], sensor: usize, rotary: bool) -> Vec<Label> {
             format!("{:.3} ?", line.line.frequency)
         }
     };
-    let label = |line: &NamedLine| Label {
-        at: [line.line.frequency, line.line.amplitude],
-        text: line.name.clone().unwrap_or_else(|| unnamed(line)),
+    let label = |line: &NamedLine| {
+        let at = top_near(drawn, line.line.frequency)?;
+        Some(Label { at, text: line.name.clone().unwrap_or_else(|| unnamed(line)) })
     };
-    lines.into_iter().take(MOST).map(label).collect()
+    lines.into_iter().filter_map(label).take(MOST).collect()
+}
+
+/// The highest local maximum near an order.
+pub(crate) fn top_near(points: &[[f64; 2]], order: f64) -> Option<[f64; 2]> {
+    let tops =
+        points.windows(3).filter(|three| three[0][1] < three[1][1] && three[2][1] <= three[1][1]);
+    let near = tops.map(|three| three[1]).filter(|top| (top[0] - order).abs() <= NEAR * order);
+    near.max_by(|one, other| one[1].total_cmp(&other[1]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_stands_at_a_top_or_nowhere() {
+        let points = [[1.0, 0.1], [1.01, 0.5], [1.02, 0.2], [2.0, 0.1], [3.0, 0.3]];
+        assert_eq!(top_near(&points, 1.0), Some([1.01, 0.5]));
+        assert_eq!(top_near(&points, 2.0), None);
+        assert_eq!(top_near(&points, 3.0), None);
+    }
 }

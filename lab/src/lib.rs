@@ -37,4 +37,4 @@ pub use hypotheses::Structure;
 pub use measurement::{LabError, Measurement, Nominal, PulseTrains, Steps, sensor_column};
 pub use model::{Problem, Row};
 pub use noise::{Block, Layout, Noise, SlowPart};
-pub use spectrum::{Line, NamedLine, lines_left};
+pub use spectrum::{Line, NamedLine, amplitude_spectrum, lines_left};

@@ -7,7 +7,7 @@ mod lines;
 mod order_spectrum;
 mod thinning;
 
-pub(crate) use amplitude_spectrum::amplitude_spectrum;
+pub use amplitude_spectrum::amplitude_spectrum;
 pub(crate) use lines::lines;
 pub(crate) use lines::{LineSearch, gear_orders};
 pub use lines::{NamedLine, lines_left};

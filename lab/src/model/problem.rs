@@ -49,7 +49,7 @@ pub struct Problem {
     /// Effects of the user's own to be tried beside the catalogue.
     pub extra: Vec<Term>,
     /// Highest order of the spindle that the samples resolve.
-    pub(crate) highest_order: f64,
+    pub highest_order: f64,
     /// Highest frequency in time that the samples resolve, Hz.
     pub(crate) highest_hz: f64,
     /// Columns of effects on these samples; they depend on the machine and the record alone.
@@ -131,7 +131,7 @@ impl Problem {
 
     /// Observed less predicted, µm (arcsec); every pass has an arbitrary zero.
     #[must_use]
-    pub(crate) fn residual(&self) -> Vec<f64> {
+    pub fn residual(&self) -> Vec<f64> {
         self.observed.iter().zip(&self.predicted).map(|(seen, said)| seen - said).collect()
     }
 

@@ -16,7 +16,7 @@ const MOST_POINTS: f64 = 65_536.0;
 /// that the samples resolve. All samples weigh alike: unlike the search's own scan it knows nothing
 /// of the noise, and an even height does not mean an even significance.
 #[must_use]
-pub(crate) fn amplitude_spectrum(problem: &Problem, left: &[f64], sensor: usize) -> Vec<[f64; 2]> {
+pub fn amplitude_spectrum(problem: &Problem, left: &[f64], sensor: usize) -> Vec<[f64; 2]> {
     let mut values = Vec::new();
     let mut turns = Vec::new();
     for block in problem.layout.blocks.iter().filter(|block| block.sensor == sensor) {

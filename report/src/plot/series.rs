@@ -101,7 +101,8 @@ pub(super) fn draw_labels(chart: &mut Chart, panel: &Panel, [x, y]: [&Settled; 2
         let (point, foot) = chart.backend_coord(&(across, up));
         // Words at a side move inwards, so that they do not cover the numbers of the axis.
         let middle = point.clamp(left + half, (right - half).max(left + half));
-        let lifted = lifted_clear(&taken, [middle, foot, half]);
+        // Where there is no room words would overprint others: tables have them all.
+        let Some(lifted) = lifted_clear(&taken, [middle, foot, half]) else { continue };
         taken.push([middle, lifted, half]);
         let text = Text::new(words, (middle - point, lifted - foot), style.clone());
         chart.draw_series([EmptyElement::at((across, up)) + text])?;
@@ -109,14 +110,13 @@ pub(super) fn draw_labels(chart: &mut Chart, panel: &Panel, [x, y]: [&Settled; 2
     Ok(())
 }
 
-/// Foot of a label, raised line by line until it lies on no other.
-fn lifted_clear(taken: &[[i32; 3]], [middle, foot, half]: [i32; 3]) -> i32 {
+/// Foot of a label, raised line by line until it lies on no other; none within eight lines.
+fn lifted_clear(taken: &[[i32; 3]], [middle, foot, half]: [i32; 3]) -> Option<i32> {
     let covers = |foot: i32| {
         let overlaps = |[other, other_foot, other_half]: &[i32; 3]| {
             (other - middle).abs() < half + other_half && (other_foot - foot).abs() < LINE
         };
         taken.iter().any(overlaps)
     };
-    let tries = (0..8).map(|line| foot - line * LINE);
-    tries.clone().find(|foot| !covers(*foot)).unwrap_or(foot)
+    (0..8).map(|line| foot - line * LINE).find(|foot| !covers(*foot))
 }

@@ -37,10 +37,19 @@ pub const PACKAGES: &[Package] = &[
     debian("g++", &["g++"]),
     debian("make", &["make"]),
     debian("mawk", &["awk"]),
+    debian("chromium", &["chromium"]),
+    debian("nodejs", &["node"]),
+    debian("npm", &["npm"]),
+    npm("playwright-core@1.65.1", &["playwright-core"]),
+    npm("axe-core@4.14.1", &["../axe-core/package.json"]),
 ];
 
 const fn debian(name: &'static str, signs: &'static [&'static str]) -> Package {
     Package { kind: Kind::Debian, name, signs }
+}
+
+const fn npm(name: &'static str, signs: &'static [&'static str]) -> Package {
+    Package { kind: Kind::Npm, name, signs }
 }
 
 #[cfg(test)]

@@ -1,0 +1,356 @@
+//! The workbench as its users meet it: in a real Chromium.
+
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+use crate::support::command::{helixlock, put, repository, scratch, word};
+
+/// `helixlock serve` over a folder, ended with the value.
+struct Server {
+    child: Child,
+    address: String,
+}
+
+impl Server {
+    fn over(folder: &Path) -> Self {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_helixlock"))
+            .arg("serve")
+            .arg(folder)
+            .stdout(Stdio::piped())
+            .spawn()
+            .expect("the command starts");
+        let mut address = String::new();
+        let out = child.stdout.take().expect("a pipe");
+        BufReader::new(out).read_line(&mut address).expect("a line");
+        Self { child, address: address.trim().to_owned() }
+    }
+}
+
+impl Server {
+    fn host(&self) -> &str {
+        self.address
+            .strip_prefix("http://")
+            .and_then(|rest| rest.split('/').next())
+            .expect("a host")
+    }
+
+    /// The path of something below the token.
+    fn path(&self, rest: &str) -> String {
+        let from = "http://".len() + self.host().len();
+        format!("{}{rest}", &self.address[from..])
+    }
+
+    /// Sends a request as it stands; the status and what was told.
+    fn send(&self, method: &str, path: &str, head: &str, body: &str) -> Option<(u16, String)> {
+        let mut stream = TcpStream::connect(self.host()).ok()?;
+        let length = body.len();
+        let request = format!(
+            "{method} {path} HTTP/1.1\r\n{head}Connection: close\r\nContent-Length: {length}\r\n\r\n{body}"
+        );
+        stream.write_all(request.as_bytes()).ok()?;
+        let mut answer = String::new();
+        stream.read_to_string(&mut answer).ok()?;
+        let status = answer.split(' ').nth(1)?.parse().ok()?;
+        Some((status, answer.split_once("\r\n\r\n")?.1.to_owned()))
+    }
+
+    /// The same from the page itself.
+    fn ask(&self, method: &str, what: &str, body: &str) -> Option<(u16, String)> {
+        let head = format!("Host: {}\r\n", self.host());
+        self.send(method, &self.path(&format!("api/{what}")), &head, body)
+    }
+
+    fn revision(&self) -> String {
+        let (_, state) = self.ask("GET", "state?machine=machine.toml", "").expect("an answer");
+        json(&state)["revision"].as_str().expect("a revision").to_owned()
+    }
+
+    /// Saves a machine file over a revision; the status.
+    fn save(&self, revision: &str, text: &str) -> Option<u16> {
+        let what = format!("machine?machine=machine.toml&revision={revision}");
+        let body = serde_json::json!({ "text": text }).to_string();
+        self.ask("POST", &what, &body).map(|(status, _)| status)
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        self.child.kill().expect("the server runs");
+        self.child.wait().expect("the server ends");
+    }
+}
+
+/// The folder with the packages of npm, by the command that one of them brings.
+fn node_folder() -> PathBuf {
+    let own = repository().join("target/tools/node/node_modules/.bin");
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let mut folders = std::iter::once(own).chain(std::env::split_paths(&path));
+    let command = folders.find_map(|folder| folder.join("playwright-core").canonicalize().ok());
+    let command =
+        command.expect("`playwright-core` of npm is needed: `cargo xtask check` installs it");
+    command.ancestors().nth(2).expect("a folder of packages").to_owned()
+}
+
+/// Does a story in a browser; gives what it said.
+fn story(name: &str, server: &Server, words: &[&str]) -> String {
+    let script = repository().join("tests/workbench/stories.mjs");
+    let mut command = Command::new("node");
+    command.arg(script).args([name, &server.address]).args(words);
+    command.env("NODE_FOLDER", node_folder()).env("CHROMIUM", "/usr/bin/chromium");
+    if std::env::var_os("UPDATE_PICTURES").is_some() {
+        command.env("PICTURES", repository().join("docs/figures/workbench"));
+    }
+    let output = command.output().expect("`node` starts; it is the Debian package `nodejs`");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    String::from_utf8(output.stdout).expect("text")
+}
+
+/// A challenge: its machine file alone in a folder, and its data elsewhere.
+fn challenge(seed: &str) -> (TempDir, TempDir) {
+    let (bench, elsewhere) = (scratch(), scratch());
+    let run = helixlock(&["challenge", "--seed", seed, "-o", elsewhere.path().to_str().unwrap()]);
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let machine = std::fs::read_to_string(elsewhere.path().join("machine.toml")).unwrap();
+    put(&bench.path().join("machine.toml"), &machine);
+    (bench, elsewhere)
+}
+
+/// A folder with the files of an example.
+fn example(name: &str) -> TempDir {
+    let bench = scratch();
+    for file in ["machine.toml", "data.csv"] {
+        let text = std::fs::read_to_string(repository().join("examples").join(name).join(file));
+        put(&bench.path().join(file), &text.expect("a file of the example"));
+    }
+    bench
+}
+
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).expect("JSON")
+}
+
+#[test]
+fn the_whole_loop_needs_the_mouse_alone_and_agrees_with_learn() {
+    let (bench, elsewhere) = challenge("6");
+    let (_, data) = word(&elsewhere, "data.csv");
+    let server = Server::over(bench.path());
+    story("learns", &server, &[&data]);
+    let (_, machine) = word(&elsewhere, "machine.toml");
+    let learned = elsewhere.path().join("learned");
+    let run = helixlock(&["learn", &machine, &data, "-o", learned.to_str().unwrap()]);
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let text = |path: PathBuf| std::fs::read_to_string(path).expect("a machine file");
+    assert_eq!(text(bench.path().join("machine.toml")), text(learned.join("machine.toml")));
+}
+
+#[test]
+fn an_effect_is_tried_taken_and_taken_back() {
+    let (bench, elsewhere) = challenge("6");
+    let data = std::fs::read_to_string(elsewhere.path().join("data.csv")).unwrap();
+    put(&bench.path().join("data.csv"), &data);
+    let answer = std::fs::read_to_string(elsewhere.path().join("answer.json")).unwrap();
+    let effect = json(&answer)["effects"][0]["effect"].as_str().expect("an effect").to_owned();
+    story("tries", &Server::over(bench.path()), &[&effect]);
+    let ledger = std::fs::read_to_string(bench.path().join("ledger.json")).unwrap();
+    let rounds = json(&ledger)["rounds"].as_array().expect("rounds").clone();
+    let machine = std::fs::read_to_string(bench.path().join("machine.toml")).unwrap();
+    assert_eq!(rounds.len(), 2);
+    assert_eq!(rounds[1]["machine"], machine.as_str());
+    let folder = bench.path().to_str().unwrap();
+    assert_eq!(helixlock(&["learn", "--undo", "-o", folder]).status, 0, "the command's own undo");
+}
+
+#[test]
+fn what_is_not_explained_changes_nothing() {
+    let bench = example("outside-the-catalogue");
+    let before = std::fs::read(bench.path().join("machine.toml")).unwrap();
+    story("leaves", &Server::over(bench.path()), &[]);
+    assert_eq!(std::fs::read(bench.path().join("machine.toml")).unwrap(), before);
+}
+
+#[test]
+fn a_screen_shows_what_the_command_prints() {
+    for name in ["hidden-gear", "recorder-and-screw", "thermal-day", "encoder-1000-1024"] {
+        let bench = example(name);
+        let shown = story("shows", &Server::over(bench.path()), &[]);
+        let words = ["machine.toml", "data.csv"].map(|file| word(&bench, file).1);
+        let printed = helixlock(&["compare", &words[0], &words[1], "--json"]).stdout;
+        assert_eq!(shown, printed, "{name}");
+    }
+}
+
+/// Data of an example, its header and the cells of one column changed.
+fn changed(name: &str, rename: &[(&str, &str)], column: &str, change: fn(f64) -> f64) -> TempDir {
+    let bench = example(name);
+    let path = bench.path().join("data.csv");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let mut lines = text.lines();
+    let header: Vec<&str> = lines.next().expect("a header").split(',').collect();
+    let at = header.iter().position(|name| *name == column);
+    let new = header
+        .iter()
+        .map(|name| rename.iter().find(|(old, _)| old == name).map_or(*name, |(_, new)| new));
+    let mut out = new.collect::<Vec<_>>().join(",")
+        + if rename.is_empty() { "" } else { ",air_temperature_c" };
+    for (row, line) in lines.enumerate() {
+        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+        if let Some(at) = at {
+            // A cell may be empty.
+            cells[at] =
+                cells[at].parse::<f64>().map_or(String::new(), |value| change(value).to_string());
+        }
+        if !rename.is_empty() {
+            // The air of a shop, slow and steady.
+            cells.push(
+                (20.0 + 0.3 * libm::sin(f64::from(u32::try_from(row).unwrap()) / 90.0)).to_string(),
+            );
+        }
+        out.extend(["\n", &cells.join(",")]);
+    }
+    put(&path, &(out + "\n"));
+    bench
+}
+
+/// Four mistakes, made in data of the examples: each is asked about before any verdict, and its
+/// one button leads to data that are not doubted.
+#[test]
+fn one_click_mends_a_mistake() {
+    let celsius = [("air_temperature_c", "workpiece_temperature_c")];
+    let benches = [
+        ("sign", changed("hidden-gear", &[], "error_um", |value| -value)),
+        ("unit", changed("hidden-gear", &[], "error_um", |value| 1000.0 * value)),
+        ("unit", changed("thermal-day", &[], "air_temperature_c", |value| 1.8 * value + 32.0)),
+        ("swap", changed("thermal-day", &celsius, "", |value| value)),
+    ];
+    for (what, bench) in benches {
+        let before = std::fs::read(bench.path().join("data.csv")).unwrap();
+        story("mends", &Server::over(bench.path()), &[what]);
+        assert_eq!(std::fs::read(bench.path().join("data.csv")).unwrap(), before, "{what}");
+        let mended = ["machine.toml", "data-2.csv"].map(|file| word(&bench, file).1);
+        let found = json(&helixlock(&["compare", &mended[0], &mended[1], "--json"]).stdout);
+        assert_eq!(found["doubts"], json("[]"), "{what}");
+    }
+}
+
+#[test]
+fn no_other_page_and_no_other_name_gets_in() {
+    let bench = example("hidden-gear");
+    let server = Server::over(bench.path());
+    let machine = std::fs::read_to_string(bench.path().join("machine.toml")).unwrap();
+    let body = serde_json::json!({ "text": machine.replace("6 rpm", "7 rpm") }).to_string();
+    let revision = server.revision();
+    let path = server.path(&format!("api/machine?machine=machine.toml&revision={revision}"));
+    let host = format!("Host: {}\r\n", server.host());
+    let status =
+        |path: &str, head: &str| server.send("POST", path, head, &body).expect("an answer").0;
+    assert_eq!(status(&path, &format!("{host}Origin: http://elsewhere.example\r\n")), 403);
+    assert_eq!(status(&path, &format!("{host}Sec-Fetch-Site: cross-site\r\n")), 403);
+    assert_eq!(status(&path, "Host: rebound.example\r\n"), 403);
+    assert_eq!(status(&path.replacen('/', "/0", 1), &host), 403);
+    for name in ["../machine.toml", "/etc/passwd", "%2e%2e/x.toml", ".hidden.toml"] {
+        let path = server.path(&format!("api/machine?machine={name}&revision="));
+        assert_eq!(status(&path, &host), 400, "{name}");
+    }
+    let now = std::fs::read_to_string(bench.path().join("machine.toml")).unwrap();
+    assert_eq!(now, machine, "nothing of that was written");
+    assert_eq!(status(&path, &format!("{host}Origin: http://{}\r\n", server.host())), 200);
+}
+
+#[test]
+fn the_second_of_two_tabs_is_told_and_loses_nothing() {
+    let bench = example("hidden-gear");
+    let server = Server::over(bench.path());
+    let machine = std::fs::read_to_string(bench.path().join("machine.toml")).unwrap();
+    let revision = server.revision();
+    let [first, second] = ["7 rpm", "8 rpm"].map(|speed| machine.replace("6 rpm", speed));
+    assert_eq!(server.save(&revision, &first), Some(200));
+    assert_eq!(server.save(&revision, &second), Some(409), "it was shown another state");
+    assert_eq!(std::fs::read_to_string(bench.path().join("machine.toml")).unwrap(), first);
+    assert_eq!(server.save(&server.revision(), &second), Some(200));
+}
+
+/// Whatever the moment, the file is whole, and not older than what was acknowledged.
+#[test]
+fn a_kill_loses_nothing_that_was_shown_as_saved() {
+    let bench = example("hidden-gear");
+    let path = bench.path().join("machine.toml");
+    let machine = std::fs::read_to_string(&path).unwrap();
+    let numbered = |number: u32| machine.replacen("title = ", &format!("# {number}\ntitle = "), 1);
+    let number_in = |text: &str| -> u32 {
+        text.strip_prefix("# ").and_then(|rest| rest.lines().next()?.parse().ok()).unwrap_or(0)
+    };
+    let mut number = 0;
+    for wait_ms in [3, 7, 12, 18, 25, 40] {
+        let mut server = Server::over(bench.path());
+        let mut child = std::mem::replace(&mut server.child, idle());
+        let killer = std::thread::spawn(move || {
+            std::thread::sleep(Duration::from_millis(10 * wait_ms));
+            child.kill().and_then(|()| child.wait())
+        });
+        let mut acknowledged = number;
+        let mut revision = server.revision();
+        while server.save(&revision, &numbered(number + 1)) == Some(200) {
+            number += 1;
+            acknowledged = number;
+            let state = server.ask("GET", "state?machine=machine.toml", "");
+            let Some((200, state)) = state else { break };
+            revision = json(&state)["revision"].as_str().expect("a revision").to_owned();
+        }
+        killer.join().expect("no panic").expect("the server is killed");
+        let text = std::fs::read_to_string(&path).unwrap();
+        let found = number_in(&text);
+        assert!(acknowledged <= found && found <= acknowledged + 1, "{found}, {acknowledged}");
+        assert!(found == 0 || text == numbered(found), "the file is whole");
+        number = found;
+    }
+}
+
+/// A process that does nothing, in the place of one that is killed elsewhere.
+fn idle() -> Child {
+    Command::new("sleep").arg("60").spawn().expect("`sleep` starts")
+}
+
+/// On a telephone, in the dark and in Chinese as on a desk in the light: sizes, widths, contrast,
+/// and what axe-core finds.
+#[test]
+fn every_screen_can_be_read() {
+    let (bench, elsewhere) = challenge("6");
+    let data = std::fs::read_to_string(elsewhere.path().join("data.csv")).unwrap();
+    put(&bench.path().join("data.csv"), &data);
+    let server = Server::over(bench.path());
+    for look in ["desk light en-US", "desk dark zh-CN", "phone light zh-CN", "phone dark en-US"] {
+        story("reads", &server, &look.split(' ').collect::<Vec<_>>());
+    }
+}
+
+/// From a challenge to a machine file without noise left, and no mouse.
+#[test]
+fn the_keyboard_is_enough() {
+    let (bench, elsewhere) = challenge("6");
+    let data = std::fs::read_to_string(elsewhere.path().join("data.csv")).unwrap();
+    put(&bench.path().join("data.csv"), &data);
+    story("types", &Server::over(bench.path()), &[]);
+    let ledger = std::fs::read_to_string(bench.path().join("ledger.json")).unwrap();
+    assert_eq!(json(&ledger)["verdict"], "explained");
+}
+
+/// Challenges 1 to 50: a name at every peak that has one, and nowhere else.
+#[test]
+fn names_in_a_spectrum_stand_at_peaks_and_apart() {
+    let bench = scratch();
+    for seed in 1..=50 {
+        let (_, elsewhere) = challenge(&seed.to_string());
+        for (from, to) in [("machine.toml", "toml"), ("data.csv", "csv")] {
+            let text = std::fs::read_to_string(elsewhere.path().join(from)).unwrap();
+            put(&bench.path().join(format!("{seed}.{to}")), &text);
+        }
+    }
+    story("labels", &Server::over(bench.path()), &[]);
+}

@@ -1,0 +1,41 @@
+// A real Chromium, driven by Playwright; told where both are by the test that runs this.
+
+import { createRequire } from "node:module";
+
+const require = createRequire(`${process.env.NODE_FOLDER}/`);
+const { chromium } = require("playwright-core");
+
+export const axeSource = () => require.resolve("axe-core/axe.min.js");
+
+// Opens the workbench; what the page itself throws, or refuses for its own policy, fails the story.
+export async function opened(url, { width = 1280, height = 900, dark = false, language = "en-US" } = {}) {
+  const browser = await chromium.launch({ executablePath: process.env.CHROMIUM, args: ["--no-sandbox", "--disable-gpu"] });
+  const context = await browser.newContext({ viewport: { width, height }, colorScheme: dark ? "dark" : "light", locale: language, acceptDownloads: true });
+  const page = await context.newPage();
+  const faults = [];
+  page.on("pageerror", (error) => faults.push(error.message));
+  page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
+  page.setDefaultTimeout(120000);
+  await page.goto(url);
+  await page.waitForSelector("html[data-ready=yes]");
+  return { browser, context, page, faults };
+}
+
+export function hold(condition, message) {
+  if (!condition) throw new Error(message);
+}
+
+// Waits until no work is under way.
+export async function idle(page) {
+  await page.waitForFunction(() => document.getElementById("work").hidden);
+}
+
+export async function screen(page, name) {
+  await page.click(`#tab-${name}`);
+  await page.waitForSelector(`#${name} h2`);
+}
+
+// A picture for the documentation, where the test that runs this asks for them.
+export async function picture(page, name) {
+  if (process.env.PICTURES) await page.screenshot({ path: `${process.env.PICTURES}/${name}.png` });
+}

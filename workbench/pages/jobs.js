@@ -1,0 +1,62 @@
+// Long work: begun, watched, stopped; its command line is shown and can be copied.
+
+import { get, post, sameKeys } from "./api.js";
+import { t } from "./words.js";
+
+const element = (id) => document.getElementById(id);
+let current = null;
+let stopped = false;
+
+export function showLine(line) {
+  element("line").textContent = line;
+  element("command").hidden = !line;
+}
+
+export function showMessage(text, bad = false) {
+  element("message").textContent = text;
+  element("message").classList.toggle("bad", bad);
+}
+
+export function wireJobs() {
+  element("stop").addEventListener("click", () => {
+    stopped = true;
+    if (current) post("stop", { job: current });
+  });
+  element("copy").addEventListener("click", async () => {
+    await navigator.clipboard.writeText(element("line").textContent);
+    showMessage(t("page.copied"));
+  });
+}
+
+const pause = (ms) => new Promise((done) => setTimeout(done, ms));
+
+// Runs a command of the workbench; gives its number and what it printed, or nothing when stopped.
+export async function run(command, words = {}) {
+  if (current) await post("stop", { job: current }).catch(() => {});
+  let job = await post("begin", { command, ...words });
+  const number = job.job;
+  current = number;
+  showLine(job.line);
+  showMessage("");
+  element("work").hidden = false;
+  try {
+    for (let wait = 60; job.running; wait = Math.min(400, wait * 1.5)) {
+      element("seconds").textContent = t("work.seconds", { n: job.seconds.toFixed(0) });
+      await pause(wait);
+      job = await get("job", { job: number });
+    }
+  } finally {
+    if (current === number) {
+      current = null;
+      element("work").hidden = true;
+    }
+  }
+  if (job.error === "stopped") {
+    // Work that gave way to other work needs no word.
+    if (stopped) showMessage(t("work.stopped"));
+    stopped = false;
+    return null;
+  }
+  if (job.error) throw new Error(job.error);
+  return { job: number, seconds: job.seconds, result: sameKeys(await get("result", { job: number })) };
+}

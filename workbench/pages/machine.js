@@ -1,0 +1,124 @@
+// Screen "Machine": a form beside the machine file, both live.
+
+import { app, post } from "./api.js";
+import { showMessage } from "./jobs.js";
+import { button, make, number, table } from "./make.js";
+import { t } from "./words.js";
+
+// Fields of the form: key of the machine file, and its text.
+const FIELDS = () => [
+  ["workpiece.lead", t("machine.lead")],
+  ["workpiece.length", t("machine.length")],
+  ["spindle.speed", t("machine.speed")],
+  ["lead_screw.lead", t("machine.screw")],
+  ["grating.lines", t("machine.lines")],
+  ["grating.diameter", t("machine.diameter")],
+  ["dividers.a", t("machine.a")],
+  ["dividers.b", t("machine.b")],
+  ["dividers.range", t("machine.range")],
+  ["drive.step", t("machine.step")],
+  ["drive.frequency", t("machine.frequency")],
+  ["filter.cutoff", t("machine.cutoff")],
+];
+
+const START = `title = "My machine"
+
+[workpiece]
+lead = "6 mm"
+length = "1000 mm"
+
+[spindle]
+speed = "6 rpm"
+
+[lead_screw]
+lead = "12 mm"
+
+[grating]
+lines = 13906
+diameter = "200 mm"
+
+[laser]
+wavelength = "0.63281983 um"
+
+[dividers]
+a = 110
+b = 150
+range = 2
+
+[drive]
+step = "0.0125 um"
+frequency = "160 Hz"
+
+[loop]
+closed = false
+`;
+
+// The value of a key as the text has it; nothing where it has none.
+export function valueOf(text, key) {
+  const [section, name] = key.split(".");
+  const body = text.split(new RegExp(`^\\[${section}\\].*$`, "m"))[1]?.split(/^\[/m)[0] ?? "";
+  const found = body.match(new RegExp(`^${name}\\s*=\\s*(.+?)\\s*(#.*)?$`, "m"));
+  return found ? found[1].replace(/^"(.*)"$/, "$1") : null;
+}
+
+export async function show(root, page) {
+  const name = app.machine || "machine.toml";
+  const text = make("textarea", { id: "toml", spellcheck: "false", "aria-label": name }, app.state.machine?.text ?? START);
+  const errors = make("div", { id: "errors", role: "alert" });
+  const facts = make("div", { id: "facts" });
+  const fields = make("div", {});
+  const save = button(t("machine.save"), () => page.attempt(async () => {
+    const state = await post("machine", { machine: name, revision: app.state.machine ? app.revision : "" }, { text: text.value });
+    await page.refresh({ machine: state.machine?.name ?? name });
+    save.disabled = true;
+    showMessage(t("page.saved"));
+  }), { class: "first", id: "save-machine" });
+  save.disabled = !!app.state.machine;
+  const check = () => page.attempt(async () => {
+    const found = await post("check", { machine: name }, { text: text.value });
+    errors.replaceChildren(...found.errors.map((error) => make("p", { class: "bad", lang: "en" }, error)));
+    facts.replaceChildren(...(found.errors.length ? [] : told(found)));
+    save.disabled = found.errors.length > 0 || text.value === app.state.machine?.text;
+    return found.errors.length === 0;
+  });
+  const changed = async () => {
+    form(fields, text, changed, page);
+    await check();
+  };
+  let later;
+  text.addEventListener("input", () => {
+    clearTimeout(later);
+    later = setTimeout(changed, 200);
+  });
+  root.append(make("h2", {}, t("machine.title", { name })), errors, make("div", { class: "row" }, save),
+    make("div", { class: "two" }, make("div", {}, fields, facts), make("div", {}, text)));
+  await changed();
+}
+
+// The form as the text has it; a change of a field is a change of the text.
+function form(root, text, changed, page) {
+  const field = ([key, label]) => {
+    const value = valueOf(text.value, key);
+    const set = (event) => page.attempt(async () => {
+      const plain = /^[0-9]+$/.test(event.target.value);
+      const value = plain ? event.target.value : JSON.stringify(event.target.value);
+      text.value = (await post("setting", { machine: app.machine || "machine.toml" }, { text: text.value, key, value })).text;
+      await changed();
+    });
+    return make("label", { class: "field" }, make("span", {}, label), make("input", { value: value ?? "", change: set, "data-key": key }));
+  };
+  if (root.contains(document.activeElement)) {
+    for (const input of root.querySelectorAll("input")) {
+      if (input !== document.activeElement) input.value = valueOf(text.value, input.dataset.key) ?? "";
+    }
+    return;
+  }
+  root.replaceChildren(make("h3", {}, t("machine.form")), ...FIELDS().map(field));
+}
+
+function told(found) {
+  const left = make("p", {}, t("machine.left", { n: number(found.left_um_per_m, 3) }));
+  if (!found.gears.length) return [left];
+  const rows = found.gears.map((gear) => [make("bdi", {}, gear.name), number(gear.order), gear.teeth ? String(gear.teeth) : null]);
+  return [left, table(t("machine.gears"), [t("machine.shaft"), t("machine.order"), t("machine.teeth")], rows, [1, 2])];
+}
