@@ -115,9 +115,15 @@ fn story(name: &str, server: &Server, words: &[&str]) -> String {
 /// A challenge: its machine file alone in a folder, and its data elsewhere.
 fn challenge(seed: &str) -> (TempDir, TempDir) {
     let (bench, elsewhere) = (scratch(), scratch());
-    let run = helixlock(&["challenge", "--seed", seed, "-o", elsewhere.path().to_str().unwrap()]);
+    let run = helixlock(&[
+        "challenge",
+        "--seed",
+        seed,
+        "-o",
+        elsewhere.path().to_str().expect("a path of text"),
+    ]);
     assert_eq!(run.status, 0, "{}", run.stderr);
-    let machine = std::fs::read_to_string(elsewhere.path().join("machine.toml")).unwrap();
+    let machine = std::fs::read_to_string(elsewhere.path().join("machine.toml")).expect("a file");
     put(&bench.path().join("machine.toml"), &machine);
     (bench, elsewhere)
 }
@@ -190,7 +196,7 @@ fn a_screen_shows_what_the_command_prints() {
 fn changed(name: &str, rename: &[(&str, &str)], column: &str, change: fn(f64) -> f64) -> TempDir {
     let bench = example(name);
     let path = bench.path().join("data.csv");
-    let text = std::fs::read_to_string(&path).unwrap();
+    let text = std::fs::read_to_string(&path).expect("a table");
     let mut lines = text.lines();
     let header: Vec<&str> = lines.next().expect("a header").split(',').collect();
     let at = header.iter().position(|name| *name == column);
@@ -209,7 +215,8 @@ fn changed(name: &str, rename: &[(&str, &str)], column: &str, change: fn(f64) ->
         if !rename.is_empty() {
             // The air of a shop, slow and steady.
             cells.push(
-                (20.0 + 0.3 * libm::sin(f64::from(u32::try_from(row).unwrap()) / 90.0)).to_string(),
+                (20.0 + 0.3 * libm::sin(f64::from(u32::try_from(row).expect("few rows")) / 90.0))
+                    .to_string(),
             );
         }
         out.extend(["\n", &cells.join(",")]);
