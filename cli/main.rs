@@ -27,6 +27,8 @@ use std::process::ExitCode;
 use clap::Parser;
 use helixlock_plant::MachineError;
 
+use crate::shared::terminal::{Terminal, shown};
+
 /// Laser correction of a lead-screw grinder: simulate it, build it, compare it with measurements
 #[derive(Debug, Parser)]
 #[command(name = "helixlock", version, arg_required_else_help = true)]
@@ -54,12 +56,21 @@ enum Command {
 
 /// Exit status: 0 done, 1 the answer is no, 2 the input or the words are wrong.
 fn main() -> ExitCode {
-    match run(Command::parse(), &mut io::stdout().lock()) {
+    let command = match Command::try_parse() {
+        Ok(command) => command,
+        Err(words) if words.use_stderr() => {
+            // Nothing is left to tell the user if this fails, here and below.
+            let _ = write!(io::stderr(), "{}", shown(&words.render().to_string()));
+            return ExitCode::from(2);
+        }
+        Err(help) => help.exit(),
+    };
+    match run(command, &mut Terminal(io::stdout().lock())) {
         Ok(code) => code,
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
-            // Nothing is left to tell the user if this fails too.
-            let _ = writeln!(io::stderr(), "helixlock: {error:#}{}", hint(&error));
+            let error = format!("{error:#}{}", hint(&error));
+            let _ = writeln!(io::stderr(), "helixlock: {}", shown(&error));
             ExitCode::from(2)
         }
     }

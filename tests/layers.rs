@@ -1,5 +1,7 @@
 //! The dependency arrows of ARCHITECTURE.md between crates.
 
+use std::path::{Path, PathBuf};
+
 /// Each crate and what it may use of ours, in the order of the levels.
 const LAYERS: &[(&str, &[&str])] = &[
     ("rtl", &[]),
@@ -60,20 +62,24 @@ fn libraries_leave_json_to_the_command() {
     }
 }
 
+fn entries(folder: &Path) -> impl Iterator<Item = PathBuf> {
+    let entries = std::fs::read_dir(folder).expect("a folder");
+    entries.map(|entry| entry.expect("an entry").path())
+}
+
 /// A command's folder uses nothing of another's, and what lies beside `mod.rs` not the command.
 #[test]
 fn commands_stand_apart() {
     let cli = concat!(env!("CARGO_MANIFEST_DIR"), "/cli");
-    let folders = |path: &str| std::fs::read_dir(path).expect("a folder").map(Result::unwrap);
-    for folder in folders(cli).filter(|entry| entry.path().is_dir()) {
-        for file in folders(folder.path().to_str().expect("a plain name")) {
-            let path = file.path();
+    for folder in entries(Path::new(cli)).filter(|path| path.is_dir()) {
+        let (folders, files): (Vec<_>, Vec<_>) = entries(&folder).partition(|path| path.is_dir());
+        for path in files.into_iter().chain(folders.iter().flat_map(|below| entries(below))) {
             let text = std::fs::read_to_string(&path).expect("a source file");
             let mut used = text.split("crate::").skip(1);
             assert!(used.all(|rest| rest.starts_with("shared")), "{}", path.display());
             let mut above = text.split("super::").skip(1);
             let beside = above.all(|rest| !rest.starts_with(|first: char| first.is_uppercase()));
-            assert!(file.file_name() == "mod.rs" || beside, "{}", path.display());
+            assert!(path.ends_with("mod.rs") || beside, "{}", path.display());
         }
     }
 }

@@ -26,6 +26,8 @@ mod formal;
 mod fuzz_corpus;
 mod golden_verilog;
 mod hidden_effects;
+#[cfg(unix)]
+mod hostile;
 mod initial_phase_selector;
 mod interruption;
 mod layers;
@@ -34,7 +36,9 @@ mod licences;
 mod linuxcnc;
 mod lockstep;
 mod metrology;
+mod not_finite;
 mod odd_machines;
+mod outputs;
 mod parquet_readers;
 mod phase_meter;
 mod programmable_divider;

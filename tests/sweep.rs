@@ -23,7 +23,7 @@ fn an_interrupted_sweep_repeats_and_loses_nothing() {
     let [whole, resumed] = ["whole.csv", "resumed.csv"].map(|name| folder.path().join(name));
     assert!(sweep(&whole).status().unwrap().success());
     let mut running = sweep(&resumed).spawn().unwrap();
-    let journal = folder.path().join("resumed.csv.part");
+    let journal = folder.path().join("resumed.csv.journal");
     while running.try_wait().unwrap().is_none() {
         if fs::read_to_string(&journal).is_ok_and(|text| 4 < text.lines().count()) {
             running.kill().unwrap();
@@ -35,7 +35,30 @@ fn an_interrupted_sweep_repeats_and_loses_nothing() {
     assert_eq!(fs::read_to_string(&resumed).unwrap(), text);
     assert_eq!(text.lines().count(), 25, "a header and 24 cases");
     assert!(text.starts_with("case,drive.frequency_hz,effect.0.amplitude_um,open_periodic_um"));
-    assert!(!journal.exists());
+    // A finished sweep is not run again, and the same command writes the same file.
+    let again = sweep(&resumed).output().unwrap();
+    let said = String::from_utf8(again.stdout).unwrap();
+    assert!(said.contains("24 cases, 0 of them run now"), "{said}");
+    assert_eq!(fs::read_to_string(&resumed).unwrap(), text);
+}
+
+/// Two sweeps of one output do not do the work twice.
+#[test]
+fn another_sweep_of_the_same_output_waits_for_nobody() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("out.csv");
+    let mut first = sweep(&output).spawn().unwrap();
+    let journal = folder.path().join("out.csv.journal");
+    while !fs::read_to_string(&journal).is_ok_and(|text| !text.is_empty()) {
+        assert!(first.try_wait().unwrap().is_none(), "it ended without a journal");
+    }
+    let second = sweep(&output).output().unwrap();
+    let said = String::from_utf8(second.stderr).unwrap();
+    assert!(first.wait().unwrap().success());
+    assert!(
+        second.status.code() == Some(2) && said.contains("another sweep is writing it"),
+        "{said}"
+    );
 }
 
 /// A value that makes no machine is told with its case; the others are there.
@@ -43,13 +66,22 @@ fn an_interrupted_sweep_repeats_and_loses_nothing() {
 fn a_case_that_cannot_be_run_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out.parquet");
-    let run = Command::new(env!("CARGO_BIN_EXE_helixlock"))
-        .args(["sweep", "examples/sg7430-6mm/machine.toml", "--length", "0.5"])
-        .args(["--set", "dividers.b=150,1000", "--output"])
-        .arg(&output)
-        .output()
-        .unwrap();
+    let failing = || {
+        Command::new(env!("CARGO_BIN_EXE_helixlock"))
+            .args(["sweep", "examples/sg7430-6mm/machine.toml", "--length", "0.5"])
+            .args(["--set", "dividers.b=150,1000", "--output"])
+            .arg(&output)
+            .output()
+            .unwrap()
+    };
+    let run = failing();
     assert_eq!(run.status.code(), Some(1));
+    let again = failing();
+    assert_eq!((again.status.code(), again.stderr), (Some(1), run.stderr));
+    assert!(
+        String::from_utf8(again.stdout).unwrap().contains("case 1:"),
+        "told again, not run again"
+    );
     let text = String::from_utf8(run.stdout).unwrap();
     assert!(text.contains("case 1:") && text.contains("999"), "{text}");
     let table = helixlock_traces::read_table(&output).unwrap();

@@ -4,13 +4,13 @@ use std::path::Path;
 
 use helixlock_traces::csv::{read_csv, write_csv};
 use helixlock_traces::parquet::{read_parquet, write_parquet};
-use helixlock_traces::{Column, Table};
+use helixlock_traces::{Column, Table, in_range};
 use proptest::collection::{btree_set, vec};
 use proptest::prelude::*;
 
-/// A finite number, often a small one, or a gap.
+/// A number of the range that is read, often a small one, or a gap.
 fn value() -> impl Strategy<Value = f64> {
-    let finite = any::<f64>().prop_filter("finite", |value| value.is_finite());
+    let finite = any::<f64>().prop_filter("in range", |value| in_range(*value));
     prop_oneof![4 => -1e3..1e3_f64, 2 => finite, 1 => Just(f64::NAN)]
 }
 

@@ -13,6 +13,7 @@ use crate::shared::angular::in_unit;
 use crate::shared::captured::Signals;
 use crate::shared::diagnosis_json::{EffectJson, effects};
 use crate::shared::effect_file::{effect_text, own_effects};
+use crate::shared::input::{Input, machine_files};
 use crate::shared::keys::keys;
 use crate::shared::{diagnosis_text, measured, output};
 
@@ -40,6 +41,9 @@ pub(crate) struct Add {
     /// New machine file
     #[arg(short, long)]
     output: PathBuf,
+    /// Let the new machine file replace the old one
+    #[arg(long)]
+    force: bool,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -51,21 +55,21 @@ impl Add {
         let file = MachineFile::read(&self.machine)?;
         let Some(data) = &self.fit else {
             let new = self.with_given_values(&file)?;
-            self.write(&new)?;
+            self.write(&new, &file)?;
             writeln!(out, "{}: {} added", self.output.display(), self.effect)?;
             return Ok(ExitCode::SUCCESS);
         };
         let term = self.term(&file)?;
         let (base, beside) =
             if self.refit { stripped(&file, self.keep)? } else { (file, Vec::new()) };
-        let problem = measured::problem(&base.model, data, &self.signals)?;
+        let problem = measured::problem(&base.model, data, Input::read(data)?, &self.signals)?;
         let added = add(&problem, &beside, &term)
             .with_context(|| format!("{}: {} cannot be fitted", data.display(), term.name))?;
         let Some(added) = added else {
             writeln!(out, "{} has no influence on these data", term.name)?;
             return Ok(ExitCode::from(1));
         };
-        self.write(&written(&base, &added.effects)?)?;
+        self.write(&written(&base, &added.effects)?, &base)?;
         let unit = problem.measurement.unit_word();
         if self.json {
             output::print_json(out, &in_unit(&AddedJson::new(&added, unit), unit)?)?;
@@ -105,8 +109,15 @@ impl Add {
         Ok(file.with_text(&text, path)?)
     }
 
-    fn write(&self, file: &MachineFile) -> anyhow::Result<()> {
-        output::write_content(&self.output, file.text())
+    /// Writes the new file; what was read is spared unless the user says otherwise of the machine.
+    fn write(&self, new: &MachineFile, old: &MachineFile) -> anyhow::Result<()> {
+        let mut inputs = machine_files(&self.machine, &old.model);
+        if self.force {
+            inputs.remove(0);
+        }
+        inputs.extend(self.fit.clone());
+        inputs.push(PathBuf::from(&self.effect));
+        output::write_content(&self.output, inputs, new.text())
     }
 }
 

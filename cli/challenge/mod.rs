@@ -52,7 +52,7 @@ impl Challenge {
 }
 
 fn write(task: &Task, seed: u64, folder: &Path) -> anyhow::Result<()> {
-    let mut files = Batch::new(folder)?;
+    let mut files = Batch::new(folder, [])?;
     files.write_content("machine.toml", task.machine.text())?;
     files.write("data.csv", |mut file| Ok(write_csv(&task.table, &mut file)?))?;
     files.write_json("answer.json", &AnswerJson::new(task, seed))?;

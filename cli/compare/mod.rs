@@ -32,11 +32,11 @@ pub(crate) struct Compare {
 impl Compare {
     /// Prints the comparison; exit status 0 whatever it says.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
-        let (_, problem) = self.files.read()?;
+        let (file, problem) = self.files.read()?;
         let comparison = compare(&problem);
         if let Some(folder) = &self.output {
             let page = page::page(&problem, &comparison).html();
-            let mut files = Batch::new(folder)?;
+            let mut files = Batch::new(folder, self.files.inputs(&file.model))?;
             files.write_content("report.html", page)?;
             files.keep()?;
         }

@@ -10,6 +10,7 @@ use comfy_table::{Cell, CellAlignment, Table};
 use helixlock_plant::Model;
 use helixlock_sim::faults::{Faults, Outcome, Verdict, flip_everything, flip_flops};
 
+use crate::shared::input::machine_files;
 use crate::shared::keys::keys;
 use crate::shared::output::{print_json, write_whole};
 use crate::shared::progress;
@@ -42,7 +43,8 @@ impl FaultsCommand {
         let faults = flip_everything(&machine, self.instants, &|| bar.inc(1))?;
         bar.finish_and_clear();
         if let Some(output) = &self.output {
-            write_whole(output, |file| write_rows(file, &faults))?;
+            let inputs = machine_files(&self.machine, &machine);
+            write_whole(output, inputs, |file| write_rows(file, &faults))?;
         }
         if self.json {
             print_json(out, &FaultsJson::new(&faults))?;

@@ -2,9 +2,10 @@
 
 mod summary;
 mod vectors;
+mod written;
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::bail;
@@ -18,6 +19,7 @@ use helixlock_sim::settings_for;
 
 use self::summary::Summary;
 use self::vectors::vectors;
+use self::written::Written;
 use crate::shared::output::{Batch, print_json};
 
 /// Name of the top module.
@@ -37,6 +39,9 @@ pub(crate) struct Gen {
     /// Folder for the files
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
+    /// Replace files that `gen` has not written, or that were changed since
+    #[arg(long)]
+    force: bool,
     /// Run yosys, nextpnr-ice40, icetime and icepack; exit 1 if the clock is too fast for it
     #[arg(long)]
     synth: bool,
@@ -113,12 +118,19 @@ impl Gen {
     fn build(&self, project: &Project, board: &Board) -> anyhow::Result<Option<Synthesis>> {
         let products = tempfile::tempdir()?;
         let synthesis = if self.synth {
-            project_files(products.path(), project)?.keep()?;
+            let mut files = Batch::new(products.path(), [])?;
+            add_project(&mut files, project)?;
+            files.keep()?;
             Some(synthesise(products.path(), project, board)?)
         } else {
             None
         };
-        let mut files = project_files(&self.output, project)?;
+        let mut files = Batch::new(&self.output, [self.machine.clone()])?;
+        if !self.force {
+            Written::read(&self.output).spare_others(&self.output, project)?;
+        }
+        add_project(&mut files, project)?;
+        Written::of(project).write(&mut files)?;
         for name in synthesis.iter().flat_map(|synthesis| &synthesis.products) {
             files.write_content(name, std::fs::read(products.path().join(name))?)?;
         }
@@ -140,8 +152,6 @@ fn describe(design: &mut helixlock_netlist::Design, machine: &Machine, board: &B
     }
 }
 
-fn project_files(root: &Path, project: &Project) -> anyhow::Result<Batch> {
-    let mut files = Batch::new(root)?;
-    project.files.iter().try_for_each(|(name, text)| files.write_content(name, text))?;
-    Ok(files)
+fn add_project(files: &mut Batch, project: &Project) -> anyhow::Result<()> {
+    project.files.iter().try_for_each(|(name, text)| files.write_content(name, text))
 }

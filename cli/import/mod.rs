@@ -11,6 +11,7 @@ use anyhow::{Context, anyhow, bail};
 use clap::Args;
 use helixlock_import::{Proposal, Recipe, Source, propose};
 use helixlock_traces::csv::write_csv;
+use helixlock_traces::{LONGEST_BYTES, read_bytes};
 
 use crate::shared::output::{Batch, print_json};
 
@@ -68,7 +69,7 @@ impl Import {
             );
         }
         let folder = output.parent().filter(|folder| !folder.as_os_str().is_empty());
-        let mut batch = Batch::new(folder.unwrap_or(Path::new(".")))?;
+        let mut batch = Batch::new(folder.unwrap_or(Path::new(".")), self.files.clone())?;
         batch.write(name_of(output)?, |file| {
             let mut buffer = Vec::new();
             write_csv(&proposal.table, &mut buffer)?;
@@ -101,9 +102,7 @@ fn answered(
 }
 
 fn read(path: &Path) -> anyhow::Result<(String, Vec<u8>)> {
-    let bytes =
-        std::fs::read(path).with_context(|| format!("{}: cannot be read", path.display()))?;
-    Ok((path.display().to_string(), bytes))
+    Ok((path.display().to_string(), read_bytes(path, LONGEST_BYTES)?))
 }
 
 fn read_recipe(path: &Path) -> anyhow::Result<Recipe> {

@@ -69,7 +69,7 @@ fn write_folder(template: &Template, folder: &Path) -> anyhow::Result<()> {
             bail!("{}: is there already, expected a folder without it", path.display());
         }
     }
-    let mut batch = Batch::new(folder)?;
+    let mut batch = Batch::new(folder, [])?;
     for (name, content) in files {
         batch.write_content(name, content)?;
     }

@@ -13,10 +13,12 @@ use std::process::ExitCode;
 use anyhow::{Context, bail};
 use clap::Args;
 use helixlock_lab::{
-    Diagnosis, Ledger, Problem, Verdict, diagnose, ledger, lines_left, spectra, written,
+    Diagnosis, Ledger, Problem, Verdict, diagnose, fingerprint, ledger, lines_left, spectra,
+    written,
 };
 use helixlock_plant::MachineFile;
 use helixlock_report::Page;
+use helixlock_traces::{LONGEST_BYTES, read_bytes};
 use serde_json::Value;
 
 use self::closed_loop_check::Checked;
@@ -24,9 +26,13 @@ use self::json::{LearnJson, LedgerJson};
 use crate::shared::angular::in_unit;
 use crate::shared::captured::Signals;
 use crate::shared::effect_file::own_effects;
-use crate::shared::output::{Batch, print_json};
+use crate::shared::input::{Input, machine_files};
+use crate::shared::output::{self, Batch, print_json};
 use crate::shared::words::status;
 use crate::shared::{diagnosis_text, measured};
+
+/// Name of the ledger in its folder.
+const LEDGER: &str = "ledger.json";
 
 /// Find what a machine file lacks and write the better file, its ledger and a report
 #[derive(Debug, Args)]
@@ -75,28 +81,27 @@ impl Learn {
         folder: Option<&Path>,
         out: &mut impl Write,
     ) -> anyhow::Result<ExitCode> {
-        let file = MachineFile::read(machine)?;
-        let mut problem = measured::problem(&file.model, data, &self.signals)?;
+        let (file, text) = MachineFile::read_with_text(machine)?;
+        let input = Input::read(data)?;
+        let data_hash = fingerprint(input.bytes());
+        let mut problem = measured::problem(&file.model, data, input, &self.signals)?;
         if let Some(custom) = &self.custom {
             problem.extra = own_effects(&file, custom)?;
         }
         let diagnosis = diagnose(&problem);
         let check = checked(&file, &problem, &diagnosis)?;
-        let bytes = std::fs::read(data).with_context(|| format!("{}", data.display()))?;
         let book =
-            Ledger { accepted: self.accepts(&diagnosis), ..ledger(&file, &diagnosis, &bytes)? };
+            Ledger { accepted: self.accepts(&diagnosis), ..ledger(&file, &diagnosis, data_hash)? };
         if let Some(folder) = folder {
             let spectra = (spectra(&problem, &diagnosis), lines_left(&problem));
             let page = page::page(&problem, &diagnosis, &spectra, &check);
             let json = LedgerJson::new(data, &diagnosis, &book, &check, &problem);
             let json = in_unit(&json, problem.measurement.unit_word())?;
             let last = book.entries.last().filter(|_| book.accepted);
-            let learned = match last {
-                Some(last) => last.machine.clone(),
-                None => std::fs::read_to_string(machine)
-                    .with_context(|| format!("{}", machine.display()))?,
-            };
-            write_folder(folder, &learned, &json, &page)?;
+            let learned = last.map_or(text, |last| last.machine.clone());
+            let mut inputs = machine_files(machine, &file.model);
+            inputs.extend(self.custom.iter().cloned().chain([data.to_owned()]));
+            write_folder(Batch::new(folder, inputs)?, &learned, &json, &page)?;
         }
         if self.json {
             let json = LearnJson::new(&diagnosis, &book, &check, &problem);
@@ -131,10 +136,10 @@ fn print_offer(out: &mut impl Write, book: &Ledger) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn write_folder(folder: &Path, learned: &str, json: &Value, page: &Page) -> anyhow::Result<()> {
-    let mut files = Batch::new(folder)?;
+fn write_folder(mut files: Batch, learned: &str, json: &Value, page: &Page) -> anyhow::Result<()> {
+    keep_taken_back(&mut files)?;
+    files.write_json(LEDGER, json)?;
     files.write_content("machine.toml", learned)?;
-    files.write_json("ledger.json", json)?;
     files.write_content("report.html", page.html())?;
     files.keep()
 }
@@ -152,19 +157,43 @@ fn checked(
     Ok(Checked::run(problem, &file.model, &learned.model))
 }
 
+/// A ledger with rounds that were taken back gets another name: a new run does not know them.
+fn keep_taken_back(files: &mut Batch) -> anyhow::Result<()> {
+    let folder = files.folder().to_owned();
+    let Ok(bytes) = std::fs::read(folder.join(LEDGER)) else { return Ok(()) };
+    let rounds = serde_json::from_slice::<Value>(&bytes)
+        .ok()
+        .and_then(|mut book| book.get_mut("rounds").map(Value::take));
+    let taken_back =
+        |rounds: Value| rounds.as_array().is_some_and(|all| all.iter().any(is_taken_back));
+    if !rounds.is_some_and(taken_back) {
+        return Ok(());
+    }
+    let names = (1_u32..).map(|number| format!("ledger-{number}.json"));
+    let mut free = names.filter(|name| !folder.join(name).exists());
+    free.next().map_or(Ok(()), |name| files.write_content(&name, bytes))
+}
+
+fn is_taken_back(round: &Value) -> bool {
+    round.get("taken_back").and_then(Value::as_bool) == Some(true)
+}
+
+fn read_ledger(path: &Path) -> anyhow::Result<Value> {
+    let bytes = read_bytes(path, LONGEST_BYTES)?;
+    serde_json::from_slice(&bytes)
+        .with_context(|| format!("{}: found no ledger, expected one of `learn`", path.display()))
+}
+
 /// Goes back to the machine file before the last round that still stands.
 fn undo(folder: &Path, out: &mut impl Write) -> anyhow::Result<ExitCode> {
-    let path = folder.join("ledger.json");
-    let text = std::fs::read_to_string(&path)
-        .with_context(|| format!("{}: cannot be read", path.display()))?;
-    let mut book: Value = serde_json::from_str(&text)
-        .with_context(|| format!("{}: found no ledger, expected one of `learn`", path.display()))?;
+    output::recover(folder)?;
+    let path = folder.join(LEDGER);
+    let mut book = read_ledger(&path)?;
     let Some(rounds) = book.get_mut("rounds").and_then(Value::as_array_mut) else {
         bail!("{}: found no `rounds`, expected a ledger of `learn`", path.display());
     };
-    let standing =
-        |round: &&mut Value| round.get("taken_back").and_then(Value::as_bool) != Some(true);
-    let mut left: Vec<&mut Value> = rounds.iter_mut().filter(standing).collect();
+    let mut left: Vec<&mut Value> =
+        rounds.iter_mut().filter(|round| !is_taken_back(round)).collect();
     let (Some(last), Some(before)) = (left.pop(), left.pop()) else {
         writeln!(out, "no round is left to take back")?;
         return Ok(ExitCode::from(1));
@@ -174,9 +203,9 @@ fn undo(folder: &Path, out: &mut impl Write) -> anyhow::Result<ExitCode> {
     };
     last["taken_back"] = Value::from(true);
     let added = last["added"].as_str().unwrap_or("nothing").to_owned();
-    let mut files = Batch::new(folder)?;
+    let mut files = Batch::new(folder, [])?;
+    files.write_json(LEDGER, &book)?;
     files.write_content("machine.toml", machine)?;
-    files.write_json("ledger.json", &book)?;
     files.write_content("report.html", undone_page::page(&book).html())?;
     files.keep()?;
     writeln!(out, "{added} taken back")?;

@@ -75,7 +75,7 @@ impl Apply {
         let comparison = Comparison::new(&self.data, corrected);
         let result = AppliedJson::new(&comparison, self.limit);
         if let Some(output) = &self.output {
-            write_applied(output, &comparison, &result)?;
+            write_applied(output, [self.image, self.data], &comparison, &result)?;
         }
         if self.json {
             print_json(out, &result)?;
@@ -89,11 +89,12 @@ impl Apply {
 
 fn write_applied(
     output: &Path,
+    inputs: [PathBuf; 2],
     comparison: &Comparison,
     result: &AppliedJson<'_>,
 ) -> anyhow::Result<()> {
     let page = page::page(comparison);
-    let mut files = Batch::new(output)?;
+    let mut files = Batch::new(output, inputs)?;
     files.write_report(&page::figure(comparison), result, &page)?;
     files.write("corrected.csv", |file| write_corrected(file, comparison))?;
     files.keep()

@@ -54,7 +54,7 @@ impl Build {
         let rule = TableRule { step_mm: self.step, lsb_um: self.lsb, joints: Some(joints) };
         let refused = |error| anyhow!("{}: {error}", self.data.display());
         let table = build_table(&samples, &rule).map_err(refused)?;
-        write_image(&self.output, &table)
+        write_image(&self.output, [self.data.clone()], &table)
             .map_err(|error| error.context(self.data.display().to_string()))?;
         let mut forward: Vec<(f64, f64)> = samples
             .iter()

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
-use helixlock_metrology::scale::{linuxcnc_file, nominal_actual_csv, siemens_file};
+use helixlock_metrology::scale::{LinuxCnc, linuxcnc_file, nominal_actual_csv, siemens_file};
 
 use super::image::read_image;
 use crate::shared::output::write_content;
@@ -42,14 +42,23 @@ impl Export {
     /// Does it.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         let table = read_image(&self.image)?;
-        let (text, every) = match self.format {
-            Format::Linuxcnc => linuxcnc_file(&table),
-            Format::Csv => (nominal_actual_csv(&table), 1),
-            Format::Siemens => (siemens_file(&table, &self.axis), 1),
-        };
-        write_content(&self.output, text)?;
-        if 1 < every {
-            writeln!(out, "note: every {every}th place, as this control takes no more rows")?;
+        let inputs = [self.image.clone()];
+        match self.format {
+            Format::Linuxcnc => {
+                let LinuxCnc { text, every, lost_um } = linuxcnc_file(&table);
+                write_content(&self.output, inputs, text)?;
+                if 1 < every {
+                    writeln!(
+                        out,
+                        "note: every {every}th place, as this control takes no more rows; at those \
+                         between them the correction is up to {lost_um:.3} um off"
+                    )?;
+                }
+            }
+            Format::Csv => write_content(&self.output, inputs, nominal_actual_csv(&table))?,
+            Format::Siemens => {
+                write_content(&self.output, inputs, siemens_file(&table, &self.axis))?;
+            }
         }
         Ok(ExitCode::SUCCESS)
     }

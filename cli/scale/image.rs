@@ -1,25 +1,35 @@
 //! EEPROM images as files.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use anyhow::{Context, anyhow, bail};
+use anyhow::{anyhow, bail};
 use helixlock_metrology::scale::{CorrectionTable, from_hex, from_image, to_hex, to_image};
+use helixlock_traces::read_bytes;
 
 use crate::shared::output::write_content;
 
+/// Longest file that may be an image, bytes; as Intel HEX one has some three times its size.
+const LONGEST_BYTES: u64 = 1 << 20;
+
 /// Writes an image: Intel HEX by the name, binary otherwise.
-pub(crate) fn write_image(path: &Path, table: &CorrectionTable) -> anyhow::Result<()> {
+///
+/// `inputs` is what the table was made of.
+pub(crate) fn write_image(
+    path: &Path,
+    inputs: [PathBuf; 1],
+    table: &CorrectionTable,
+) -> anyhow::Result<()> {
     let image = to_image(table)?;
     if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("hex")) {
-        return write_content(path, to_hex(&image)?);
+        return write_content(path, inputs, to_hex(&image)?);
     }
-    write_content(path, image)
+    write_content(path, inputs, image)
 }
 
 /// Reads an image, Intel HEX or binary by its first byte.
 pub(crate) fn read_image(path: &Path) -> anyhow::Result<CorrectionTable> {
     let place = path.display();
-    let bytes = std::fs::read(path).with_context(|| format!("{place}: cannot be read"))?;
+    let bytes = read_bytes(path, LONGEST_BYTES)?;
     let refused = |error| anyhow!("{place}: {error}");
     if bytes.first() != Some(&b':') {
         return from_image(&bytes).map_err(refused);

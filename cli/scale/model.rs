@@ -113,7 +113,7 @@ impl Model {
         budget: &[Residual],
     ) -> anyhow::Result<()> {
         let page = self.page(scale, budget);
-        let mut files = Batch::new(output)?;
+        let mut files = Batch::new(output, [])?;
         for (name, step_mm, run) in
             [("table-run.csv", self.step, 1), ("check-run.csv", self.step / 10.0, 2)]
         {

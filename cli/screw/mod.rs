@@ -111,7 +111,8 @@ impl Screw {
         let asked = self.grade.as_ref().map(|grade| (grade.as_str(), evaluation.meets(grade)));
         let result = ScrewJson::new(&evaluation, asked);
         if let Some(output) = &self.output {
-            write_files(output, &evaluation, &result)?;
+            let inputs = self.table.iter().chain([&self.data]).cloned();
+            write_files(output, inputs.collect(), &evaluation, &result)?;
         }
         if self.json {
             print_json(out, &result)?;
@@ -179,11 +180,12 @@ impl Screw {
 
 fn write_files(
     output: &Path,
+    inputs: Vec<PathBuf>,
     evaluation: &Evaluation,
     result: &ScrewJson<'_>,
 ) -> anyhow::Result<()> {
     let page = page::page(evaluation);
-    let mut files = Batch::new(output)?;
+    let mut files = Batch::new(output, inputs)?;
     files.write_report(&page::figure(evaluation), result, &page)?;
     files.keep()
 }

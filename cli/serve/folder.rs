@@ -64,7 +64,7 @@ impl Folder {
 
     /// Writes files that belong together, each whole, in this order.
     pub(crate) fn write(&self, files: &[(&str, &[u8])]) -> anyhow::Result<()> {
-        let mut batch = Batch::new(&self.root)?;
+        let mut batch = Batch::new(&self.root, [])?;
         for (name, content) in files {
             self.path(name)?;
             batch.write_content(name, content)?;
@@ -102,8 +102,8 @@ mod tests {
     fn nothing_outside_the_folder_is_reached() {
         let outer = tempfile::tempdir().unwrap();
         let inner = outer.path().join("inner");
-        Batch::new(&inner.join("below")).unwrap().keep().unwrap();
-        crate::shared::output::write_content(&outer.path().join("secret"), "x").unwrap();
+        Batch::new(&inner.join("below"), []).unwrap().keep().unwrap();
+        crate::shared::output::write_content(&outer.path().join("secret"), [], "x").unwrap();
         let folder = Folder::new(&inner).unwrap();
         #[cfg(unix)]
         std::os::unix::fs::symlink(outer.path(), inner.join("link")).unwrap();

@@ -11,6 +11,7 @@ use super::frame::Frame;
 use super::jobs::held;
 use super::refusal::{Answered, Refusal};
 use crate::shared::captured::Signals;
+use crate::shared::input::Input;
 use crate::shared::measured;
 
 /// A problem, and the bytes it was made of.
@@ -40,14 +41,15 @@ impl Cache {
         let text = folder.text(machine)?;
         let bytes = folder.read(data)?;
         let key = (fingerprint(text.as_bytes()), fingerprint(&bytes));
-        drop(bytes);
         let mut last = held(&self.last);
         if let Some(known) = last.as_ref().filter(|known| known.key == key) {
             return Ok(Arc::clone(known));
         }
         *last = None;
         let file = MachineFile::parse(&text, &folder.path(machine)?)?;
-        let problem = measured::problem(&file.model, &folder.path(data)?, &Signals::default())?;
+        let path = folder.path(data)?;
+        let input = Input::of(path.clone(), bytes);
+        let problem = measured::problem(&file.model, &path, input, &Signals::default())?;
         let residual = problem.residual();
         let opened = Arc::new(Opened { key, problem, residual });
         *last = Some(Arc::clone(&opened));

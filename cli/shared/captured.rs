@@ -6,7 +6,9 @@ use anyhow::{anyhow, bail};
 use clap::Args;
 use helixlock_lab::{PulseTrains, Steps};
 use helixlock_plant::{Model, Part};
-use helixlock_traces::{Capture, CapturedSignal, read_capture};
+use helixlock_traces::{Capture, CapturedSignal};
+
+use super::input::Input;
 
 /// Signals of a captured value change dump; without them they are found by their names.
 #[derive(Debug, Clone, Default, Args)]
@@ -43,7 +45,12 @@ impl Signals {
     }
 
     /// Reads the trains of a dump.
-    pub(crate) fn read(&self, machine: &Model, path: &Path) -> anyhow::Result<PulseTrains> {
+    pub(crate) fn read(
+        &self,
+        machine: &Model,
+        path: &Path,
+        input: Input,
+    ) -> anyhow::Result<PulseTrains> {
         if machine.rotary {
             bail!(
                 "{}: found a value change dump, expected a table for a rotary chain\nhint: `helixlock transmission` makes one of two captured encoders",
@@ -53,7 +60,7 @@ impl Signals {
         if let Some(part) = machine.lacks(&[Part::Grating, Part::Laser, Part::Dividers]) {
             bail!("{}: found a value change dump, whose pulses need {part}", path.display());
         }
-        let capture = read_capture(path)?;
+        let capture = input.capture()?;
         let (grating, laser) = self.references(&capture, machine)?;
         let seconds = |signal: &CapturedSignal| -> Vec<f64> {
             signal.rising_ticks.iter().map(|ticks| capture.tick.seconds(*ticks)).collect()
@@ -168,14 +175,4 @@ fn by_rate<'a>(
         (false, true) => Some((two, one)),
         _ => None,
     }
-}
-
-/// True for a value change dump, by its beginning.
-pub(crate) fn is_dump(path: &Path) -> anyhow::Result<bool> {
-    use std::io::Read;
-    let unreadable = |error| anyhow!("{}: cannot be read: {error}", path.display());
-    let mut start = [0; 256];
-    let mut file = std::fs::File::open(path).map_err(unreadable)?;
-    let count = file.read(&mut start).map_err(unreadable)?;
-    Ok(start[..count].trim_ascii_start().starts_with(b"$"))
 }

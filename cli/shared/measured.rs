@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
 use clap::Args;
-use helixlock_lab::{Measurement, Nominal, Problem};
+use helixlock_lab::{Measurement, Nominal, Problem, PulseTrains};
 use helixlock_plant::{MachineFile, Model};
-use helixlock_traces::read_table;
 
-use super::captured::{Signals, is_dump};
+use super::captured::Signals;
+use super::input::{Input, machine_files};
 
 /// The two files every comparison begins with.
 #[derive(Debug, Args)]
@@ -26,19 +26,32 @@ impl Files {
     /// Reads both and lays the data out against the machine.
     pub(crate) fn read(&self) -> anyhow::Result<(MachineFile, Problem)> {
         let file = MachineFile::read(&self.machine)?;
-        let problem = problem(&file.model, &self.data, &self.signals)?;
+        let data = Input::read(&self.data)?;
+        let problem = problem(&file.model, &self.data, data, &self.signals)?;
         Ok((file, problem))
+    }
+
+    /// What was read, for outputs to spare.
+    pub(crate) fn inputs(&self, model: &Model) -> Vec<PathBuf> {
+        let mut files = machine_files(&self.machine, model);
+        files.push(self.data.clone());
+        files
     }
 }
 
 /// Reads measured data and lays them out against a machine.
-pub(crate) fn problem(machine: &Model, data: &Path, signals: &Signals) -> anyhow::Result<Problem> {
-    let measurement = if is_dump(data)? {
-        captured(machine, data, signals)?
+pub(crate) fn problem(
+    machine: &Model,
+    data: &Path,
+    input: Input,
+    signals: &Signals,
+) -> anyhow::Result<Problem> {
+    let measurement = if input.is_dump() {
+        captured(machine, signals.read(machine, data, input)?)?
     } else if signals.named() {
         bail!("{}: found a table, expected a VCD capture with the named signals", data.display());
     } else {
-        let table = read_table(data)?;
+        let table = input.table()?;
         Measurement::from_table(&table, &Nominal::of(machine))?
     };
     Problem::new(machine, &measurement)
@@ -46,8 +59,8 @@ pub(crate) fn problem(machine: &Model, data: &Path, signals: &Signals) -> anyhow
 }
 
 /// The samples of a capture.
-fn captured(machine: &Model, data: &Path, signals: &Signals) -> anyhow::Result<Measurement> {
-    let (table, notes) = signals.read(machine, data)?.table(machine)?;
+fn captured(machine: &Model, trains: PulseTrains) -> anyhow::Result<Measurement> {
+    let (table, notes) = trains.table(machine)?;
     let mut measurement = Measurement::from_table(&table, &Nominal::of(machine))?;
     measurement.notes.splice(0..0, notes);
     Ok(measurement)

@@ -1,35 +1,68 @@
-//! Files a command leaves behind: each whole or not at all.
+//! Files a command leaves behind: each whole or not at all, and those that belong together all or
+//! none.
+//!
+//! What a command has read it does not replace. A link stays one, and so do a device and a pipe; a
+//! file keeps its mode.
 
+use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use anyhow::Context;
+use anyhow::{Context, bail};
 use helixlock_report::{Figure, Page};
 use serde::Serialize;
-use tempfile::NamedTempFile;
+
+use self::target::Target;
+use self::unfinished::Unfinished;
+
+mod commit;
+mod target;
+mod unfinished;
+
+pub(crate) use commit::recover;
 
 /// Files of one folder that belong together: all of them appear, or none.
 #[derive(Debug)]
 pub(crate) struct Batch {
     folder: PathBuf,
-    written: Vec<Written>,
+    /// What the command has read.
+    inputs: Vec<PathBuf>,
+    /// Files of the folder, with their names there.
+    inside: Vec<(Unfinished, PathBuf)>,
+    /// What a name of the folder leads to, elsewhere or not a file.
+    outside: Vec<Outside>,
 }
 
-/// A file that is whole, still under its temporary name.
+/// An output that is no file of its folder.
 #[derive(Debug)]
-struct Written {
-    file: NamedTempFile,
-    path: PathBuf,
+enum Outside {
+    File(Unfinished, PathBuf),
+    Stream(Vec<u8>, PathBuf),
 }
 
 impl Batch {
-    /// Starts with nothing; makes the folder, with its parents.
-    pub(crate) fn new(folder: &Path) -> anyhow::Result<Self> {
+    /// Starts with nothing; makes the folder, with its parents, and finishes what another command
+    /// had to leave there.
+    pub(crate) fn new(
+        folder: &Path,
+        inputs: impl IntoIterator<Item = PathBuf>,
+    ) -> anyhow::Result<Self> {
         make_folder(folder)?;
-        Ok(Self { folder: folder.to_owned(), written: Vec::new() })
+        recover(folder)?;
+        Ok(Self {
+            folder: folder.to_owned(),
+            inputs: inputs.into_iter().collect(),
+            inside: Vec::new(),
+            outside: Vec::new(),
+        })
     }
 
-    /// Writes one file under a temporary name; `name` may lead through folders below.
+    /// The folder.
+    pub(crate) fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Writes one file that has no name yet; `name` may lead through folders below.
     ///
     /// `fill` gets a buffered writer; when it fails, or the disk is full, no file is left behind.
     pub(crate) fn write(
@@ -39,11 +72,36 @@ impl Batch {
     ) -> anyhow::Result<()> {
         let path = self.folder.join(name);
         make_folder(path.parent().unwrap_or(&self.folder))?;
-        self.written.push(Written::new(path, fill)?);
+        self.put(PathBuf::from(name), path, fill)
+    }
+
+    fn put(
+        &mut self,
+        name: PathBuf,
+        path: PathBuf,
+        fill: impl FnOnce(&mut dyn Write) -> anyhow::Result<()>,
+    ) -> anyhow::Result<()> {
+        match Target::of(&path, &self.inputs)? {
+            Target::File { path: end, mode } if is_inside(&self.folder, &path, &end) => {
+                let file = filled(&self.folder, &path, fill)?;
+                keep_mode(&file, mode, &path)?;
+                self.inside.push((file, name));
+            }
+            Target::File { path: end, mode } => {
+                let file = filled(folder_of(&end), &path, fill)?;
+                keep_mode(&file, mode, &path)?;
+                self.outside.push(Outside::File(file, end));
+            }
+            Target::Stream(end) => {
+                let mut content = Vec::new();
+                fill(&mut content).with_context(|| cannot(&path))?;
+                self.outside.push(Outside::Stream(content, end));
+            }
+        }
         Ok(())
     }
 
-    /// Writes text or bytes under a temporary name.
+    /// Writes text or bytes.
     pub(crate) fn write_content(
         &mut self,
         name: &str,
@@ -52,7 +110,7 @@ impl Batch {
         self.write(name, |file| Ok(file.write_all(content.as_ref())?))
     }
 
-    /// Writes JSON for people and programs under a temporary name.
+    /// Writes JSON for people and programs.
     pub(crate) fn write_json(&mut self, name: &str, value: &impl Serialize) -> anyhow::Result<()> {
         self.write_content(name, serde_json::to_string_pretty(value)? + "\n")
     }
@@ -71,30 +129,24 @@ impl Batch {
 
     /// Gives every file its name.
     pub(crate) fn keep(self) -> anyhow::Result<()> {
-        self.written.into_iter().try_for_each(Written::keep)
+        for outside in self.outside {
+            outside.keep()?;
+        }
+        commit::commit(&self.folder, self.inside)
     }
 }
 
-impl Written {
-    fn new(
-        path: PathBuf,
-        fill: impl FnOnce(&mut dyn Write) -> anyhow::Result<()>,
-    ) -> anyhow::Result<Self> {
-        let cannot = || format!("{}: cannot be written", path.display());
-        let mut buffer = BufWriter::new(temporary_beside(&path).with_context(cannot)?);
-        fill(&mut buffer).with_context(cannot)?;
-        let whole = buffer
-            .into_inner()
-            .map_err(std::io::IntoInnerError::into_error)
-            .with_context(cannot)?;
-        whole.as_file().sync_all().with_context(cannot)?;
-        Ok(Self { file: whole, path })
-    }
-
+impl Outside {
     fn keep(self) -> anyhow::Result<()> {
-        let Self { file, path } = self;
-        file.persist(&path).with_context(|| format!("{}: cannot be written", path.display()))?;
-        Ok(())
+        match self {
+            Self::File(file, path) => {
+                commit::commit(folder_of(&path), vec![(file, name_of(&path)?)])
+            }
+            Self::Stream(content, path) => {
+                let open = File::options().write(true).open(&path);
+                open.and_then(|mut file| file.write_all(&content)).with_context(|| cannot(&path))
+            }
+        }
     }
 }
 
@@ -103,40 +155,89 @@ pub(crate) fn print_json(out: &mut impl Write, value: &impl Serialize) -> anyhow
     Ok(writeln!(out, "{}", serde_json::to_string_pretty(value)?)?)
 }
 
-/// Writes one file through a temporary one beside it, so that nobody ever sees half of it.
+/// Writes one file that nobody ever sees half of; `inputs` is what the command has read.
 pub(crate) fn write_whole(
     path: &Path,
+    inputs: impl IntoIterator<Item = PathBuf>,
     fill: impl FnOnce(&mut dyn Write) -> anyhow::Result<()>,
 ) -> anyhow::Result<()> {
-    Written::new(path.to_owned(), fill)?.keep()
+    let name = name_of(path)?;
+    let mut batch = Batch {
+        folder: folder_of(path).to_owned(),
+        inputs: inputs.into_iter().collect(),
+        inside: Vec::new(),
+        outside: Vec::new(),
+    };
+    batch.put(name, path.to_owned(), fill)?;
+    batch.keep()
 }
 
 /// Writes text or bytes as [`write_whole`] does.
-pub(crate) fn write_content(path: &Path, content: impl AsRef<[u8]>) -> anyhow::Result<()> {
-    write_whole(path, |file| Ok(file.write_all(content.as_ref())?))
+pub(crate) fn write_content(
+    path: &Path,
+    inputs: impl IntoIterator<Item = PathBuf>,
+    content: impl AsRef<[u8]>,
+) -> anyhow::Result<()> {
+    write_whole(path, inputs, |file| Ok(file.write_all(content.as_ref())?))
 }
 
 /// Opens a file that grows line by line and outlives an interruption; makes it if there is none.
-pub(crate) fn open_to_append(path: &Path) -> anyhow::Result<std::fs::File> {
-    let mut options = std::fs::OpenOptions::new();
+pub(crate) fn open_to_append(path: &Path) -> anyhow::Result<File> {
+    let mut options = File::options();
     options.read(true).append(true).create(true);
-    options.open(path).with_context(|| format!("{}: cannot be written", path.display()))
+    options.open(path).with_context(|| cannot(path))
+}
+
+/// A file with its content, on disk.
+fn filled(
+    folder: &Path,
+    path: &Path,
+    fill: impl FnOnce(&mut dyn Write) -> anyhow::Result<()>,
+) -> anyhow::Result<Unfinished> {
+    let file = Unfinished::new(folder).with_context(|| cannot(path))?;
+    let mut buffer = BufWriter::new(file.file());
+    fill(&mut buffer).with_context(|| cannot(path))?;
+    let end = buffer.flush();
+    drop(buffer);
+    end.and_then(|()| file.file().sync_all()).with_context(|| cannot(path))?;
+    Ok(file)
+}
+
+fn keep_mode(
+    file: &Unfinished,
+    mode: Option<std::fs::Permissions>,
+    path: &Path,
+) -> anyhow::Result<()> {
+    let set = mode.map_or(Ok(()), |mode| file.file().set_permissions(mode));
+    set.with_context(|| cannot(path))
+}
+
+/// True when no link leads from the name out of the folder.
+fn is_inside(folder: &Path, path: &Path, end: &Path) -> bool {
+    let whole = |path: &Path| folder_of(path).canonicalize().ok();
+    let (Ok(folder), Some(named), Some(ends)) = (folder.canonicalize(), whole(path), whole(end))
+    else {
+        return false;
+    };
+    named == ends && path.file_name() == end.file_name() && named.starts_with(folder)
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+fn name_of(path: &Path) -> anyhow::Result<PathBuf> {
+    match path.file_name() {
+        Some(name) => Ok(name.into()),
+        None => bail!("{}: no name for a file", path.display()),
+    }
+}
+
+fn cannot(path: &Path) -> String {
+    format!("{}: cannot be written", path.display())
 }
 
 fn make_folder(path: &Path) -> anyhow::Result<()> {
     std::fs::create_dir_all(path)
         .with_context(|| format!("{}: the folder cannot be made", path.display()))
-}
-
-/// A temporary file in the same folder, readable like any new file once it is renamed.
-fn temporary_beside(path: &Path) -> std::io::Result<NamedTempFile> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".helixlock-");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(std::fs::Permissions::from_mode(0o644));
-    }
-    builder.tempfile_in(folder.unwrap_or(Path::new(".")))
 }

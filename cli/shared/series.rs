@@ -6,8 +6,7 @@ use anyhow::{anyhow, bail};
 use helixlock_metrology::Error;
 use helixlock_traces::{Table, read_table};
 
-/// No length, angle or time of any unit is larger.
-const LARGEST: f64 = 1e100;
+use super::input::Input;
 
 /// A table and the rows of it that count.
 pub(crate) struct Series {
@@ -20,14 +19,19 @@ impl Series {
     ///
     /// Several passes without a choice are refused: each has its own zero.
     pub(crate) fn read(path: &Path, pass: Option<f64>) -> anyhow::Result<Self> {
-        let table = read_within_reach(path)?;
+        let table = read_table(path)?;
         let rows = rows_of_pass(&table, pass)?;
         Ok(Self { table, rows })
     }
 
     /// Reads a file with all its rows.
     pub(crate) fn read_all(path: &Path) -> anyhow::Result<Self> {
-        let table = read_within_reach(path)?;
+        Self::all_of(Input::read(path)?)
+    }
+
+    /// All rows of a file.
+    pub(crate) fn all_of(input: Input) -> anyhow::Result<Self> {
+        let table = input.table()?;
         let rows = (0..table.rows()).collect();
         Ok(Self { table, rows })
     }
@@ -65,22 +69,6 @@ impl Series {
         };
         anyhow!("{}: {error}", self.place(row))
     }
-}
-
-/// A table whose numbers can be squared and summed without leaving the range of a number.
-fn read_within_reach(path: &Path) -> anyhow::Result<Table> {
-    let table = read_table(path)?;
-    for column in &table.columns {
-        if let Some(row) = column.values.iter().position(|value| LARGEST < value.abs()) {
-            bail!(
-                "{}: column `{}`: found `{:e}`, expected a number up to {LARGEST:e}",
-                table.at(row),
-                column.name,
-                column.values[row]
-            );
-        }
-    }
-    Ok(table)
 }
 
 fn rows_of_pass(table: &Table, pass: Option<f64>) -> anyhow::Result<Vec<usize>> {

@@ -15,6 +15,7 @@ use helixlock_sim::{Course, Error, Options, Simulation, simulate, write_vcd};
 use helixlock_traces::csv::write_csv;
 
 use self::summary::Summary;
+use crate::shared::input::machine_files;
 use crate::shared::output::{Batch, print_json};
 use crate::shared::progress;
 use crate::shared::quantity::length_mm;
@@ -64,7 +65,9 @@ impl Sim {
         let simulation = simulate(&machine, &options, &mut progress).map_err(place)?;
         bar.finish_and_clear();
         let summary = Summary::new(&self.machine, &machine, &simulation, &simulation.findings());
-        write_files(&self.output, &machine, &simulation, &summary)?;
+        let inputs = machine_files(&self.machine, &machine);
+        let files = Batch::new(&self.output, inputs)?;
+        write_files(files, &machine, &simulation, &summary)?;
         if self.json {
             print_json(out, &summary)?;
         } else {
@@ -84,13 +87,12 @@ fn in_file(file: &Path, error: Error) -> anyhow::Error {
 }
 
 fn write_files(
-    output: &Path,
+    mut files: Batch,
     machine: &Machine,
     simulation: &Simulation,
     summary: &Summary,
 ) -> anyhow::Result<()> {
     let page = page::page(machine, simulation, summary)?;
-    let mut files = Batch::new(output)?;
     let trace = table::table(machine, simulation);
     files.write("trace.csv", |mut file| Ok(write_csv(&trace, &mut file)?))?;
     if let Some(waveform) = &simulation.closed.waveform {

@@ -113,7 +113,7 @@ impl StraightnessCommand {
         let exceeded = self.limit.is_some_and(|limit| !evaluation.keeps(limit));
         let result = StraightnessJson::new(&evaluation, self.limit);
         if let Some(output) = &self.output {
-            write_files(output, &evaluation, &result)?;
+            write_files(output, path, &evaluation, &result)?;
         }
         if self.json {
             print_json(out, &result)?;
@@ -222,11 +222,12 @@ fn whole_steps(steps: f64) -> usize {
 
 fn write_files(
     output: &Path,
+    data: &Path,
     evaluation: &Evaluation,
     result: &StraightnessJson<'_>,
 ) -> anyhow::Result<()> {
     let page = page::page(evaluation);
-    let mut files = Batch::new(output)?;
+    let mut files = Batch::new(output, [data.to_owned()])?;
     files.write_report(&page::figure(evaluation), result, &page)?;
     files.write("separated.csv", |file| write_separated(file, evaluation.chosen()))?;
     files.write("correction.csv", |file| {

@@ -1,9 +1,10 @@
-//! What a sweep has done so far, line by line, so that it can go on after an interruption.
+//! What a sweep has done so far, line by line, so that it can go on after an interruption and is
+//! not done twice.
 //!
 //! The first line says of which sweep it is; every other is a case. A line cut off in the middle
 //! does not count.
 
-use std::fs::File;
+use std::fs::{File, TryLockError};
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
@@ -11,11 +12,16 @@ use anyhow::{Context, bail};
 
 use crate::shared::output::open_to_append;
 
+/// Stands before the reason of a case that could not be run.
+const FAILURE: &str = " # ";
+
 /// One case.
 #[derive(Clone, Debug)]
 pub(crate) struct Row {
     pub(crate) case: u64,
     pub(crate) cells: Vec<f64>,
+    /// Why it could not be run.
+    pub(crate) failure: Option<String>,
 }
 
 /// The file beside the results, and the rows in it.
@@ -31,6 +37,9 @@ impl Journal {
     pub(crate) fn open(output: &Path, identity: &str, width: usize) -> anyhow::Result<Self> {
         let path = path_beside(output);
         let mut file = open_to_append(&path)?;
+        if let Err(TryLockError::WouldBlock) = file.try_lock() {
+            bail!("{}: another sweep is writing it, expected one at a time", path.display());
+        }
         let mut text = String::new();
         file.read_to_string(&mut text).with_context(|| path.display().to_string())?;
         let head = format!("# helixlock sweep {:016x}\n", fingerprint(identity));
@@ -62,15 +71,13 @@ impl Journal {
     /// Adds a case, on disk first.
     pub(crate) fn append(&mut self, row: Row) -> anyhow::Result<()> {
         let cells: Vec<String> = row.cells.iter().map(f64::to_string).collect();
-        self.write(&format!("{},{}\n", row.case, cells.join(",")))?;
+        let failure = match &row.failure {
+            Some(reason) => format!("{FAILURE}{}", serde_json::to_string(reason)?),
+            None => String::new(),
+        };
+        self.write(&format!("{},{}{failure}\n", row.case, cells.join(",")))?;
         self.rows.push(row);
         Ok(())
-    }
-
-    /// The results are written: nothing is left to go on with.
-    pub(crate) fn remove(output: &Path) -> anyhow::Result<()> {
-        let path = path_beside(output);
-        std::fs::remove_file(&path).with_context(|| path.display().to_string())
     }
 
     fn write(&mut self, line: &str) -> anyhow::Result<()> {
@@ -81,14 +88,18 @@ impl Journal {
 
 fn path_beside(output: &Path) -> PathBuf {
     let mut name = output.as_os_str().to_owned();
-    name.push(".part");
+    name.push(".journal");
     name.into()
 }
 
 fn row(line: &str, width: usize) -> Option<Row> {
+    let (line, failure) = match line.split_once(FAILURE) {
+        Some((line, text)) => (line, Some(serde_json::from_str(text).ok()?)),
+        None => (line, None),
+    };
     let (case, cells) = line.split_once(',')?;
     let cells: Vec<f64> = cells.split(',').map(|cell| cell.parse().ok()).collect::<Option<_>>()?;
-    (cells.len() == width).then_some(Row { case: case.parse().ok()?, cells })
+    (cells.len() == width).then_some(Row { case: case.parse().ok()?, cells, failure })
 }
 
 /// FNV-1a over the bytes.
@@ -103,7 +114,7 @@ mod tests {
     use super::*;
 
     fn row(case: u64) -> Row {
-        Row { case, cells: vec![0.1, f64::NAN] }
+        Row { case, cells: vec![0.1, f64::NAN], failure: Some("no\nway".into()) }
     }
 
     #[test]
@@ -122,6 +133,7 @@ mod tests {
         let journal = Journal::open(&output, "this", 2).unwrap();
         assert_eq!(journal.rows.iter().map(|row| row.case).collect::<Vec<_>>(), [1, 2, 3]);
         assert!(journal.rows.iter().all(|row| row.cells[1].is_nan()));
+        assert!(journal.rows.iter().all(|row| row.failure.as_deref() == Some("no\nway")));
     }
 
     #[test]

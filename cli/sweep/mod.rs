@@ -9,21 +9,22 @@ use std::sync::Mutex;
 
 use anyhow::{anyhow, bail};
 use clap::Args;
-use helixlock_plant::MachineFile;
-use helixlock_sim::sweep::{Axis, Case, DrawnAxis, FIGURES, Plan};
+use helixlock_plant::{Formula, MachineFile, MeasuredCurve, Model};
+use helixlock_sim::sweep::{Axis, Case, DrawnAxis, FIGURES, MOST_CASES, Plan};
 use helixlock_sim::{Options, parallel};
 use helixlock_traces::csv::write_csv;
 use helixlock_traces::parquet::write_parquet;
 use helixlock_traces::table::{Column, Table};
 
 use self::journal::{Journal, Row};
+use crate::shared::input::machine_files;
 use crate::shared::output::write_whole;
 use crate::shared::progress;
 
 /// Simulate many machines: any value of the file over a range, or by chance
 ///
-/// Results stream into FILE.part while they come; run the same command again after an interruption
-/// and only what is missing is simulated. At the end FILE holds all cases in order.
+/// Results stream into FILE.journal while they come; run the same command again and only what is
+/// missing is simulated, after an interruption as at the end. Then FILE holds all cases in order.
 #[derive(Debug, Args)]
 pub(crate) struct Sweep {
     /// Machine file
@@ -53,18 +54,19 @@ pub(crate) struct Sweep {
 impl Sweep {
     /// Runs what is missing and writes the table.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
-        let text = std::fs::read_to_string(&self.machine).unwrap_or_default();
         let file = MachineFile::read(&self.machine)?;
         let plan = self.plan()?;
         let options = Options { length_mm: self.length, ..Options::default() };
         let is_parquet = self.is_parquet()?;
-        let identity = format!("{text}\n{plan:?}\n{options:?}");
+        let curves = curves(&file.model);
+        let identity = format!("{}\n{curves:?}\n{plan:?}\n{options:?}", file.text());
         let width = plan.columns().len() + FIGURES.len();
         let journal = Journal::open(&self.output, &identity, width)?;
         let resumed = journal.rows.len();
-        let (rows, failures) = run_missing(&file, &plan, &options, journal)?;
+        let rows = run_missing(&file, &plan, &options, journal)?;
         let table = table(&plan, &rows);
-        write_whole(&self.output, |mut file| {
+        let inputs = machine_files(&self.machine, &file.model);
+        write_whole(&self.output, inputs, |mut file| {
             if is_parquet {
                 let mut bytes = Vec::new();
                 write_parquet(&table, &mut bytes)?;
@@ -73,11 +75,12 @@ impl Sweep {
                 Ok(write_csv(&table, &mut file)?)
             }
         })?;
-        Journal::remove(&self.output)?;
         let done = rows.len() - resumed;
         writeln!(out, "{}: {} cases, {done} of them run now", self.output.display(), rows.len())?;
+        let failed = |row: &Row| Some(format!("case {}: {}", row.case, row.failure.as_ref()?));
+        let failures: Vec<String> = rows.iter().filter_map(failed).collect();
         for failure in &failures {
-            writeln!(out, "case {failure}")?;
+            writeln!(out, "{failure}")?;
         }
         Ok(if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) })
     }
@@ -92,7 +95,15 @@ impl Sweep {
         let grid = self.axes.iter().map(|text| Axis::parse(text)).collect::<Result<_, _>>()?;
         let drawn =
             self.drawn.iter().map(|text| DrawnAxis::parse(text)).collect::<Result<_, _>>()?;
-        Ok(Plan { grid, drawn, samples: self.samples, seed: self.seed })
+        let plan = Plan { grid, drawn, samples: self.samples, seed: self.seed };
+        let cases = plan.cases();
+        if MOST_CASES < cases {
+            let more = if cases == u64::MAX { " or more" } else { "" };
+            bail!(
+                "{cases}{more} cases, expected at most {MOST_CASES}\n                 hint: fewer values of each key, or `--draw` with `--samples`"
+            );
+        }
+        Ok(plan)
     }
 
     fn is_parquet(&self) -> anyhow::Result<bool> {
@@ -104,50 +115,47 @@ impl Sweep {
     }
 }
 
-/// Simulates the cases that the journal lacks, on all cores; gives all rows in order and what went
-/// wrong.
+/// The measured curves of a machine, which its file only names.
+fn curves(model: &Model) -> Vec<&MeasuredCurve> {
+    let formulas = model.effects.iter().map(|term| &term.formula);
+    formulas
+        .filter_map(|formula| match formula {
+            Formula::Curve(curve) => Some(curve.as_ref()),
+            Formula::Card(_) | Formula::Custom(_) => None,
+        })
+        .collect()
+}
+
+/// Simulates the cases that the journal lacks, on all cores; gives all rows in order.
 fn run_missing(
     file: &MachineFile,
     plan: &Plan,
     options: &Options,
     journal: Journal,
-) -> anyhow::Result<(Vec<Row>, Vec<String>)> {
+) -> anyhow::Result<Vec<Row>> {
     let missing: Vec<u64> = (0..plan.cases()).filter(|case| !journal.has(*case)).collect();
     let bar = progress::bar(plan.cases(), "cases");
     bar.set_position(plan.cases() - missing.len() as u64);
     let journal = Mutex::new(journal);
-    let failures = Mutex::new(Vec::new());
     parallel(&missing, |index| {
         let case = plan.case(*index);
-        let row = row(&case, file, options, &failures);
+        let row = row(&case, file, options);
         bar.inc(1);
         journal.lock().map_err(|_| anyhow!("another case has failed"))?.append(row)
     })?;
     bar.finish_and_clear();
-    let journal = journal.into_inner().map_err(|_| anyhow!("another case has failed"))?;
-    let mut failures: Vec<(u64, String)> =
-        failures.into_inner().map_err(|_| anyhow!("another case has failed"))?;
-    failures.sort();
-    let failures = failures.into_iter().map(|(index, text)| format!("{index}: {text}")).collect();
-    let mut rows = journal.rows;
+    let mut rows = journal.into_inner().map_err(|_| anyhow!("another case has failed"))?.rows;
     rows.sort_by_key(|row| row.case);
-    Ok((rows, failures))
+    Ok(rows)
 }
 
 /// Values and figures of a case; figures are not numbers when it cannot be run.
-fn row(
-    case: &Case,
-    file: &MachineFile,
-    options: &Options,
-    failures: &Mutex<Vec<(u64, String)>>,
-) -> Row {
-    let figures = case.run(file, options).unwrap_or_else(|error| {
-        if let Ok(mut failures) = failures.lock() {
-            failures.push((case.index, error.to_string()));
-        }
-        vec![f64::NAN; FIGURES.len()]
-    });
-    Row { case: case.index, cells: [case.values.clone(), figures].concat() }
+fn row(case: &Case, file: &MachineFile, options: &Options) -> Row {
+    let (figures, failure) = match case.run(file, options) {
+        Ok(figures) => (figures, None),
+        Err(error) => (vec![f64::NAN; FIGURES.len()], Some(error.to_string())),
+    };
+    Row { case: case.index, cells: [case.values.clone(), figures].concat(), failure }
 }
 
 #[expect(clippy::cast_precision_loss, reason = "fewer than 2⁵³ cases")]

@@ -104,6 +104,9 @@ enum By {
     SubdividedCounting,
 }
 
+/// Most shafts that a spectrum is looked through for; a gearbox has some ten.
+const MOST_SHAFTS: usize = 500;
+
 impl TransmissionCommand {
     /// Measures, writes, prints.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
@@ -180,7 +183,16 @@ impl TransmissionCommand {
             let gears = Model::read(path)?.gear_orders().into_iter();
             shafts.extend(gears.map(|(name, order)| Shaft { name, order }));
         }
+        if MOST_SHAFTS < shafts.len() {
+            bail!("found {} shafts, expected at most {MOST_SHAFTS}", shafts.len());
+        }
         Ok(shafts)
+    }
+
+    /// What was read, for outputs to spare.
+    fn inputs(&self) -> Vec<PathBuf> {
+        let beside = [&self.truth, &self.machine].into_iter().flatten();
+        beside.chain([&self.capture]).cloned().collect()
     }
 
     fn write_files(
@@ -190,7 +202,7 @@ impl TransmissionCommand {
         result: &TransmissionJson<'_>,
     ) -> anyhow::Result<()> {
         let page = page::page(evaluation);
-        let mut files = Batch::new(output)?;
+        let mut files = Batch::new(output, self.inputs())?;
         files.write_report(&page::figure(evaluation), result, &page)?;
         if let Some(best) = evaluation.best() {
             files.write("error.csv", |file| write_error(file, &best.reading))?;

@@ -4,9 +4,8 @@ use std::path::Path;
 
 use anyhow::{anyhow, bail};
 use helixlock_metrology::transmission::Pulses;
-use helixlock_traces::read_capture;
 
-use crate::shared::captured::is_dump;
+use crate::shared::input::Input;
 use crate::shared::series::Series;
 
 /// Names of the two signals or columns, when the user gave them.
@@ -23,12 +22,14 @@ pub(crate) struct Names<'a> {
 /// `output_s` with an instant a row (one may be longer); or `time_s` and `channel` (1 input,
 /// 2 output); or `time_s` and the levels `input` and `output`.
 pub(crate) fn read_pulses(path: &Path, names: &Names<'_>) -> anyhow::Result<Pulses> {
-    let (input_s, output_s) = if is_dump(path)? { dump(path, names)? } else { table(path, names)? };
+    let input = Input::read(path)?;
+    let (input_s, output_s) =
+        if input.is_dump() { dump(path, input, names)? } else { table(input, names)? };
     Pulses::new(input_s, output_s).map_err(|error| anyhow!("{}: {error}", path.display()))
 }
 
-fn dump(path: &Path, names: &Names<'_>) -> anyhow::Result<(Vec<f64>, Vec<f64>)> {
-    let capture = read_capture(path)?;
+fn dump(path: &Path, input: Input, names: &Names<'_>) -> anyhow::Result<(Vec<f64>, Vec<f64>)> {
+    let capture = input.capture()?;
     let signal = |name: Option<&str>, place: usize, option: &str| match (name, &capture.signals[..])
     {
         (Some(name), _) => Ok(name.to_owned()),
@@ -48,8 +49,8 @@ fn dump(path: &Path, names: &Names<'_>) -> anyhow::Result<(Vec<f64>, Vec<f64>)> 
     Ok((capture.rising_s(&input)?, capture.rising_s(&output)?))
 }
 
-fn table(path: &Path, names: &Names<'_>) -> anyhow::Result<(Vec<f64>, Vec<f64>)> {
-    let series = Series::read_all(path)?;
+fn table(input: Input, names: &Names<'_>) -> anyhow::Result<(Vec<f64>, Vec<f64>)> {
+    let series = Series::all_of(input)?;
     if let (Some(time), Some(channel)) = (series.optional("time_s"), series.optional("channel")) {
         return by_channel(&series, &time, &channel);
     }

@@ -3,6 +3,22 @@
 /// Longest line.
 const WIDTH: usize = 100;
 
+/// A comment that begins with one of these is a command to some tool.
+const OBEYED: [&str; 12] = [
+    "synopsys",
+    "synthesis",
+    "verilator",
+    "pragma",
+    "translate",
+    "lint",
+    "yosys",
+    "verilog_lint",
+    "coverage",
+    "spyglass",
+    "ambit",
+    "cadence",
+];
+
 /// Text under construction.
 #[derive(Debug, Default)]
 pub(crate) struct Lines {
@@ -47,7 +63,7 @@ impl Lines {
         }
     }
 
-    /// A comment, wrapped at words.
+    /// A comment, wrapped at words; no line of it begins as a tool's command does.
     pub(crate) fn comment(&mut self, text: &str) {
         for paragraph in text.lines() {
             let mut line = String::from("//");
@@ -55,6 +71,9 @@ impl Lines {
                 if 4 * self.depth + line.chars().count() + 1 + word.chars().count() > WIDTH {
                     self.put(4 * self.depth, &line);
                     line = String::from("//");
+                }
+                if line == "//" && OBEYED.iter().any(|tool| starts_with(word, tool)) {
+                    line.push_str(" -");
                 }
                 line.push(' ');
                 line.push_str(word);
@@ -76,6 +95,10 @@ impl Lines {
     }
 }
 
+fn starts_with(word: &str, tool: &str) -> bool {
+    word.get(..tool.len()).is_some_and(|start| start.eq_ignore_ascii_case(tool))
+}
+
 /// Where to break: at the last operator of the outermost parentheses before `limit`.
 fn break_at(line: &str, limit: usize) -> Option<usize> {
     let mut depth = 0_usize;
@@ -95,4 +118,22 @@ fn break_at(line: &str, limit: usize) -> Option<usize> {
         }
     }
     best.map(|(_, at)| at)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `// synopsys translate_off` makes a synthesis skip what follows, wherever the words come from.
+    #[test]
+    fn no_comment_is_a_command() {
+        let title = format!("{} Synopsys translate_off\nverilator lint_off", "x".repeat(85));
+        let mut lines = Lines::default();
+        lines.comment(&title);
+        let text = lines.finish();
+        assert!(
+            text.contains("\n// - Synopsys translate_off\n// - verilator lint_off\n"),
+            "{text}"
+        );
+    }
 }

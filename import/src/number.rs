@@ -1,5 +1,7 @@
 //! Numbers as instruments write them.
 
+use helixlock_traces::in_range;
+
 /// How a cell reads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Reading {
@@ -23,14 +25,14 @@ pub(crate) fn read(cell: &str, decimal: char, missing: &[String]) -> Reading {
     number(cell, decimal).map_or(Reading::Words, Reading::Number)
 }
 
-/// A finite number; `+`, a real minus sign, groups of three and a blank before the exponent are
+/// A finite number in range; `+`, a real minus sign, groups of three and a blank before the exponent are
 /// taken, units and words are not.
 pub(crate) fn number(cell: &str, decimal: char) -> Option<f64> {
     let plain = |cell: &str| {
         let digits = cell.bytes().any(|byte| byte.is_ascii_digit());
         let allowed = |byte: u8| byte.is_ascii_digit() || b"+-.eE".contains(&byte);
         let value: f64 = cell.parse().ok().filter(|_| digits && cell.bytes().all(allowed))?;
-        value.is_finite().then_some(value)
+        in_range(value).then_some(value)
     };
     if decimal == '.' {
         // Almost every cell of almost every file.
@@ -94,9 +96,10 @@ mod tests {
 
     #[test]
     fn words_units_and_infinities_are_none() {
-        for cell in
-            ["", "abc", "1.5 mm", "inf", "NaN", "1e999", "1.2.3", "1,23,4", "--1", "e5", "0x1"]
-        {
+        for cell in [
+            "", "abc", "1.5 mm", "inf", "NaN", "1e999", "1e170", "1.2.3", "1,23,4", "--1", "e5",
+            "0x1",
+        ] {
             assert_eq!(number(cell, '.'), None, "{cell}");
         }
         assert_eq!(read("nan", '.', &["nan".into()]), Reading::Missing);

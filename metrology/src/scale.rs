@@ -17,7 +17,7 @@ mod table;
 
 pub use apply::{Corrected, Scheme, Spread, apply};
 pub use detector::Detector;
-pub use export::{LINUXCNC_ROWS, linuxcnc_file, nominal_actual_csv, siemens_file};
+pub use export::{LINUXCNC_ROWS, LinuxCnc, linuxcnc_file, nominal_actual_csv, siemens_file};
 pub use image::{IMAGE_BYTES, from_hex, from_image, to_hex, to_image};
 pub use joints::{Joint, JointRule};
 pub use model::{ModelledScale, Residual, residual_budget};

@@ -51,6 +51,9 @@ enum Variable {
     Column(String),
 }
 
+/// Longest formula, bytes: some three hundred operands.
+const LONGEST_FORMULA: usize = 2000;
+
 /// A formula of the user, in µm (arcsec on a rotary chain).
 ///
 /// Operators are `+ - * / ^`, functions `abs sign sqrt exp ln log10 sin cos tan asin acos atan
@@ -79,6 +82,16 @@ impl Custom {
             formula: formula.into(),
             message,
         };
+        if LONGEST_FORMULA < formula.len() {
+            return Err(EffectError::Formula {
+                effect: name.into(),
+                formula: formula.chars().take(40).chain(['…']).collect(),
+                message: format!(
+                    "found {} bytes, expected at most {LONGEST_FORMULA}",
+                    formula.len()
+                ),
+            });
+        }
         let expression =
             Expression::parse(formula).map_err(|error| refuse(error.msg().to_lowercase()))?;
         let variables: Vec<_> =

@@ -18,10 +18,13 @@ mod channel;
 use channel::{Channel, Reading};
 
 use crate::actuator::Actuator;
-use crate::{EffectError, Model, Motion, motion::Pass};
+use crate::{EffectError, Model, Motion, motion::Pass, motion::in_reach};
 
 /// Shortest time between two pulses of one channel, s: photo detectors of 1 MHz.
 pub const SHORTEST_S: f64 = 1e-6;
+
+/// Most pulses that a reading may owe at once: 0.2 s of them, some 60 mm of fringes.
+const MOST_OWED: u32 = 200_000;
 
 /// Which pulse train an edge belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,6 +81,7 @@ pub struct Edges {
     corrector_um: f64,
     fringe: Channel,
     line: Channel,
+    failure: Option<EffectError>,
 }
 
 impl Edges {
@@ -85,17 +89,19 @@ impl Edges {
     ///
     /// # Errors
     ///
-    /// [`EffectError`] when an effect needs a section of the machine file that is missing.
+    /// [`EffectError`] when an effect needs a section of the machine file that is missing, or begins
+    /// with a value that no machine could follow.
     pub fn new(model: &Model, pass: &Pass) -> Result<Self, EffectError> {
         let motion = Motion::new(model, pass)?;
         let line_um = 1000.0 * model.workpiece.lead.mm() / f64::from(model.grating.lines);
         let fringe = Channel::new(&motion, Reading::Laser, model.fringe_um());
         let line = Channel::new(&motion, Reading::Grating, line_um);
         let actuator = Actuator::new(model)?;
-        let mut edges = Self { motion, actuator, corrector_um: 0.0, fringe, line };
+        let mut edges = Self { motion, actuator, corrector_um: 0.0, fringe, line, failure: None };
         edges.fringe.plan(&edges.motion, 0.0, 0.0);
         edges.line.plan(&edges.motion, 0.0, 0.0);
-        Ok(edges)
+        edges.place(0.0);
+        edges.failure().map_or(Ok(edges), Err)
     }
 
     /// When the next line comes, s; infinity at the end of the pass.
@@ -132,15 +138,22 @@ impl Edges {
     }
 
     /// Where table and thread are at a time, with the corrector where it is.
-    #[must_use]
-    pub fn place(&self, time_s: f64) -> Place {
+    pub fn place(&mut self, time_s: f64) -> Place {
         let now = self.motion.at(time_s);
         let sums = self.motion.deltas(&now, self.corrector_um);
-        Place {
-            position_mm: now.position_mm,
-            lead_error_um: sums.motion_um + sums.workpiece_um + self.corrector_um,
-            corrector_um: self.corrector_um,
+        let lead_error_um = sums.motion_um + sums.workpiece_um + self.corrector_um;
+        if !in_reach(lead_error_um) && self.failure.is_none() {
+            self.failure = Some(self.motion.out_of_reach(time_s, self.corrector_um));
         }
+        Place { position_mm: now.position_mm, lead_error_um, corrector_um: self.corrector_um }
+    }
+
+    /// The first value that no machine could follow; from there on no pulses come.
+    #[must_use]
+    pub fn failure(&self) -> Option<EffectError> {
+        let channels = [&self.line, &self.fringe].into_iter();
+        let failed = channels.filter_map(|channel| channel.failure.clone()).next();
+        failed.or_else(|| self.failure.clone())
     }
 
     /// The motion behind the pulses.

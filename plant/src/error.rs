@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use helixlock_traces::At;
+use helixlock_traces::{At, TraceError};
+
+use crate::units::LARGEST_UM;
 
 /// The place of byte `offset` of `text`.
 pub(crate) fn place(path: &Path, text: &str, offset: usize) -> At {
@@ -18,13 +20,8 @@ pub(crate) fn place(path: &Path, text: &str, offset: usize) -> At {
 #[non_exhaustive]
 pub enum MachineError {
     /// The file could not be read at all.
-    #[error("{}: cannot be read", path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        source: std::io::Error,
-    },
+    #[error(transparent)]
+    Read(#[from] TraceError),
     /// The file is not UTF-8 text.
     #[error("{}:{line}: found bytes that are not UTF-8, expected text", path.display())]
     Encoding {
@@ -191,6 +188,28 @@ pub enum EffectError {
         effect: String,
         /// The part.
         part: crate::machine::Part,
+    },
+    /// Its value is nothing a machine could follow.
+    #[error("{effect} gives {found} µm {place}, expected a finite number up to ±{LARGEST_UM:e} µm")]
+    OutOfReach {
+        /// The effect, by its number and name.
+        effect: String,
+        /// Its value.
+        found: String,
+        /// When and where.
+        place: String,
+    },
+    /// All together move a reading on without end.
+    #[error(
+        "the effects move the {reading} by more than {most} pulses at once {place}, expected a machine that goes on smoothly"
+    )]
+    TooFast {
+        /// What is read.
+        reading: &'static str,
+        /// Most pulses at once.
+        most: u32,
+        /// When and where.
+        place: String,
     },
     /// The number of values is not the number of parameters.
     #[error("effect `{effect}` got {found} values, expected {expected}")]

@@ -1,6 +1,8 @@
 //! An error curve that was measured, as the machine's motion error.
 
-use std::path::Path;
+use std::path::{Component, Path, PathBuf};
+
+use helixlock_traces::{read_bytes, table_of};
 
 use crate::units::NUMBER;
 use crate::{Basis, Card, Effect, Entry, Instant, Machine, Nature, Parameter};
@@ -24,6 +26,9 @@ pub(crate) const CARD: Card = Card {
     nature: Nature::PLAIN,
     basis: |_, _| Ok(Basis::default()),
 };
+
+/// Longest curve, bytes: some two million points.
+const LONGEST_BYTES: u64 = 64 << 20;
 
 /// Table motion error over travel, straight between the points and level beyond the ends.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,13 +56,16 @@ impl MeasuredCurve {
     /// the table was ahead) and `error_um` (recorder: laser lag is positive, so it was behind).
     ///
     /// Rows at the same place are averaged; rows with a missing cell are left out. On a rotary
-    /// chain the columns are `angle_rev` and `error_arcsec`. `file` is the name to keep.
+    /// chain the columns are `angle_rev` and `error_arcsec`. `file` is a plain file in the machine
+    /// file's `folder` or below: whoever sends a machine file does not choose what else is read.
     ///
     /// # Errors
     ///
     /// What is wrong with the table, for a person.
-    pub fn read(path: &Path, file: &str, machine: &Machine) -> Result<Self, String> {
-        let table = helixlock_traces::read_table(path).map_err(|error| error.to_string())?;
+    pub fn read(folder: &Path, file: &str, machine: &Machine) -> Result<Self, String> {
+        let path = beside(folder, file)?;
+        let bytes = read_bytes(&path, LONGEST_BYTES).map_err(|error| error.to_string())?;
+        let table = table_of(bytes, &path).map_err(|error| error.to_string())?;
         let (place, per_turn_mm) = if machine.rotary {
             ("angle_rev", machine.workpiece.lead.mm())
         } else {
@@ -105,6 +113,23 @@ impl Effect for MeasuredCurve {
             (None, None) => 0.0,
         }
     }
+}
+
+/// The path of a plain file of the folder, wherever links lead.
+fn beside(folder: &Path, file: &str) -> Result<PathBuf, String> {
+    let path = folder.join(file);
+    let home = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let below = Path::new(file).components().all(|part| matches!(part, Component::Normal(_)));
+    let expected = "expected a plain file beside the machine file, or in a folder there";
+    if !below {
+        return Err(format!("found a path that leads elsewhere, {expected}"));
+    }
+    let cannot = |error: std::io::Error| format!("{}: cannot be read: {error}", path.display());
+    let (end, home) = (path.canonicalize().map_err(cannot)?, home.canonicalize());
+    if !end.is_file() || !home.is_ok_and(|home| end.starts_with(home)) {
+        return Err(format!("found no such file, {expected}"));
+    }
+    Ok(path)
 }
 
 /// The mean of points at one place.

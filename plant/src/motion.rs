@@ -4,7 +4,13 @@ use std::f64::consts::TAU;
 
 use crate::record::{COVARIATES, Columns, Covariate};
 use crate::term::Sum;
+use crate::units::LARGEST_UM;
 use crate::{Effect, EffectError, Entry, Instant, Machine, Model};
+
+/// True for a number of µm that a machine can follow.
+pub(crate) fn in_reach(value_um: f64) -> bool {
+    value_um.abs() <= LARGEST_UM
+}
 
 /// A stretch of a pass at constant spindle speed in one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,6 +95,8 @@ pub struct Deltas {
 pub struct Motion {
     pub(crate) stretches: Vec<Stretch>,
     effects: Vec<(Entry, Sum)>,
+    /// Number and name of each effect, for messages.
+    names: Vec<String>,
     covariates: Vec<f64>,
     lead_mm: f64,
     number: usize,
@@ -105,17 +113,23 @@ impl Motion {
     pub fn new(model: &Model, pass: &Pass) -> Result<Self, EffectError> {
         let (columns, covariates) = surroundings(model);
         let mut effects = Vec::new();
-        let mut left_out = Vec::new();
-        for term in model.effects.iter().filter(|term| term.entry != Entry::Actuator) {
+        let (mut names, mut left_out) = (Vec::new(), Vec::new());
+        for (index, term) in model.effects.iter().enumerate() {
+            if term.entry == Entry::Actuator {
+                continue;
+            }
             match term.effect(model, &columns) {
-                Ok(effect) => effects.push((term.entry, effect)),
+                Ok(effect) => {
+                    effects.push((term.entry, effect));
+                    names.push(format!("effect {} `{}`", index + 1, term.name));
+                }
                 Err(EffectError::MissingColumn { .. }) => left_out.push(term.name.clone()),
                 Err(error) => return Err(error),
             }
         }
         let lead_mm = model.workpiece.lead.mm();
         let stretches = stretches(pass, lead_mm);
-        Ok(Self { stretches, effects, covariates, lead_mm, number: pass.number, left_out })
+        Ok(Self { stretches, effects, names, covariates, lead_mm, number: pass.number, left_out })
     }
 
     /// When the pass ends, s.
@@ -158,8 +172,7 @@ impl Motion {
         for (entry, effect) in self.effects.iter().filter(|(_, effect)| !effect.feeds_back()) {
             sums.add(*entry, effect.delta_um(now));
         }
-        let error_um = sums.lag_um + sums.angle_um - sums.motion_um - corrector_um;
-        let now = Instant { error_um, ..*now };
+        let now = Instant { error_um: sums.error_um(corrector_um), ..*now };
         for (entry, effect) in self.effects.iter().filter(|(_, effect)| effect.feeds_back()) {
             sums.add(*entry, effect.delta_um(&now));
         }
@@ -173,6 +186,26 @@ impl Motion {
         sums.motion_um + sums.workpiece_um + corrector_um
     }
 
+    /// Names the effect whose value at a time is nothing a machine could follow.
+    pub(crate) fn out_of_reach(&self, time_s: f64, corrector_um: f64) -> EffectError {
+        let now = self.at(time_s);
+        let error_um = self.deltas(&now, corrector_um).error_um(corrector_um);
+        let now = Instant { error_um, ..now };
+        let values = self.effects.iter().map(|(_, effect)| effect.delta_um(&now));
+        let beyond = self.names.iter().zip(values).find(|(_, value)| !in_reach(*value));
+        let (effect, value) = match beyond {
+            Some((name, value)) => (name.clone(), value),
+            None if in_reach(corrector_um) => ("the sum of the effects".into(), error_um),
+            None => ("the sum of the actuator's effects".into(), corrector_um),
+        };
+        EffectError::OutOfReach { effect, found: value.to_string(), place: self.place(time_s) }
+    }
+
+    /// When and where, for a message.
+    pub(crate) fn place(&self, time_s: f64) -> String {
+        format!("at {time_s:.6} s, {:.6} mm", self.at(time_s).position_mm)
+    }
+
     /// The effects, with their entries.
     pub(crate) fn effects(&self) -> &[(Entry, Sum)] {
         &self.effects
@@ -180,6 +213,11 @@ impl Motion {
 }
 
 impl Deltas {
+    /// What the meter shows of them, with the corrector holding the table `corrector_um` ahead.
+    fn error_um(&self, corrector_um: f64) -> f64 {
+        self.lag_um + self.angle_um - self.motion_um - corrector_um
+    }
+
     fn add(&mut self, entry: Entry, delta_um: f64) {
         match entry {
             Entry::Motion => self.motion_um += delta_um,

@@ -87,6 +87,9 @@ impl fmt::Display for Unit {
     }
 }
 
+/// No part of a machine moves further: 1 km, in µm.
+pub(crate) const LARGEST_UM: f64 = 1e9;
+
 /// Micrometre.
 pub const UM: Unit = Unit::new("um", Dimension::Length, (1.0, 1e6));
 /// Millimetre.

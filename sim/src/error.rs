@@ -30,6 +30,14 @@ pub enum Error {
         /// FPGA clock, Hz.
         clock_hz: f64,
     },
+    /// The pass is over before the meter has compared anything.
+    #[error(
+        "the pass ends after {length_mm} mm, before the first comparison, expected a longer one"
+    )]
+    NoComparison {
+        /// Length of the pass.
+        length_mm: f64,
+    },
     /// The design lacks a signal that the closed loop needs.
     #[error("the design has no signal `{path}`")]
     NoSignal {

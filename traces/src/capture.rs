@@ -1,11 +1,14 @@
 //! The edges of every one-bit signal of a dump, as a logic analyser shows them.
 
-use std::fs::File;
-use std::io::{BufRead, BufReader};
+use std::io::BufRead;
 use std::path::{Path, PathBuf};
 
-use crate::error::TraceError;
+use crate::error::{At, TraceError};
+use crate::file::{LONGEST_BYTES, read_bytes};
 use crate::vcd::{Bit, Change, Signal, Tick, Value, VcdReader};
+
+/// Most changes of a dump; a pass over a metre has some five million.
+const MOST_CHANGES: usize = 40_000_000;
 
 /// Edges of the one-bit signals of a dump.
 #[derive(Clone, Debug)]
@@ -104,9 +107,7 @@ impl CapturedSignal {
 ///
 /// Those of [`VcdReader`], and a file that cannot be opened.
 pub fn read_capture(path: &Path) -> Result<Capture, TraceError> {
-    let file =
-        File::open(path).map_err(|source| TraceError::Read { path: path.to_owned(), source })?;
-    capture_edges(BufReader::with_capacity(1 << 20, file), path)
+    capture_edges(read_bytes(path, LONGEST_BYTES)?.as_slice(), path)
 }
 
 /// As [`read_capture`], from text already at hand; `path` is for messages only.
@@ -118,8 +119,12 @@ pub fn capture_edges(reader: impl BufRead, path: &Path) -> Result<Capture, Trace
     let mut reader = VcdReader::new(reader, path)?;
     let channels = reader.signals().iter().map(|signal| signal.channel + 1).max().unwrap_or(0);
     let mut edges = vec![Edges::default(); channels];
-    for change in reader.by_ref() {
+    for (count, change) in reader.by_ref().enumerate() {
         let Change { ticks, channel, value } = change?;
+        if count == MOST_CHANGES {
+            let at = At::file(path);
+            return Err(TraceError::TooMany { at, most: MOST_CHANGES, what: "changes" });
+        }
         if let Value::Bit(bit) = value {
             edges[channel].take(ticks, bit);
         }

@@ -12,7 +12,7 @@ use ::csv::{ByteRecord, QuoteStyle, ReaderBuilder};
 
 use crate::error::{At, TraceError};
 use crate::number::write_number;
-use crate::table::Table;
+use crate::table::{MOST_CELLS, MOST_COLUMNS, Table};
 
 mod cells;
 mod place;
@@ -51,6 +51,7 @@ pub fn read_csv(bytes: &[u8], path: &Path) -> Result<Table, TraceError> {
         return Err(TraceError::Empty { at: At::file(path), found: "an empty file" });
     }
     let names = header(&record, &source.line(&reader))?;
+    let most_rows = MOST_CELLS / names.len();
     let mut columns: Vec<Reading> = names.into_iter().map(Reading::new).collect();
     let mut line_jumps = Vec::new();
     let (mut rows, mut next_line) = (0, 0);
@@ -60,6 +61,9 @@ pub fn read_csv(bytes: &[u8], path: &Path) -> Result<Table, TraceError> {
             line_jumps.push((rows, line.number));
         }
         next_line = line.number + 1;
+        if rows == most_rows {
+            return Err(TraceError::TooMany { at: line.whole(), most: MOST_CELLS, what: "cells" });
+        }
         push_row(&mut columns, &record, &line)?;
         rows += 1;
     }
@@ -161,6 +165,9 @@ fn header(record: &ByteRecord, line: &Line) -> Result<Vec<String>, TraceError> {
     let refuse = |cell: usize, found: String, expected: &'static str| {
         Err(TraceError::Header { at: line.at(cell), found, expected })
     };
+    if MOST_COLUMNS < record.len() {
+        return Err(TraceError::TooMany { at: line.whole(), most: MOST_COLUMNS, what: "columns" });
+    }
     let mut names: Vec<String> = Vec::with_capacity(record.len());
     for (index, cell) in record.iter().enumerate() {
         let name = text_of(cell.trim_ascii());

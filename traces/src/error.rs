@@ -3,6 +3,8 @@
 use std::fmt;
 use std::path::PathBuf;
 
+use crate::number::LARGEST;
+
 /// A place in a file; what is not known is left out of the message.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct At {
@@ -57,6 +59,14 @@ pub enum TraceError {
         /// What the system said.
         source: std::io::Error,
     },
+    /// The file is longer than any that is taken, or does not end.
+    #[error("{}: found more than {most} bytes, expected a shorter file", path.display())]
+    TooLong {
+        /// The file.
+        path: PathBuf,
+        /// Most bytes.
+        most: u64,
+    },
     /// The file is of another kind.
     #[error("{}: found {found}, expected {expected}", path.display())]
     Kind {
@@ -74,6 +84,16 @@ pub enum TraceError {
         at: At,
         /// What there is.
         found: &'static str,
+    },
+    /// More of something than memory and patience hold.
+    #[error("{at}: found more {what}, expected at most {most}")]
+    TooMany {
+        /// Where they become too many.
+        at: At,
+        /// How many may be.
+        most: usize,
+        /// What there is.
+        what: &'static str,
     },
     /// The first line holds numbers or names that cannot be used.
     #[error("{at}: found {found}, expected {expected}")]
@@ -132,6 +152,21 @@ pub enum TraceError {
         name: String,
         /// Its type.
         found: String,
+    },
+    /// A number of a binary file that no quantity reaches.
+    #[error(
+        "{}: column `{name}`: found {found:e} in row {row}, expected a finite number up to {LARGEST:e}",
+        path.display()
+    )]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// The row, from 1.
+        row: usize,
+        /// The column.
+        name: String,
+        /// The number.
+        found: f64,
     },
     /// A column of a binary file that is packed in a way we do not read.
     #[error(

@@ -1,10 +1,32 @@
 //! A file of columns, whatever its format.
 
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 use crate::error::TraceError;
 use crate::table::Table;
 use crate::{csv, parquet};
+
+/// Longest file that is taken, bytes: ten million rows of three columns.
+pub const LONGEST_BYTES: u64 = 256 << 20;
+
+/// Reads a file whole, once, so that it may be a pipe; refuses one that does not end.
+///
+/// # Errors
+///
+/// What the system says, and more than `most` bytes.
+pub fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, TraceError> {
+    let unreadable = |source| TraceError::Read { path: path.to_owned(), source };
+    let file = File::open(path).map_err(unreadable)?;
+    let length = file.metadata().map_or(0, |found| found.len().min(most));
+    let mut bytes = Vec::with_capacity(usize::try_from(length).unwrap_or(0) + 1);
+    file.take(most + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+    if most < bytes.len() as u64 {
+        return Err(TraceError::TooLong { path: path.to_owned(), most });
+    }
+    Ok(bytes)
+}
 
 /// Reads a table of numbers, CSV or Parquet by what the file begins with.
 ///
@@ -13,8 +35,15 @@ use crate::{csv, parquet};
 /// Whatever is wrong with the file, with its place; see [`csv::read_csv`] and
 /// [`parquet::read_parquet`].
 pub fn read_table(path: &Path) -> Result<Table, TraceError> {
-    let bytes =
-        std::fs::read(path).map_err(|source| TraceError::Read { path: path.to_owned(), source })?;
+    table_of(read_bytes(path, LONGEST_BYTES)?, path)
+}
+
+/// As [`read_table`], from bytes already at hand; `path` is for messages only.
+///
+/// # Errors
+///
+/// As [`read_table`].
+pub fn table_of(bytes: Vec<u8>, path: &Path) -> Result<Table, TraceError> {
     if bytes.starts_with(b"PAR1") {
         return parquet::read_parquet(bytes, path);
     }

@@ -17,6 +17,7 @@ pub mod vcd;
 
 pub use capture::{Capture, CapturedSignal, read_capture};
 pub use error::{At, TraceError};
-pub use file::read_table;
+pub use file::{LONGEST_BYTES, read_bytes, read_table, table_of};
+pub use number::{LARGEST, in_range};
 pub use table::{Column, Table, TextColumn};
 pub use vcd::{Tick, Variable, VcdReader, VcdWriter};

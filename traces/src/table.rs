@@ -4,6 +4,11 @@ use std::path::PathBuf;
 
 use crate::error::{At, TraceError};
 
+/// Most columns of a table; an instrument has some twenty.
+pub(crate) const MOST_COLUMNS: usize = 4096;
+/// Most cells of a table: 400 MB of numbers.
+pub(crate) const MOST_CELLS: usize = 50_000_000;
+
 /// One column: its name, with the unit in it, and a number a row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {

@@ -8,6 +8,7 @@ use anyhow::Context;
 use clap::Parser;
 use xtask::prove::{Sources, document, rows};
 use xtask::same_output::SameOutput;
+use xtask::sbom::sbom;
 use xtask::setup::Tools;
 
 /// Work on the project itself
@@ -28,6 +29,8 @@ enum Task {
         #[arg(long, conflicts_with = "short")]
         write: bool,
     },
+    /// Print what the command is made of, as SPDX
+    Sbom,
     /// Hold everything the command writes and says against what it did at a commit
     SameOutput(SameOutput),
 }
@@ -51,6 +54,10 @@ fn run(task: Task, out: &mut impl Write) -> anyhow::Result<bool> {
     match task {
         Task::Check { no_install } => check(root, no_install, out),
         Task::Prove { short, write } => prove(root, short, write, out),
+        Task::Sbom => {
+            write!(out, "{}", sbom(root)?)?;
+            Ok(true)
+        }
         Task::SameOutput(task) => task.run(root, out),
     }
 }
@@ -75,7 +82,21 @@ fn check(root: &Path, no_install: bool, out: &mut impl Write) -> anyhow::Result<
             return Ok(false);
         }
     }
-    Ok(true)
+    deny(&path, out)
+}
+
+/// Licences, bans and origins by `cargo deny`, where it is installed; `tests/licences.rs` holds to
+/// the same rules without it.
+fn deny(path: &std::ffi::OsStr, out: &mut impl Write) -> anyhow::Result<bool> {
+    let mut version = Command::new("cargo");
+    version.args(["deny", "--version"]).env("PATH", path);
+    if !version.output().context("`cargo` cannot be started")?.status.success() {
+        writeln!(out, "cargo-deny is not installed: bans are not checked")?;
+        return Ok(true);
+    }
+    let mut cargo = Command::new("cargo");
+    cargo.args(["deny", "check", "bans", "licenses", "sources"]).env("PATH", path);
+    Ok(cargo.status().context("`cargo` cannot be started")?.success())
 }
 
 /// Everything that can be said of the emitted Verilog, as a table.

@@ -7,24 +7,53 @@ use super::table::{CorrectionTable, Direction, LookUp};
 /// Rows a LinuxCNC compensation file may have for each joint.
 pub const LINUXCNC_ROWS: usize = 256;
 
+/// A compensation file for LinuxCNC, and what its few rows lose.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinuxCnc {
+    /// The file.
+    pub text: String,
+    /// How many places make a row.
+    pub every: usize,
+    /// Largest difference at a place left out between its correction and the line between rows, µm.
+    pub lost_um: f64,
+}
+
 /// LinuxCNC compensation file of `COMP_FILE_TYPE = 0`: nominal position, then where the joint
 /// really is moving forward and moving backward, in mm, ascending.
 ///
 /// LinuxCNC takes 256 rows and interpolates between them, so a longer table is thinned to every
-/// second, third … place, the last one kept; the second value says how many places make a row.
+/// second, third … place, the last one kept.
 #[must_use]
-pub fn linuxcnc_file(table: &CorrectionTable) -> (String, usize) {
+pub fn linuxcnc_file(table: &CorrectionTable) -> LinuxCnc {
     let places: Vec<f64> = table.places_mm().collect();
     let every = places.len().saturating_sub(1).div_ceil(LINUXCNC_ROWS - 1).max(1);
     let mut text = String::new();
     let last = places.len().saturating_sub(1);
-    let rows = (0..last).step_by(every).chain(std::iter::once(last));
-    for place in rows.filter_map(|index| places.get(index)) {
+    let rows: Vec<usize> = (0..last).step_by(every).chain(std::iter::once(last)).collect();
+    for place in rows.iter().filter_map(|index| places.get(*index)) {
         let [forward, backward] = actual_mm(table, *place);
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{place:.4} {forward:.6} {backward:.6}");
     }
-    (text, every)
+    let corrections: Vec<[f64; 2]> =
+        places.iter().map(|place| corrections_um(table, *place)).collect();
+    LinuxCnc { text, every, lost_um: lost_um(&corrections, &rows) }
+}
+
+/// Largest difference between corrections and straight lines between those of some rows, µm.
+#[expect(clippy::cast_precision_loss, reason = "an image holds some two thousand places")]
+fn lost_um(corrections: &[[f64; 2]], rows: &[usize]) -> f64 {
+    let mut lost_um = 0.0_f64;
+    for (&from, &to) in rows.iter().zip(rows.iter().skip(1)) {
+        for place in from..to {
+            let share = (place - from) as f64 / (to - from) as f64;
+            for way in 0..2 {
+                let line = corrections[from][way] * (1.0 - share) + corrections[to][way] * share;
+                lost_um = lost_um.max((corrections[place][way] - line).abs());
+            }
+        }
+    }
+    lost_um
 }
 
 /// Nominal and actual positions as CSV: what Heidenhain's and Siemens' dialogs ask for.
@@ -94,15 +123,18 @@ mod tests {
 
     #[test]
     fn linuxcnc_triplets() {
-        let (text, every) = linuxcnc_file(&table(3));
-        assert_eq!(every, 1);
+        let LinuxCnc { text, every, lost_um } = linuxcnc_file(&table(3));
+        assert!(every == 1 && lost_um.abs() < 1e-12);
         assert_eq!(text.lines().nth(1), Some("1.0000 1.001000 0.998000"));
     }
 
     #[test]
     fn linuxcnc_takes_256_rows() {
-        let (text, every) = linuxcnc_file(&table(1001));
+        let mut long = table(1001);
+        long.forward[2] = 30; // 3 µm between rows of 1 µm
+        let LinuxCnc { text, every, lost_um } = linuxcnc_file(&long);
         assert_eq!(every, 4);
+        assert!((lost_um - 2.0).abs() < 1e-12, "{lost_um}");
         assert!(text.lines().count() <= LINUXCNC_ROWS);
         assert!(text.lines().last().unwrap().starts_with("1000.0000"));
     }

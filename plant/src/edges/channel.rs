@@ -1,10 +1,10 @@
 //! One pulse train: its reading as a function of time, and the moment it reaches the next pulse.
 
-use super::SHORTEST_S;
-use crate::motion::{Motion, Stretch};
+use super::{MOST_OWED, SHORTEST_S};
+use crate::motion::{Motion, Stretch, in_reach};
 use crate::piece::Piece;
 use crate::smoothness::combined;
-use crate::{Effect, Entry, Instant, Smoothness};
+use crate::{Effect, EffectError, Entry, Instant, Smoothness};
 
 /// What is left to the root after the last step of Newton's method, s.
 const TOLERANCE_S: f64 = 5e-11;
@@ -56,6 +56,10 @@ pub(super) struct Channel {
     last_s: f64,
     /// Reading's slope at the last root, µm/s.
     slope_um_s: f64,
+    /// Pulses in a row that came later than the reading wanted them.
+    owed: u32,
+    /// Why no more pulses come.
+    pub(super) failure: Option<EffectError>,
     /// When the next pulse comes, s; infinity when none does.
     pub(super) due_s: f64,
 }
@@ -100,9 +104,11 @@ impl Channel {
             passed: 0,
             last_s: f64::NEG_INFINITY,
             slope_um_s: 1000.0 * first.velocity_mm_s,
+            owed: 0,
+            failure: None,
             due_s: 0.0,
         };
-        channel.zero_um = channel.read(motion, first.start_s, 0.0).0;
+        channel.zero_um = channel.read_within(motion, first.start_s, 0.0).0;
         channel.enter(motion, 0);
         channel
     }
@@ -144,18 +150,33 @@ impl Channel {
             if from_s <= stretch.end_s {
                 let span_s = (from_s, guess_s);
                 let root_s = self.root(motion, &stretch, span_s, corrector_um);
-                if root_s <= stretch.end_s {
-                    self.due_s = root_s.max(self.last_s + SHORTEST_S);
+                if root_s <= stretch.end_s && self.failure.is_none() {
+                    self.owe(motion, root_s);
                     return;
                 }
             }
-            if motion.stretches.len() <= self.stretch + 1 {
+            if motion.stretches.len() <= self.stretch + 1 || self.failure.is_some() {
                 self.due_s = f64::INFINITY;
                 return;
             }
             self.enter(motion, self.stretch + 1);
             from_s = from_s.max(stretch.end_s);
             guess_s = from_s;
+        }
+    }
+
+    /// The pulse comes when the reading reaches it, or as soon as the detector can give it.
+    fn owe(&mut self, motion: &Motion, root_s: f64) {
+        self.due_s = root_s.max(self.last_s + SHORTEST_S);
+        self.owed = if root_s < self.due_s { self.owed + 1 } else { 0 };
+        if MOST_OWED < self.owed {
+            let reading = match self.reading {
+                Reading::Laser => "table",
+                Reading::Grating => "grating",
+            };
+            let place = motion.place(self.due_s);
+            self.failure = Some(EffectError::TooFast { reading, most: MOST_OWED, place });
+            self.due_s = f64::INFINITY;
         }
     }
 
@@ -174,6 +195,10 @@ impl Channel {
         let mut time_s = guess_s;
         for _ in 0..NEWTON_STEPS {
             let (reading_um, slope_um_s) = self.read(motion, time_s, corrector_um);
+            if !in_reach(reading_um) {
+                // Beyond the stretch it may be what it likes; inside, the search below finds it.
+                break;
+            }
             if slope_um_s.is_finite() && slope_um_s * stretch.velocity_mm_s > 0.0 {
                 self.slope_um_s = slope_um_s;
             }
@@ -190,10 +215,20 @@ impl Channel {
             }
         }
         let mut reached = |time_s| {
-            let reading_um = self.read(motion, time_s, corrector_um).0;
-            if forward { target_um <= reading_um } else { reading_um <= target_um }
+            let reading_um = self.read_within(motion, time_s, corrector_um).0;
+            let passed = if forward { target_um <= reading_um } else { reading_um <= target_um };
+            passed || !in_reach(reading_um)
         };
         bisect(&mut reached, from_s, stretch.end_s)
+    }
+
+    /// The same inside the stretch, where every value counts.
+    fn read_within(&mut self, motion: &Motion, time_s: f64, corrector_um: f64) -> (f64, f64) {
+        let read = self.read(motion, time_s, corrector_um);
+        if !in_reach(read.0) && self.failure.is_none() {
+            self.failure = Some(motion.out_of_reach(time_s, corrector_um));
+        }
+        read
     }
 
     /// Reading, µm, and its slope, µm/s, without the part of rough effects.

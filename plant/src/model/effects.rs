@@ -114,7 +114,7 @@ impl Reader<'_> {
         }
         let (file, machine) = (section.text("file")?, self.machine?);
         let folder = section.source.path.parent().unwrap_or_else(|| std::path::Path::new(""));
-        match MeasuredCurve::read(&folder.join(file), file, machine) {
+        match MeasuredCurve::read(folder, file, machine) {
             Ok(curve) => Some(Term {
                 name: "measured-curve".into(),
                 entry: Entry::Motion,

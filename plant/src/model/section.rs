@@ -17,6 +17,9 @@ use crate::lead::Lead;
 use crate::nearest::one_of;
 use crate::units::{QuantityError, Unit, read_quantity, spellings};
 
+/// Most gears, and most effects; machines have some ten of either.
+const MOST_TABLES: usize = 500;
+
 /// The text a machine was read from.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Source<'a> {
@@ -114,6 +117,13 @@ impl<'a> Section<'a> {
             span,
             ..self.clone()
         };
+        let tables = item.as_array_of_tables().map_or(0, toml_edit::ArrayOfTables::len);
+        if MOST_TABLES < tables.max(item.as_array().map_or(0, toml_edit::Array::len)) {
+            let found = format!("more than {MOST_TABLES} tables").into();
+            let (at, key) = (self.key_at(key), name.as_str().into());
+            let many = MachineError::Value { at, key, found, expected: "fewer".into() };
+            return self.refuse(many).unwrap_or_default();
+        }
         if let Some(array) = item.as_array_of_tables() {
             return array.iter().map(|table| below(table, table.span())).collect();
         }

@@ -6,7 +6,7 @@ use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value, val
 
 use super::Model;
 use super::section::Source;
-use helixlock_traces::At;
+use helixlock_traces::{At, read_bytes};
 
 use crate::error::MachineError;
 use crate::machine::Machine;
@@ -24,6 +24,9 @@ pub struct MachineFile {
     document: DocumentMut,
 }
 
+/// Longest machine file, bytes; those of the examples have a thousand.
+const LONGEST_BYTES: u64 = 8 << 20;
+
 impl MachineFile {
     /// Reads a machine file.
     ///
@@ -31,14 +34,22 @@ impl MachineFile {
     ///
     /// [`MachineError`] with the place of everything that is wrong.
     pub fn read(path: &Path) -> Result<Self, MachineError> {
-        let cannot = |source| MachineError::Read { path: path.into(), source };
-        let bytes = std::fs::read(path).map_err(cannot)?;
+        Self::read_with_text(path).map(|(file, _)| file)
+    }
+
+    /// Reads a machine file, and gives its text as it stood there.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::read`].
+    pub fn read_with_text(path: &Path) -> Result<(Self, String), MachineError> {
+        let bytes = read_bytes(path, LONGEST_BYTES)?;
         let text = String::from_utf8(bytes).map_err(|error| {
             let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
             let line = 1 + good.iter().fold(0, |lines, byte| lines + usize::from(*byte == b'\n'));
             MachineError::Encoding { path: path.into(), line }
         })?;
-        Self::parse(text.strip_prefix('\u{feff}').unwrap_or(&text), path)
+        Ok((Self::parse(text.strip_prefix('\u{feff}').unwrap_or(&text), path)?, text))
     }
 
     /// Reads the text of a machine file; see [`Model::parse`].

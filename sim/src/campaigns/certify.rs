@@ -103,6 +103,9 @@ pub fn certify(
     let open = open::run_open(&settings, grinder, clock_hz, course.duration_s, progress)?;
     let a_pass = course.clocks() / 2;
     let closed = closed::run_closed(model, &course, &mut |clocks| progress(a_pass + clocks))?;
+    if open.comparisons == 0 || closed.comparisons == 0 {
+        return Err(Error::NoComparison { length_mm: course.length_mm });
+    }
     let lines_per_s = f64::from(model.grating.lines) * model.spindle.speed_rpm / 60.0;
     let provoke = |meeting| {
         let Beat { settings, trains, duration_s } =

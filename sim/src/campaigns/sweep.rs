@@ -30,6 +30,9 @@ pub const FIGURES: &[&str] = &[
     "fault",
 ];
 
+/// Most cases of a sweep: at a tenth of a second each, a day on one core.
+pub const MOST_CASES: u64 = 1_000_000;
+
 /// What is varied.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
@@ -165,11 +168,11 @@ impl DrawnAxis {
 }
 
 impl Plan {
-    /// Number of cases.
+    /// Number of cases; the largest number there is when they are more.
     #[must_use]
     pub fn cases(&self) -> u64 {
-        let grid: u64 = self.grid.iter().map(|axis| axis.values.len() as u64).product();
-        grid.saturating_mul(self.samples)
+        let lengths = self.grid.iter().map(|axis| axis.values.len() as u64);
+        lengths.fold(self.samples, u64::saturating_mul)
     }
 
     /// Names of the columns of [`Case::values`].
@@ -265,12 +268,12 @@ fn split(text: &str) -> Result<(String, String, String), AxisError> {
 }
 
 fn evenly(text: &str, low: &str, rest: &str) -> Result<Vec<f64>, AxisError> {
-    let expected = "LOW..HIGH:COUNT with a COUNT of 2 or more";
+    let expected = "LOW..HIGH:COUNT with a COUNT of 2 to 1000000";
     let wrong = || AxisError::Range { text: text.into(), expected };
     let (high, count) = rest.split_once(':').ok_or_else(wrong)?;
     let (low, high) = (number(text, low)?, number(text, high)?);
     let count: u32 = count.trim().parse().map_err(|_| wrong())?;
-    if count < 2 {
+    if count < 2 || MOST_CASES < u64::from(count) {
         return Err(wrong());
     }
     let step = (high - low) / f64::from(count - 1);
@@ -323,6 +326,14 @@ mod tests {
     }
 
     #[test]
+    fn more_cases_than_can_be_counted_are_not_none() {
+        let axis = Axis::parse("dividers.b=1..65536:65536").unwrap();
+        let plan = Plan { grid: vec![axis; 4], drawn: Vec::new(), samples: 1, seed: 1 };
+        assert_eq!(plan.cases(), u64::MAX);
+        assert!(Axis::parse("dividers.b=1..2:4000000000").is_err());
+    }
+
+    #[test]
     fn a_draw_depends_on_seed_and_case_alone() {
         let draws: Vec<f64> = (0..12).map(|index| plan().case(index).values[2]).collect();
         assert!(draws.iter().all(|draw| (0.5..3.0).contains(draw)));
@@ -344,7 +355,7 @@ mod tests {
         assert!(message("drive.frequency").contains("expected KEY=VALUES"));
         assert!(message("a=1,x,3 Hz").contains("expected a number"), "{}", message("a=1,x,3 Hz"));
         assert!(message("a=1..2 Hz").contains("LOW..HIGH:COUNT"));
-        assert!(message("a=1..2:1 Hz").contains("COUNT of 2 or more"));
+        assert!(message("a=1..2:1 Hz").contains("COUNT of 2 to 1000000"));
         let drawn = DrawnAxis::parse("a=3..1 um").unwrap_err().to_string();
         assert!(drawn.contains("LOW below HIGH"));
     }

@@ -155,7 +155,8 @@ impl<E: Engine, P: Process> ClosedLoop<E, P> {
     ///
     /// # Errors
     ///
-    /// [`Error::PulsesTooFast`], or [`Error::WaveformFull`].
+    /// [`Error::PulsesTooFast`], [`Error::WaveformFull`], or [`Error::Effect`] when an effect has a
+    /// value that no machine could follow.
     pub fn run_until(
         &mut self,
         clock: u64,
@@ -176,7 +177,7 @@ impl<E: Engine, P: Process> ClosedLoop<E, P> {
                 break;
             }
         }
-        Ok(())
+        self.process.failure().map_or(Ok(()), |failure| Err(failure.into()))
     }
 
     fn next_input_change(&self) -> Option<u64> {

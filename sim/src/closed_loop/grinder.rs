@@ -18,13 +18,13 @@ impl Grinder {
     ///
     /// # Errors
     ///
-    /// [`EffectError`] when an effect needs a section of the machine file that is missing.
+    /// Those of [`Edges::new`].
     pub fn new(model: &Model, length_mm: f64) -> Result<Self, EffectError> {
         let mut pass = Pass::forward(model);
         for leg in &mut pass.legs {
             leg.length_mm = length_mm;
         }
-        let edges = Edges::new(model, &pass)?;
+        let mut edges = Edges::new(model, &pass)?;
         let zero_um = edges.place(0.0).lead_error_um;
         Ok(Self { edges, zero_um })
     }
@@ -64,5 +64,9 @@ impl Process for Grinder {
             lead_error_um: place.lead_error_um - self.zero_um,
             correction_um: place.corrector_um,
         }
+    }
+
+    fn failure(&self) -> Option<EffectError> {
+        self.edges.failure()
     }
 }

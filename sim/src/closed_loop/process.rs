@@ -1,5 +1,7 @@
 //! A machine as the loop sees it.
 
+use helixlock_plant::EffectError;
+
 /// What the loop needs of the machine.
 ///
 /// Instants are in s since the start of the run; infinity means that none comes any more.
@@ -16,6 +18,8 @@ pub trait Process {
     fn step(&mut self, time_s: f64, forward: bool);
     /// Where table and workpiece are.
     fn place(&mut self, time_s: f64) -> Place;
+    /// Why no more lines and fringes come, unless the pass is over.
+    fn failure(&self) -> Option<EffectError>;
 }
 
 /// Where the machine is.

@@ -169,6 +169,9 @@ pub fn simulate(
     let plan = course.plan(model, true, probe.as_ref());
     let grinder = Grinder::new(model, course.length_mm)?;
     let mut closed = run_pass(engine, grinder, plan, &mut |now| progress(done + now))?;
+    if open.trace.time_s.is_empty() || closed.trace.time_s.is_empty() {
+        return Err(Error::NoComparison { length_mm: course.length_mm });
+    }
     lag_recorder(model, &mut open.trace);
     lag_recorder(model, &mut closed.trace);
     Ok(Simulation { course, open, closed, left_out })

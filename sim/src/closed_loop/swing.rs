@@ -9,6 +9,8 @@
 
 use std::f64::consts::TAU;
 
+use helixlock_plant::EffectError;
+
 use super::process::{Place, Process};
 
 /// Spindle at constant speed, table swinging.
@@ -99,5 +101,9 @@ impl Process for Swing {
             lead_error_um: self.travel_um(time_s) - nominal_um,
             correction_um: self.progress.correction_um,
         }
+    }
+
+    fn failure(&self) -> Option<EffectError> {
+        None
     }
 }

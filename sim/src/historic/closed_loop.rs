@@ -4,6 +4,7 @@
 //! oscillator ticks: nothing else has a clock here. The oscillator is free-running in the print;
 //! it gets the phase of the synchronous device's, so that both motors step at the same instants.
 
+use helixlock_plant::EffectError;
 use helixlock_rtl::settings::{Range, Settings};
 
 use super::cell::TTL;
@@ -53,7 +54,11 @@ impl<P: Process> HistoricLoop<P> {
     }
 
     /// Runs to an instant, s; gives each comparison with the net steps at its end.
-    pub(crate) fn run(mut self, end_s: f64) -> Vec<(HistoricComparison, i64)> {
+    ///
+    /// # Errors
+    ///
+    /// An effect with a value that no machine could follow.
+    pub(crate) fn run(mut self, end_s: f64) -> Result<Vec<(HistoricComparison, i64)>, EffectError> {
         let mut now_s = 0.0;
         while now_s < end_s {
             let line_s = self.process.next_line_s().max(now_s);
@@ -71,8 +76,11 @@ impl<P: Process> HistoricLoop<P> {
             }
             self.compare();
         }
+        if let Some(failure) = self.process.failure() {
+            return Err(failure);
+        }
         let comparisons = self.cell.comparisons().iter().copied();
-        comparisons.zip(self.steps_at_ends).collect()
+        Ok(comparisons.zip(self.steps_at_ends).collect())
     }
 
     /// The cell takes the pulses that have just been counted.

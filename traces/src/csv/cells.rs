@@ -3,6 +3,7 @@
 use super::place::Line;
 use super::stamp;
 use crate::error::TraceError;
+use crate::number::{LARGEST, in_range};
 use crate::table::{Column, TextColumn, shortened};
 
 pub(super) const CUT_OFF: &str = "\n\nhint: the file ends here, it may have been cut off";
@@ -109,7 +110,7 @@ pub(super) fn told_apart(
     }
 }
 
-/// The cell as a number, NaN when it is empty; `None` when it is anything but finite.
+/// The cell as a number, NaN when it is empty; `None` when it is anything but finite and in range.
 fn number(cell: &[u8]) -> Option<f64> {
     let bare = cell.trim_ascii();
     if bare.len() < cell.len() && cell.contains(&b'\n') {
@@ -119,7 +120,7 @@ fn number(cell: &[u8]) -> Option<f64> {
         return Some(f64::NAN);
     }
     let value: f64 = std::str::from_utf8(bare).ok()?.parse().ok()?;
-    value.is_finite().then_some(value)
+    in_range(value).then_some(value)
 }
 
 /// Text that begins with a letter: what begins with a digit or a sign was meant to be a number.
@@ -132,9 +133,9 @@ fn is_row(text: &str) -> bool {
     text.split_whitespace().all(|word| word.parse::<f64>().is_ok())
 }
 
-/// A number beyond the largest that can be held.
+/// A number beyond the largest that is taken.
 fn is_too_large(text: &str) -> bool {
-    text.parse::<f64>().is_ok_and(f64::is_infinite)
+    text.parse::<f64>().is_ok_and(|value| LARGEST < value.abs())
 }
 
 /// Why a cell is likely no number; empty when there is nothing to say.
@@ -153,7 +154,7 @@ fn hint(found: &str, line: &Line) -> &'static str {
     } else if found.starts_with('\u{2212}') {
         "\n\nhint: write minus as `-`"
     } else if matches!(word.as_str(), "inf" | "infinity") || is_too_large(found) {
-        "\n\nhint: only finite numbers can be used"
+        "\n\nhint: only finite numbers up to 1e30 can be used"
     } else {
         ""
     }

@@ -11,10 +11,11 @@ use ::parquet::schema::types::ColumnDescriptor;
 use bytes::Bytes;
 
 use crate::error::{At, TraceError};
-use crate::table::{Column, Table};
+use crate::number::LARGEST;
+use crate::table::{Column, MOST_CELLS, MOST_COLUMNS, Table};
 
-/// What fits into the memory of an ordinary machine: 800 MB a column.
-const MOST_ROWS: usize = 100_000_000;
+/// Most bytes that the pages of a file may unpack to.
+const MOST_UNPACKED: i64 = 1 << 30;
 
 /// Lets plain numbers and truth values through.
 pub(super) fn check_type(
@@ -45,25 +46,41 @@ pub(super) fn is_text(column: &ColumnDescriptor) -> bool {
 
 /// Rows that the footer declares; a few bytes can stand for any number of equal ones.
 pub(super) fn declared_rows(file: &SerializedFileReader<Bytes>) -> Result<usize, ParquetError> {
+    let columns = file.metadata().file_metadata().schema_descr().num_columns();
+    if MOST_COLUMNS < columns {
+        let message = format!("found {columns} columns, expected at most {MOST_COLUMNS}");
+        return Err(ParquetError::General(message));
+    }
+    let most = MOST_CELLS / columns.max(1);
     let groups = file.metadata().row_groups().iter().map(RowGroupMetaData::num_rows);
     let rows = groups.map(|rows| usize::try_from(rows).ok()).sum::<Option<usize>>();
-    rows.filter(|rows| *rows <= MOST_ROWS).ok_or_else(|| {
-        ParquetError::General(format!("found another number of rows, expected 0 to {MOST_ROWS}"))
+    rows.filter(|rows| *rows <= most).ok_or_else(|| {
+        ParquetError::General(format!(
+            "found another number of rows, expected 0 to {most} of {columns} columns"
+        ))
     })
 }
 
-/// Refuses columns that lie outside the file, on which the library would panic.
+/// Refuses columns that lie outside the file, on which the library would panic, and more pages than
+/// memory takes.
 pub(super) fn check_places(
     file: &SerializedFileReader<Bytes>,
     size: usize,
 ) -> Result<(), ParquetError> {
+    let mut unpacked = 0_i64;
     for column in file.metadata().row_groups().iter().flat_map(RowGroupMetaData::columns) {
+        unpacked = unpacked.saturating_add(column.uncompressed_size().max(0));
         let start = column.dictionary_page_offset().unwrap_or(column.data_page_offset());
         let end = start.checked_add(column.compressed_size());
         let inside = |place: i64| usize::try_from(place).is_ok_and(|place| place <= size);
         if column.compressed_size() < 0 || !inside(start) || !end.is_some_and(inside) {
             return Err(ParquetError::General("a column lies outside the file".into()));
         }
+    }
+    if MOST_UNPACKED < unpacked {
+        let message =
+            format!("its pages unpack to {unpacked} bytes, expected at most {MOST_UNPACKED}");
+        return Err(ParquetError::General(message));
     }
     Ok(())
 }
@@ -107,7 +124,7 @@ fn is_plain(logical: Option<&LogicalType>) -> bool {
     matches!(logical, None | Some(LogicalType::Integer(_)))
 }
 
-/// Refuses columns of unequal length, infinite values, and a table without rows.
+/// Refuses columns of unequal length, values out of range, and a table without rows.
 pub(super) fn check_rows(table: &Table) -> Result<(), TraceError> {
     let rows = table.rows();
     let broken = |message: String| TraceError::Parquet { path: table.path.clone(), message };
@@ -115,11 +132,12 @@ pub(super) fn check_rows(table: &Table) -> Result<(), TraceError> {
         if values.len() != rows {
             return Err(broken(format!("column `{name}` has {} rows of {rows}", values.len())));
         }
-        if let Some(row) = values.iter().position(|value| value.is_infinite()) {
-            return Err(TraceError::ColumnType {
+        if let Some(row) = values.iter().position(|value| LARGEST < value.abs()) {
+            return Err(TraceError::TooLarge {
                 path: table.path.clone(),
+                row: row + 1,
                 name: name.clone(),
-                found: format!("infinity in row {}", row + 1),
+                found: values[row],
             });
         }
     }

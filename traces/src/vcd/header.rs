@@ -11,6 +11,13 @@ use crate::vcd::Tick;
 use crate::vcd::plain::{plain, with_blanks};
 use crate::vcd::reader::{Signal, dump_error, line_number};
 
+/// Deepest nesting of scopes; designs have some ten.
+const MOST_SCOPES: usize = 256;
+/// Most signals; an analyser has some sixteen, a large design some ten thousand.
+const MOST_SIGNALS: usize = 200_000;
+/// Most bytes of all their paths.
+const MOST_LETTERS: usize = 64 << 20;
+
 /// What stands before `$enddefinitions`.
 pub(super) struct Header {
     pub(super) tick: Tick,
@@ -23,8 +30,8 @@ pub(super) struct Header {
 }
 
 /// Reads the declarations and leaves the reader behind them.
-pub(super) fn read_header(reader: &mut impl BufRead, path: &Path) -> Result<Header, TraceError> {
-    let HeaderText { text, rest, lines } = header_text(reader, path)?;
+pub(super) fn read_header(reader: &mut impl BufRead, file: &Path) -> Result<Header, TraceError> {
+    let HeaderText { text, rest, lines } = header_text(reader, file)?;
     let mut header = Header {
         tick: Tick::NANOSECOND,
         signals: Vec::new(),
@@ -32,12 +39,20 @@ pub(super) fn read_header(reader: &mut impl BufRead, path: &Path) -> Result<Head
         lines,
         rest,
     };
-    let (mut scopes, mut has_tick) = (Vec::new(), false);
+    let (mut scopes, mut has_tick, mut letters) = (Vec::new(), false, 0);
     let mut plain = plain(&text);
     plain.push(b'\n'); // the parser wants every word ended
     let mut parser = Parser::new(plain.as_slice());
     while let Some(command) = parser.next() {
-        match command.map_err(|error| dump_error(&error, path, line_number(parser.line())))? {
+        match command.map_err(|error| dump_error(&error, file, line_number(parser.line())))? {
+            Command::ScopeDef(..) if scopes.len() == MOST_SCOPES => {
+                return Err(too_many(
+                    file,
+                    line_number(parser.line()),
+                    MOST_SCOPES,
+                    "scopes inside one another",
+                ));
+            }
             Command::ScopeDef(_, name) => scopes.push(name),
             Command::Upscope => drop(scopes.pop()),
             Command::Timescale(count, unit) => {
@@ -53,12 +68,25 @@ pub(super) fn read_header(reader: &mut impl BufRead, path: &Path) -> Result<Head
                 let channel = *header.channels.entry(code).or_insert(next);
                 let path = scopes.iter().chain([&name]).cloned().collect::<Vec<_>>().join(".");
                 let path = with_blanks(&path);
+                letters += path.len();
+                if MOST_SIGNALS == header.signals.len() || MOST_LETTERS < letters {
+                    return Err(too_many(
+                        file,
+                        line_number(parser.line()),
+                        MOST_SIGNALS,
+                        "signals",
+                    ));
+                }
                 header.signals.push(Signal { path, width, real: kind == VarType::Real, channel });
             }
             _ => {}
         }
     }
-    if has_tick { Ok(header) } else { Err(no_tick(path, lines)) }
+    if has_tick { Ok(header) } else { Err(no_tick(file, lines)) }
+}
+
+fn too_many(path: &Path, line: usize, most: usize, what: &'static str) -> TraceError {
+    TraceError::TooMany { at: At::file(path).on_line(line), most, what }
 }
 
 fn no_tick(path: &Path, lines: usize) -> TraceError {
@@ -88,7 +116,7 @@ struct HeaderText {
 /// Cuts the declarations off, which the end of a line need not do.
 fn header_text(reader: &mut impl BufRead, path: &Path) -> Result<HeaderText, TraceError> {
     const LAST: &[u8] = b"$enddefinitions";
-    let (mut text, mut lines, mut searched) = (Vec::new(), 0, 0);
+    let (mut text, mut lines, mut searched, mut begun) = (Vec::new(), 0, 0, false);
     loop {
         let read = reader
             .read_until(b'\n', &mut text)
@@ -98,7 +126,8 @@ fn header_text(reader: &mut impl BufRead, path: &Path) -> Result<HeaderText, Tra
             // sigrok-cli puts this before a dump that it made from another one.
             text = b"\n".to_vec();
         }
-        let first = text.trim_ascii_start().first();
+        let first = if begun { None } else { text[searched..].trim_ascii_start().first() };
+        begun |= first.is_some();
         if first.is_some_and(|first| *first != b'$') {
             return Err(TraceError::Dump {
                 at: At::file(path).on_line(lines),

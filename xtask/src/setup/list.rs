@@ -37,6 +37,7 @@ pub const PACKAGES: &[Package] = &[
     debian("g++", &["g++"]),
     debian("make", &["make"]),
     debian("mawk", &["awk"]),
+    debian("strace", &["strace"]),
     debian("chromium", &["chromium"]),
     debian("nodejs", &["node"]),
     debian("npm", &["npm"]),

@@ -23,7 +23,7 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use helixlock_plant::Model;
+use helixlock_plant::{EffectError, Model};
 
 use crate::Error;
 use crate::closed_loop::{
@@ -77,7 +77,7 @@ pub(super) fn run_closed(
     let ticks = Ticks { next: first_step % period, period, clock_hz };
     let grinder = Grinder::new(model, course.length_mm)?;
     let gate_s = GATE_CLOCKS / clock_hz;
-    let old = HistoricLoop::new(settings, gate_s, ticks, grinder).run(course.duration_s);
+    let old = HistoricLoop::new(settings, gate_s, ticks, grinder).run(course.duration_s)?;
     let comparisons: Vec<_> = new.with_steps().zip(old).collect();
     let ticks_a_comparison = ceil(course.dialled.step_frequency_hz / course.comparison_hz) + 1;
     let bound_steps = 2 * ticks_a_comparison + 2;
@@ -210,5 +210,9 @@ impl Process for Noted {
 
     fn place(&mut self, time_s: f64) -> Place {
         self.grinder.place(time_s)
+    }
+
+    fn failure(&self) -> Option<EffectError> {
+        self.grinder.failure()
     }
 }

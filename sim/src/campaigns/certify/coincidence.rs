@@ -2,6 +2,7 @@
 //! comparison to the next, so that the laser's edge comes before, at and behind the middle of the
 //! period, or its ends, in steps far below a clock.
 
+use helixlock_plant::EffectError;
 use helixlock_rtl::settings::{Range, Settings};
 
 use crate::closed_loop::{Place, Process};
@@ -99,5 +100,9 @@ impl Process for Trains {
 
     fn place(&mut self, _: f64) -> Place {
         Place::default()
+    }
+
+    fn failure(&self) -> Option<EffectError> {
+        None
     }
 }

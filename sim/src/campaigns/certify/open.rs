@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
+use helixlock_plant::EffectError;
 use helixlock_rtl::settings::Settings;
 
 use crate::Error;
@@ -168,5 +169,9 @@ impl<P: Process> Process for Both<P> {
 
     fn place(&mut self, time_s: f64) -> Place {
         self.process.place(time_s)
+    }
+
+    fn failure(&self) -> Option<EffectError> {
+        self.process.failure()
     }
 }
