@@ -81,7 +81,7 @@ fn the_same_machine_gives_the_same_bytes() {
     let [one, other] = ["one", "other"].map(|name| {
         let output = folder.path().join(name);
         assert!(generate(Path::new(MACHINE), &output, &["--synth"]).status.success());
-        ["build/board_shell.bin", "rtl/device.v", "test/vectors.txt", "Makefile"]
+        ["build/board_shell.bin", "rtl/device.v", "test/board_shell_vectors.txt", "Makefile"]
             .map(|file| fs::read(output.join(file)).unwrap())
     });
     assert!(one == other);
@@ -161,5 +161,104 @@ fn the_help_names_the_boards_of_the_folder() {
         let text = fs::read_to_string(entry.expect("it can be listed").path()).expect("text");
         let name = text.lines().find_map(|line| line.strip_prefix("# board:")).expect("a name");
         assert!(help.contains(name.trim()), "{name}: {help}");
+    }
+}
+
+/// A core for others: its modules under a prefix, its ports said what for, its licence and how to
+/// use it; linters and synthesis take it.
+#[test]
+fn a_prefix_goes_before_every_module() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let output = folder.path().join("out");
+    assert!(generate(Path::new(MACHINE), &output, &["--prefix", "hl_"]).status.success());
+    for entry in fs::read_dir(output.join("rtl")).expect("the Verilog is there") {
+        let path = entry.expect("it can be listed").path();
+        let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
+        let text = fs::read_to_string(&path).expect("text");
+        assert!(name.starts_with("hl_") && text.contains(&format!("module {name} (")), "{name}");
+        assert!(text.starts_with("// SPDX-License-Identifier: MIT OR Apache-2.0\n"), "{name}");
+    }
+    let device = fs::read_to_string(output.join("rtl/hl_device.v")).expect("text");
+    assert!(device.contains("    // laser: interference fringes, likewise\n"), "{device}");
+    let template = fs::read_to_string(output.join("templates/hl_device.v")).expect("text");
+    assert!(template.contains("hl_device hl_device_0 (\n    .clock(),"), "{template}");
+    let lint = Command::new("make").arg("lint").current_dir(&output).output().expect("make");
+    assert!(lint.status.success(), "{}", String::from_utf8_lossy(&lint.stderr));
+    let said = failure(&generate(Path::new(MACHINE), &output, &["--prefix", "7-"]));
+    assert!(said.contains("`7-level_synchroniser` is no identifier"), "{said}");
+}
+
+/// The range of the machine file is in the design; pins are those that are asked for.
+#[test]
+fn pins_are_those_asked_for() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let pins = |words: &[&str]| {
+        let output = generate(Path::new(MACHINE), folder.path(), words);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let said: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        let shell = fs::read_to_string(folder.path().join("rtl/board_shell.v")).expect("text");
+        let ports = said["pins"].as_array().expect("pins").iter();
+        let ports = ports.map(|pin| pin["port"].as_str().expect("a port").to_owned());
+        (ports.collect::<Vec<_>>(), shell)
+    };
+    let (plain, shell) = pins(&[]);
+    assert!(shell.contains("localparam range_set = 1'b1;"), "{shell}");
+    for pin in ["range_x2", "enable", "emergency_stop"] {
+        assert!(!plain.iter().any(|port| port == pin), "{pin}");
+    }
+    let (all, shell) = pins(&["--pins", "range,enable,emergency-stop"]);
+    assert!(shell.contains("localparam range_set = 1'b0;"), "{shell}");
+    for pin in ["range_x2", "enable", "emergency_stop"] {
+        assert!(all.iter().any(|port| port == pin), "{pin}");
+    }
+    assert_eq!(all.len(), plain.len() + 3);
+}
+
+/// Words in a title that tools take for orders stay words.
+#[test]
+fn a_title_is_no_pragma() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let title = "x\\nsynopsys translate_off\\nverilator lint_off";
+    let machine = machine_with(&folder, "title = \"", &format!("title = \"{title} "));
+    let output = folder.path().join("out");
+    assert!(generate(&machine, &output, &[]).status.success());
+    let shell = fs::read_to_string(output.join("rtl/board_shell.v")).expect("text");
+    for line in shell.lines().filter_map(|line| line.trim().strip_prefix("//")) {
+        let word = line.split_whitespace().next().unwrap_or_default();
+        assert!(!["synopsys", "verilator", "synthesis", "pragma"].contains(&word), "{line}");
+    }
+    assert!(shell.contains("// | synopsys translate_off"), "{shell}");
+}
+
+/// A number no counter holds, and a board without room for a pin.
+#[test]
+fn options_that_do_not_fit_are_refused() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let said = |words: &[&str]| failure(&generate(Path::new(MACHINE), folder.path(), words));
+    assert!(said(&["--glitch-clocks", "16"]).contains("glitch filter is `16`, expected 0 to 15"));
+    assert!(said(&["--debounce", "16"]).contains("debouncing is `16`, expected 0 to 15"));
+    assert!(said(&["--watchdog", "4096"]).contains("watchdog is `4096`, expected 0 to 4095"));
+    let unpinned = said(&["--board", "hx8k", "--pins", "enable"]);
+    assert!(unpinned.contains("hx8k.pcf: found no pin for [enable]"), "{unpinned}");
+}
+
+/// A broken wire is a level: every input of every board has its pull-up.
+#[test]
+fn every_input_is_pulled_up() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let shell = fs::read_to_string(root.join("tests/golden/board_shell.v")).expect("text");
+    let ports = shell.lines().filter_map(|line| line.trim().strip_prefix("input  wire"));
+    let last = |line: &str| line.trim_end_matches(',').rsplit(' ').next().unwrap_or("").to_owned();
+    let inputs: Vec<String> = ports.map(last).filter(|port| port != "clock").collect();
+    assert!(inputs.iter().any(|port| port == "laser"), "{inputs:?}");
+    for entry in fs::read_dir(root.join("constraints")).expect("the folder is there") {
+        let path = entry.expect("it can be listed").path();
+        let text = fs::read_to_string(&path).expect("text");
+        for line in text.lines().filter(|line| line.starts_with("set_io ")) {
+            let set = line.split('#').next().unwrap_or_default();
+            let port = set.split_ascii_whitespace().rev().nth(1).unwrap_or_default();
+            let is_input = inputs.iter().any(|input| port.split('[').next() == Some(input));
+            assert_eq!(set.contains("-pullup yes"), is_input, "{}: {line}", path.display());
+        }
     }
 }

@@ -4,16 +4,14 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use expect_test::expect_file;
-use helixlock_netlist::{Design, Library, elaborate};
+use helixlock_netlist::{Design, elaborate};
 use helixlock_rtl::BLOCKS;
+use helixlock_sim::library;
 
 /// The block of that name, its inner blocks named as in [`BLOCKS`].
 pub(crate) fn design_of(name: &str) -> Design {
-    let library = BLOCKS.iter().fold(Library::new(), |library, card| {
-        library.with(card.name, card.summary, (card.build)())
-    });
     let card = BLOCKS.iter().find(|card| card.name == name).expect("the block is listed");
-    elaborate(card.name, &*(card.build)(), &library).expect("the design is sound")
+    elaborate(card.name, &*(card.build)(), &library()).expect("the design is sound")
 }
 
 /// The device in its shell.

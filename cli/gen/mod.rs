@@ -1,5 +1,8 @@
 //! `helixlock gen`: the device on an FPGA board.
 
+mod bench;
+mod device_vectors;
+mod options;
 mod summary;
 mod vectors;
 mod written;
@@ -10,13 +13,15 @@ use std::process::ExitCode;
 
 use anyhow::bail;
 use clap::Args;
-use helixlock_gen::{Board, Project, Synthesis, project, synthesise};
-use helixlock_netlist::{Library, Netlist, elaborate};
+use helixlock_gen::{Bench, Board, Project, Synthesis, prefix, project, synthesise};
+use helixlock_netlist::{Design, Netlist, elaborate};
 use helixlock_plant::{Machine, Model};
-use helixlock_rtl::BLOCKS;
 use helixlock_rtl::board_shell::BoardShell;
-use helixlock_sim::settings_for;
+use helixlock_rtl::settings::{Conditioning, Settings};
+use helixlock_sim::{library, settings_for};
 
+use self::device_vectors::device_vectors;
+use self::options::Options;
 use self::summary::Summary;
 use self::vectors::vectors;
 use self::written::Written;
@@ -27,8 +32,8 @@ const TOP: &str = "board_shell";
 
 /// Verilog, constraints, test bench and Makefile for an FPGA board
 ///
-/// Dividers, initial phase, compensation and step clock of the machine file become constants of
-/// the design; inputs, switches and drives become pins. With `--synth` the bitstream is built too.
+/// Dividers, range, initial phase, compensation and step clock of the machine file become constants
+/// of the design; inputs, switches and drives become pins. With `--synth` the bitstream is built too.
 #[derive(Debug, Args)]
 pub(crate) struct Gen {
     /// Machine file
@@ -45,6 +50,8 @@ pub(crate) struct Gen {
     /// Run yosys, nextpnr-ice40, icetime and icepack; exit 1 if the clock is too fast for it
     #[arg(long)]
     synth: bool,
+    #[command(flatten)]
+    options: Options,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -69,16 +76,33 @@ impl Gen {
         let file_clock_hz = machine.fpga.clock_hz;
         machine.fpga.clock_hz = 1e6 * f64::from(board.clock_mhz);
         let dialled = settings_for(&machine)?;
-        let shell = BoardShell::connected(&dialled.settings)?;
-        let library = BLOCKS.iter().fold(Library::new(), |library, card| {
-            library.with(card.name, card.summary, (card.build)())
-        });
-        let mut design = elaborate(TOP, &shell, &library)?;
+        let conditioning = self.options.conditioning(&board)?;
+        let mut design = design(&dialled.settings, &conditioning, &self.options)?;
         describe(&mut design, &machine, &board);
-        let vectors = vectors(Netlist::new(&design)?, &dialled.settings);
-        let project = project(&design, &board, &vectors)?;
+        let netlist = Netlist::new(&design)?;
+        prefix(&mut design, &self.options.prefix);
+        let benches = [
+            Bench {
+                module: format!("{}{TOP}", self.options.prefix),
+                vectors: vectors(netlist, &dialled.settings, &conditioning),
+                constants: constants(&dialled.settings, &conditioning)?,
+            },
+            Bench {
+                module: format!("{}device", self.options.prefix),
+                vectors: device_vectors()?,
+                constants: vec![],
+            },
+        ];
+        let project = project(&design, &board, &benches)?;
         let synthesis = self.build(&project, &board)?;
-        let summary = Summary::new(&project, &board, &dialled, file_clock_hz, synthesis.as_ref());
+        let summary = Summary::new(
+            &project,
+            &board,
+            &board.pins_of(design.top()),
+            &dialled,
+            file_clock_hz,
+            synthesis.as_ref(),
+        );
         if self.json {
             print_json(out, &summary)?;
         } else {
@@ -139,8 +163,30 @@ impl Gen {
     }
 }
 
+/// The board shell with these settings, and the pins that are asked for.
+fn design(
+    settings: &Settings,
+    conditioning: &Conditioning,
+    options: &Options,
+) -> anyhow::Result<Design> {
+    let shell = BoardShell::connected(settings, conditioning)?;
+    let mut design = elaborate(TOP, &shell, &library())?;
+    options.leave_out_pins(&mut design)?;
+    Ok(design)
+}
+
+/// Levels of the device's settings for ever, but of a range that is a switch.
+fn constants(
+    settings: &Settings,
+    conditioning: &Conditioning,
+) -> anyhow::Result<Vec<(String, u64)>> {
+    let levels = settings.wheels()?.named().into_iter();
+    let fixed = levels.filter(|(name, _)| *name != "range_x2" || !conditioning.range_pin);
+    Ok(fixed.map(|(name, level)| (format!("device.{name}"), level)).collect())
+}
+
 /// Says in the top module's comment which machine and board it is for.
-fn describe(design: &mut helixlock_netlist::Design, machine: &Machine, board: &Board) {
+fn describe(design: &mut Design, machine: &Machine, board: &Board) {
     if let Some(top) = design.modules.last_mut() {
         top.comment = format!(
             "Correction device for \"{}\" on the {}.\nThe device with its wheels set, and the pins \

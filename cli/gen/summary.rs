@@ -14,7 +14,8 @@ use crate::shared::wheels::Wheels;
 keys! {
     /// The project in plain numbers; the JSON of `--json`.
     Summary(
-        project: &Project, board: &Board, dialled: &Dialled, machine_file_clock_hz: f64,
+        project: &Project, board: &Board, pins: &[helixlock_gen::Pin], dialled: &Dialled,
+        machine_file_clock_hz: f64,
         synthesis: Option<&Synthesis>
     ) {
         board: String = board.name.clone(),
@@ -26,7 +27,7 @@ keys! {
         machine_file_clock_hz: f64 = machine_file_clock_hz,
         settings: Wheels = Wheels::new(dialled),
         notes: Vec<String> = board.notes.clone(),
-        pins: Vec<Pin> = board.pins.iter().map(Pin::new).collect(),
+        pins: Vec<Pin> = pins.iter().map(Pin::new).collect(),
         files: Vec<String> = project.files.iter().map(|(name, _)| name.clone()).collect(),
         synthesis: Option<Built> = synthesis.map(Built::new),
     }

@@ -10,7 +10,7 @@ A, B = 110, 150  # dividers of examples/sg7430-6mm, range x2
 PERIOD_CLOCKS = 2 * B * FRINGE_CLOCKS  # of one comparison
 
 INPUTS = (
-    "grating laser start correct playback calibrate manual_step manual_forward range_x2".split()
+    "grating laser start correct playback calibrate manual_step manual_forward".split()
 )
 
 
@@ -50,7 +50,6 @@ async def one_step(dut):
 async def the_phase_starts_in_the_middle(dut):
     """An initial phase of 150 pulses at B = 150, x2 is 180 degrees: T1 is high half the time."""
     await power_up(dut)
-    dut.range_x2.value = 1
     fringe_ps = 1000 * CLOCK_NS * FRINGE_CLOCKS
     cocotb.start_soon(pulses(dut.laser, fringe_ps))
     cocotb.start_soon(pulses(dut.grating, fringe_ps * B / A))

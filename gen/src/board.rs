@@ -52,6 +52,8 @@ pub struct Pin {
     pub pin: String,
     /// Connector and purpose.
     pub note: String,
+    /// The design may lack the port: `-nowarn` in the file.
+    pub optional: bool,
 }
 
 impl Board {
@@ -105,7 +107,14 @@ impl Board {
         })
     }
 
-    /// Checks that every bit of every port has a pin, and every pin a port.
+    /// The pins that the design uses, in order of the file.
+    #[must_use]
+    pub fn pins_of(&self, top: &Module) -> Vec<Pin> {
+        let wanted: Vec<String> = top.ports.iter().flat_map(|port| bits(top, port)).collect();
+        self.pins.iter().filter(|pin| wanted.contains(&pin.port)).cloned().collect()
+    }
+
+    /// Checks that every bit of every port has a pin, and every pin that is not optional a port.
     ///
     /// # Errors
     ///
@@ -113,7 +122,8 @@ impl Board {
     pub fn check(&self, top: &Module) -> Result<(), GenError> {
         let wanted: Vec<String> = top.ports.iter().flat_map(|port| bits(top, port)).collect();
         let without_pin = wanted.iter().filter(|bit| !self.pins.iter().any(|p| p.port == **bit));
-        let without_port = self.pins.iter().filter(|pin| !wanted.contains(&pin.port));
+        let needed = self.pins.iter().filter(|pin| !pin.optional);
+        let without_port = needed.filter(|pin| !wanted.contains(&pin.port));
         let without_pin: Vec<String> = without_pin.cloned().collect();
         let without_port: Vec<String> = without_port.map(|pin| pin.port.clone()).collect();
         if without_pin.is_empty() && without_port.is_empty() {
@@ -125,9 +135,11 @@ impl Board {
 
 fn pin(line: &str) -> Option<Pin> {
     let (set, note) = line.split_once('#').unwrap_or((line, ""));
-    let mut words = set.strip_prefix("set_io ")?.split_ascii_whitespace();
-    let (port, pin) = (words.next()?.to_owned(), words.next()?.to_owned());
-    Some(Pin { port, pin, note: note.trim().to_owned() })
+    let words: Vec<&str> = set.strip_prefix("set_io ")?.split_ascii_whitespace().collect();
+    let [options @ .., port, pin] = words.as_slice() else { return None };
+    let (port, pin) = ((*port).to_owned(), (*pin).to_owned());
+    let optional = options.contains(&"-nowarn");
+    Some(Pin { port, pin, note: note.trim().to_owned(), optional })
 }
 
 /// The bits of a port as constraint files call them.

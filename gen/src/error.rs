@@ -59,6 +59,18 @@ pub enum GenError {
         /// Pins whose port the design does not have.
         without_port: Vec<String>,
     },
+    /// A pin the design does not have.
+    #[error("pin `{pin}` is not one of the design")]
+    NoPort {
+        /// As asked for.
+        pin: String,
+    },
+    /// A module the design does not have.
+    #[error("module `{module}` is not one of the design")]
+    NoModule {
+        /// As asked for.
+        module: String,
+    },
     /// A tool that is not installed.
     #[error("`{tool}` is not installed\nhint: on Debian it is in the package `{package}`")]
     MissingTool {

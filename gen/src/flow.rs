@@ -32,7 +32,7 @@ pub(crate) fn flow(top: &str, sources: &[String], board: &Board) -> Vec<Step> {
          --log build/{top}.nextpnr.log"
     );
     let timing = build("timing");
-    let icetime = format!("-d {device} -P {package} -p {pcf} -m -t -r {timing} {asc}");
+    let icetime = format!("-d {device} -P {package} -m -t -r {timing} {asc}");
     let step = |tool, package, product: String, needs, arguments| Step {
         tool,
         package,

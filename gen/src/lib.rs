@@ -3,6 +3,7 @@
 //! [`verilog`] writes one module a block; [`project`] adds constraints, test bench and Makefile
 //! for a [`Board`]; [`synthesise`] runs the tools on them.
 
+mod adapt;
 mod board;
 mod error;
 mod flow;
@@ -11,14 +12,18 @@ mod lines;
 mod makefile;
 mod names;
 mod project;
+mod synchronisers;
 mod synthesis;
+mod template;
 mod test_bench;
+mod tidy;
 mod unused;
 mod verilog;
 
+pub use adapt::{leave_out, prefix};
 pub use board::{Board, Pin};
 pub use error::GenError;
 pub use project::{Project, project};
 pub use synthesis::{Synthesis, synthesise};
-pub use test_bench::Vector;
+pub use test_bench::{Bench, Vector};
 pub use verilog::verilog;

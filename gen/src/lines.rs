@@ -3,22 +3,6 @@
 /// Longest line.
 const WIDTH: usize = 100;
 
-/// A comment that begins with one of these is a command to some tool.
-const OBEYED: [&str; 12] = [
-    "synopsys",
-    "synthesis",
-    "verilator",
-    "pragma",
-    "translate",
-    "lint",
-    "yosys",
-    "verilog_lint",
-    "coverage",
-    "spyglass",
-    "ambit",
-    "cadence",
-];
-
 /// Text under construction.
 #[derive(Debug, Default)]
 pub(crate) struct Lines {
@@ -63,23 +47,35 @@ impl Lines {
         }
     }
 
-    /// A comment, wrapped at words; no line of it begins as a tool's command does.
-    pub(crate) fn comment(&mut self, text: &str) {
-        for paragraph in text.lines() {
-            let mut line = String::from("//");
-            for word in paragraph.split_whitespace() {
+    /// A comment about something with a name, wrapped at words.
+    ///
+    /// Tools take a comment for an order when it begins with certain words, `synopsys
+    /// translate_off` for one. So the first line begins with the name, all others with a bar,
+    /// wherever the text is broken and whatever its author put there.
+    pub(crate) fn comment(&mut self, name: &str, text: &str) {
+        let mut line = format!("// {name}:");
+        for (index, paragraph) in text.lines().enumerate() {
+            if index > 0 {
+                self.put(4 * self.depth, &line);
+                line = String::from("// |");
+            }
+            for word in paragraph.split(|c: char| c.is_whitespace() || c.is_control()) {
                 if 4 * self.depth + line.chars().count() + 1 + word.chars().count() > WIDTH {
                     self.put(4 * self.depth, &line);
-                    line = String::from("//");
+                    line = String::from("// |");
                 }
-                if line == "//" && OBEYED.iter().any(|tool| starts_with(word, tool)) {
-                    line.push_str(" -");
+                if !word.is_empty() {
+                    line.push(' ');
+                    line.push_str(word);
                 }
-                line.push(' ');
-                line.push_str(word);
             }
-            self.put(4 * self.depth, &line);
         }
+        self.put(4 * self.depth, &line);
+    }
+
+    /// A comment of our own, as it is.
+    pub(crate) fn remark(&mut self, text: &str) {
+        self.put(4 * self.depth, &format!("// {text}"));
     }
 
     pub(crate) fn finish(self) -> String {
@@ -93,10 +89,6 @@ impl Lines {
         self.text.push_str(line);
         self.text.push('\n');
     }
-}
-
-fn starts_with(word: &str, tool: &str) -> bool {
-    word.get(..tool.len()).is_some_and(|start| start.eq_ignore_ascii_case(tool))
 }
 
 /// Where to break: at the last operator of the outermost parentheses before `limit`.
@@ -124,16 +116,21 @@ fn break_at(line: &str, limit: usize) -> Option<usize> {
 mod tests {
     use super::*;
 
-    /// `// synopsys translate_off` makes a synthesis skip what follows, wherever the words come from.
+    /// However a text is wrapped, no comment begins with a word of it.
     #[test]
-    fn no_comment_is_a_command() {
-        let title = format!("{} Synopsys translate_off\nverilator lint_off", "x".repeat(85));
-        let mut lines = Lines::default();
-        lines.comment(&title);
-        let text = lines.finish();
-        assert!(
-            text.contains("\n// - Synopsys translate_off\n// - verilator lint_off\n"),
-            "{text}"
-        );
+    fn no_comment_can_become_an_order() {
+        for blanks in 0..120 {
+            let mut lines = Lines::default();
+            let text = format!(
+                "{}verilator lint_off\nsynopsys translate_off\r synthesis translate_off\u{b}pragma",
+                "x ".repeat(blanks)
+            );
+            lines.comment("top", &text);
+            let text = lines.finish();
+            assert!(
+                text.lines().all(|line| line.starts_with("// top:") || line.starts_with("// | "))
+            );
+            assert!(!text.contains(['\r', '\u{b}']));
+        }
     }
 }

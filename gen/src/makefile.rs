@@ -6,7 +6,7 @@ use crate::Board;
 use crate::flow::{Step, flow};
 
 /// Makefile with the targets `all`, `prog`, `sim`, `lint`, `clean`.
-pub(crate) fn makefile(top: &str, sources: &[String], board: &Board) -> String {
+pub(crate) fn makefile(top: &str, sources: &[String], tested: &[&str], board: &Board) -> String {
     let steps = flow(top, sources, board);
     let mut text = format!(
         "# {title}: make, make prog, make sim, make lint\n\
@@ -14,10 +14,11 @@ pub(crate) fn makefile(top: &str, sources: &[String], board: &Board) -> String {
          # Debian packages: yosys nextpnr-ice40 fpga-icestorm fpga-icestorm-chipdb;\n\
          # iverilog for sim, verilator for lint\n\n\
          SOURCES := {sources}\n\n\
-         .PHONY: all prog sim lint clean\n\n\
+         .PHONY: all prog sim {sims} lint clean\n\n\
          all: build/{top}.bin build/{top}.timing\n",
         title = board.title,
         sources = sources.join(" \\\n    "),
+        sims = simulations(tested),
     );
     for step in &steps {
         rule(&mut text, step, board, sources);
@@ -25,17 +26,32 @@ pub(crate) fn makefile(top: &str, sources: &[String], board: &Board) -> String {
     // Writing to a string cannot fail.
     let _ = write!(
         text,
-        "\nprog: build/{top}.bin\n\t{program} $<\n\n\
-         sim: test/{top}_tb.sv test/vectors.txt $(SOURCES)\n\
-         \t@mkdir -p build\n\
-         \tiverilog -g2012 -Wall -Wno-timescale -s {top}_tb -o build/{top}_tb test/{top}_tb.sv $(SOURCES)\n\
-         \tvvp -n build/{top}_tb\n\n\
-         lint: $(SOURCES)\n\
+        "\nprog: build/{top}.bin\n\t{program} $<\n\nsim: {sims}\n",
+        program = board.program,
+        sims = simulations(tested),
+    );
+    for module in tested {
+        let _ = write!(
+            text,
+            "\nsim-{module}: test/{module}_tb.sv test/{module}_vectors.txt $(SOURCES)\n\
+             \t@mkdir -p build\n\
+             \tiverilog -g2012 -Wall -Wno-timescale -s {module}_tb -o build/{module}_tb \
+             test/{module}_tb.sv $(SOURCES)\n\
+             \tvvp -n build/{module}_tb\n",
+        );
+    }
+    let _ = write!(
+        text,
+        "\nlint: $(SOURCES)\n\
          \tverilator --lint-only -Wall --top-module {top} $(SOURCES)\n\n\
          clean:\n\trm -rf build\n",
-        program = board.program,
     );
     text
+}
+
+/// The targets of the test benches.
+fn simulations(tested: &[&str]) -> String {
+    tested.iter().map(|module| format!("sim-{module}")).collect::<Vec<_>>().join(" ")
 }
 
 fn rule(text: &mut String, step: &Step, board: &Board, sources: &[String]) {

@@ -15,6 +15,17 @@ pub struct Vector {
     pub outputs: Vec<u64>,
 }
 
+/// How a module is tested.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Bench {
+    /// Its name.
+    pub module: String,
+    /// What goes in and comes out.
+    pub vectors: Vec<Vector>,
+    /// Values that settings inside it have for ever, by their paths: `device.divide_a`.
+    pub constants: Vec<(String, u64)>,
+}
+
 /// The vectors as text: a line each, clocks in decimal, then the ports in hexadecimal.
 pub(crate) fn vectors_text(top: &Module, vectors: &[Vector]) -> String {
     let names = |wanted: fn(&PortKind) -> bool| {
@@ -37,14 +48,14 @@ pub(crate) fn vectors_text(top: &Module, vectors: &[Vector]) -> String {
     text
 }
 
-/// The test bench; it reads `test/vectors.txt` and ends with an exit status of its own.
-pub(crate) fn test_bench(top: &Module, clock_mhz: u32) -> String {
+/// The test bench; it reads its vectors from a file and ends with an exit status of its own.
+pub(crate) fn test_bench(top: &Module, bench: &Bench, clock_mhz: u32) -> String {
     let clock = top.clock().unwrap_or("clock");
     let inputs: Vec<&Port> = ports(top, |kind| matches!(kind, PortKind::Input(_)));
     let outputs: Vec<&Port> = ports(top, |kind| matches!(kind, PortKind::Output(_)));
     let mut text = format!(
         "// Runs {name} on recorded inputs and checks every output after every rising edge.\n//\n\
-         //     make sim\n\n`default_nettype none\n\n\
+         //     make sim-{name}\n\n`default_nettype none\n\n\
          module {name}_tb;\n    timeunit 1ns;\n    timeprecision 1ps;\n\n    reg {clock} = 1'b0;\n",
         name = top.name,
     );
@@ -59,7 +70,8 @@ pub(crate) fn test_bench(top: &Module, clock_mhz: u32) -> String {
     let connections: Vec<String> = connections.collect();
     line(&mut text, &format!("\n    {} dut (\n{}\n    );\n", top.name, connections.join(",\n")));
     text.push_str(&checks(&outputs));
-    text.push_str(&driver(&inputs, &outputs, clock, clock_mhz));
+    text.push_str(&settings(&bench.constants));
+    text.push_str(&driver(top, &inputs, &outputs, clock, clock_mhz));
     text
 }
 
@@ -96,7 +108,27 @@ fn checks(outputs: &[&Port]) -> String {
     text
 }
 
-fn driver(inputs: &[&Port], outputs: &[&Port], clock: &str, clock_mhz: u32) -> String {
+/// A task that names every setting that is not what it was to be.
+fn settings(constants: &[(String, u64)]) -> String {
+    let mut text = String::from("    task check_settings;\n        begin\n");
+    for (path, value) in constants {
+        line(&mut text, &format!("            if (dut.{path} !== 'h{value:x}) begin"));
+        let message = format!("FAIL: {path} is %h, expected {value:x}");
+        line(&mut text, &format!("                $display(\"{message}\", dut.{path});"));
+        line(&mut text, "                wrong = wrong + 1;\n            end");
+    }
+    text.push_str("        end\n    endtask\n\n");
+    text
+}
+
+fn driver(
+    top: &Module,
+    inputs: &[&Port],
+    outputs: &[&Port],
+    clock: &str,
+    clock_mhz: u32,
+) -> String {
+    let vectors = format!("test/{}_vectors.txt", top.name);
     let targets = inputs.iter().map(|port| port.name.clone());
     let expected = outputs.iter().map(|port| format!("expected_{}", port.name));
     let targets: Vec<String> = targets.chain(expected).collect();
@@ -110,9 +142,11 @@ fn driver(inputs: &[&Port], outputs: &[&Port], clock: &str, clock_mhz: u32) -> S
     reg [8*512-1:0] heading;
 
     initial begin
-        file = $fopen(\"test/vectors.txt\", \"r\");
-        if (file == 0) $fatal(1, \"FAIL: test/vectors.txt cannot be read\");
+        file = $fopen(\"{vectors}\", \"r\");
+        if (file == 0) $fatal(1, \"FAIL: {vectors} cannot be read\");
         fields = $fgets(heading, file);
+        #{half_ns:.3} check_settings;
+        if (wrong != 0) $fatal(1, \"FAIL: wrong settings\");
         fields = $fscanf(file, \"{format}\", clocks, {list});
         while (fields == {count}) begin
             repeat (clocks) begin
@@ -124,7 +158,7 @@ fn driver(inputs: &[&Port], outputs: &[&Port], clock: &str, clock_mhz: u32) -> S
             end
             fields = $fscanf(file, \"{format}\", clocks, {list});
         end
-        if (clocks_done == 0 || !$feof(file)) $fatal(1, \"FAIL: test/vectors.txt is cut off\");
+        if (clocks_done == 0 || !$feof(file)) $fatal(1, \"FAIL: {vectors} is cut off\");
         $display(\"PASS %0d clocks\", clocks_done);
         $finish;
     end

@@ -12,6 +12,8 @@ use crate::GenError;
 use crate::groups::{Group, groups};
 use crate::lines::Lines;
 use crate::names;
+use crate::synchronisers::synchronisers;
+use crate::tidy::tidy;
 use crate::unused::{bits_read, unused};
 
 /// Name and text of every module, leaves first.
@@ -20,9 +22,15 @@ use crate::unused::{bits_read, unused};
 ///
 /// A name Verilog reserves, or an expression it cannot spell.
 pub fn verilog(design: &Design) -> Result<Vec<(String, String)>, GenError> {
-    let text = |module: &Module| Ok((module.name.clone(), Writer::new(module).write(design)?));
+    let text = |module: &Module| {
+        let tidied = tidy(module);
+        Ok((module.name.clone(), Writer::new(&tidied).write(design)?))
+    };
     design.modules.iter().map(text).collect()
 }
+
+/// Asks vendors' tools and yosys to keep a synchroniser's flip-flops, side by side.
+const KEPT: &str = "(* ASYNC_REG = \"TRUE\", keep = \"true\" *)";
 
 struct Writer<'a> {
     module: &'a Module,
@@ -38,7 +46,7 @@ impl<'a> Writer<'a> {
 
     fn write(mut self, design: &Design) -> Result<String, GenError> {
         names::check(self.module)?;
-        self.header();
+        self.header(&design.licence);
         self.lines.indent();
         self.declarations();
         self.instances(design);
@@ -64,20 +72,25 @@ impl<'a> Writer<'a> {
         e.verilog(&|id| self.name(id))
     }
 
-    fn header(&mut self) {
-        let comment = match self.module.comment.as_str() {
-            "" => self.module.name.clone(),
-            comment => comment.to_owned(),
-        };
-        self.lines.comment(&comment);
+    fn header(&mut self, licence: &str) {
+        let module = self.module;
+        if !licence.is_empty() {
+            self.lines.remark(&format!("SPDX-License-Identifier: {licence}"));
+        }
+        self.lines.comment(&module.name, &module.comment);
         self.lines.gap();
         self.lines.push("`default_nettype none");
         self.lines.gap();
         self.lines.push(&format!("module {} (", self.module.name));
         self.lines.indent();
-        let ports: Vec<String> =
-            self.module.ports.iter().map(|port| self.port(&port.name, port.kind)).collect();
-        self.lines.push_list(&ports);
+        for (index, port) in module.ports.iter().enumerate() {
+            if let Some(note) = module.port_notes.get(index).filter(|note| !note.is_empty()) {
+                self.lines.comment(&port.name, note);
+            }
+            let comma = if index + 1 < module.ports.len() { "," } else { "" };
+            let line = self.port(&port.name, port.kind);
+            self.lines.push(&format!("{line}{comma}"));
+        }
         self.lines.dedent();
         self.lines.push(");");
     }
@@ -103,6 +116,7 @@ impl<'a> Writer<'a> {
 
     fn declarations(&mut self) {
         self.lines.gap();
+        let synchronisers = synchronisers(self.module);
         for (index, signal) in self.module.signals.iter().enumerate() {
             let id = SignalId(u32::try_from(index).unwrap_or(u32::MAX));
             let (range, name) = (range(signal.width), &signal.name);
@@ -113,7 +127,10 @@ impl<'a> Writer<'a> {
                 }
                 Role::Input | Role::Output | Role::Constant(_) => {}
                 Role::InstanceInput if self.connection(id).is_some() => {}
-                _ => self.lines.push(&spaced(&[self.sort(id), &range, name, ";"])),
+                _ => {
+                    let kept = if synchronisers.contains(&id) { KEPT } else { "" };
+                    self.lines.push(&spaced(&[kept, self.sort(id), &range, name, ";"]));
+                }
             }
         }
     }
@@ -291,7 +308,7 @@ impl<'a> Writer<'a> {
             return;
         }
         self.lines.gap();
-        self.lines.comment("Without a reader here; named so that linters know it is meant.");
+        self.lines.remark("Without a reader here; named so that linters know it is meant.");
         let list = unused.join(", ");
         self.lines.push(&format!("wire {} = &{{1'b0, {list}}};", names::UNUSED));
     }

@@ -49,11 +49,12 @@ pub fn elaborate(name: &str, block: &dyn Block, library: &Library) -> Result<Des
         if found.name.is_empty() {
             found.name.clone_from(&entry.name);
             found.comment.clone_from(&entry.comment);
+            found.port_notes = found.ports.iter().map(|port| entry.note(&port.name)).collect();
         }
     }
     let top = shelf.add(&Source::of(name, block), name)?;
     name.clone_into(&mut shelf.modules[top].name);
-    Ok(shelf.take(top))
+    Ok(Design { modules: shelf.take(top), licence: library.licence.clone() })
 }
 
 /// Modules found so far, inner ones before those that hold them.
@@ -81,7 +82,7 @@ impl Shelf {
     }
 
     /// The modules that `top` needs, named, with `top` last.
-    fn take(mut self, top: usize) -> Design {
+    fn take(mut self, top: usize) -> Vec<Module> {
         let mut used = BTreeSet::new();
         self.mark(top, &mut used);
         self.name_after_instances(&used);
@@ -94,7 +95,7 @@ impl Shelf {
             }
             modules.push(module);
         }
-        Design { modules }
+        modules
     }
 
     fn mark(&self, module: usize, used: &mut BTreeSet<usize>) {

@@ -7,6 +7,8 @@ use crate::{Expression, Register, SignalId};
 pub struct Design {
     /// Every module that is used, each once.
     pub modules: Vec<Module>,
+    /// SPDX expression of the licence, or nothing.
+    pub licence: String,
 }
 
 impl Design {
@@ -30,6 +32,8 @@ pub struct Module {
     pub comment: String,
     /// Ports in order of declaration.
     pub ports: Vec<Port>,
+    /// What each port is for, in the same order; empty where nobody said.
+    pub port_notes: Vec<String>,
     /// Every signal but the clock.
     pub signals: Vec<ModuleSignal>,
     /// Flip-flops, in order of declaration.

@@ -3,7 +3,7 @@
 use rust_hdl::prelude::{Block, Logic};
 
 use crate::board_shell::BoardShell;
-use crate::settings::{Range, Settings};
+use crate::settings::{Conditioning, Range, Settings};
 
 /// What there is to know of a block without opening its file.
 #[derive(Clone, Copy, Debug)]
@@ -12,8 +12,43 @@ pub struct BlockCard {
     pub name: &'static str,
     /// One line: what it does, and the figure of document 1 it comes from.
     pub summary: &'static str,
+    /// Its page: the text of its file.
+    pub page: &'static str,
     /// Makes one on its own, its inputs connected, ready to be elaborated or simulated.
     pub build: fn() -> Box<dyn Block>,
+}
+
+impl BlockCard {
+    /// The ports of its page's table, each with what is said of it there.
+    #[must_use]
+    pub fn ports(&self) -> Vec<(String, String)> {
+        let rows = self.page.lines().map_while(|line| line.strip_prefix("//!"));
+        let cells = rows.filter_map(|row| row.trim().strip_prefix("| `")?.strip_suffix('|'));
+        cells.flat_map(ports_of_row).collect()
+    }
+}
+
+/// The ports of a row: `` a` … `c` | out | meaning `` are three.
+fn ports_of_row(row: &str) -> Vec<(String, String)> {
+    let mut cells = row.split(" | ").map(str::trim);
+    let (Some(names), Some("in" | "out"), Some(note)) = (cells.next(), cells.next(), cells.next())
+    else {
+        return vec![];
+    };
+    let plain = |name: &str| name.trim_matches(['`', ' ']).split('[').next().map(str::to_owned);
+    let names: Vec<String> = match names.split_once('…') {
+        Some((first, last)) => lettered(first, last),
+        None => names.split(',').filter_map(plain).collect(),
+    };
+    names.into_iter().map(|name| (name, note.replace('`', ""))).collect()
+}
+
+/// From `` phase_a` `` to `` `phase_c` ``: the names between them, which differ in their last letter.
+fn lettered(first: &str, last: &str) -> Vec<String> {
+    let [first, last] = [first, last].map(|name| name.trim_matches(['`', ' ']));
+    let [low, high] = [first, last].map(|name| name.chars().next_back().unwrap_or(' '));
+    let stem = first.trim_end_matches(low);
+    (low..=high).map(|letter| format!("{stem}{letter}")).collect()
 }
 
 /// Makes a [`BlockCard`] for a block whose inputs are listed.
@@ -22,6 +57,7 @@ macro_rules! card {
         BlockCard {
             name: stringify!($name),
             summary: $summary,
+            page: include_str!(concat!(stringify!($name), ".rs")),
             build: || {
                 let mut block = crate::$name::$block::default();
                 $(block.$input.connect();)+
@@ -73,10 +109,16 @@ pub const BLOCKS: &[BlockCard] = &[
         "The whole measuring and correcting logic (figs. 6, 14)"),
     card!(step_driver::StepDriver(clock, clear, step, forward)
         "Pulse and direction for a bought stepper driver"),
+    card!(input_conditioner::InputConditioner(clock, pin, active_low, tick, ticks)
+        "Lets a level through once it has stood still: against glitches and bouncing"),
+    card!(supervisor::Supervisor(clock, clear, tick, limit, wrap_watched, measuring, line, fringe,
+            opening, shutting, enable, stop)
+        "Watchdogs of lines, fringes and meter, enable and emergency stop"),
     BlockCard {
         name: "board_shell",
         summary: "The device with its wheels set, and the pins a builder wires",
-        build: || match BoardShell::connected(&EXAMPLE) {
+        page: include_str!("board_shell.rs"),
+        build: || match BoardShell::connected(&EXAMPLE, &HASTY) {
             Ok(shell) => Box::new(shell),
             Err(error) => unreachable!("the example can be dialled: {error}"),
         },
@@ -104,3 +146,42 @@ const EXAMPLE: Settings = Settings {
     insert: false,
     step_period: 75_000,
 };
+
+/// Conditioning so fast that a test sees all of it within some thousand clocks.
+const HASTY: Conditioning = Conditioning {
+    glitch_clocks: 2,
+    debounce_ticks: 3,
+    tick_period: 5,
+    watchdog_ticks: 300,
+    active_low: false,
+    range_pin: true,
+    enable_pin: true,
+};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every port of every block is said what for, and nothing else is.
+    #[test]
+    fn pages_describe_the_ports_there_are() {
+        for card in BLOCKS.iter().chain(APART) {
+            let source = card.page.split("impl Logic").next().unwrap_or_default();
+            let fields = source.lines().filter_map(|line| line.trim().strip_prefix("pub "));
+            let signals = fields.filter(|field| field.contains(": Signal<"));
+            let ports: Vec<&str> = signals.filter_map(|field| field.split(':').next()).collect();
+            let notes = card.ports();
+            let described: Vec<&str> = notes.iter().map(|(name, _)| name.as_str()).collect();
+            assert_eq!(described, ports, "{}", card.name);
+        }
+    }
+
+    #[test]
+    fn a_row_may_stand_for_several_ports() {
+        let row = "phase_a` … `phase_c` | out | drives of the `three` windings ";
+        let names: Vec<String> = ports_of_row(row).into_iter().map(|(name, _)| name).collect();
+        assert_eq!(names, ["phase_a", "phase_b", "phase_c"]);
+        assert_eq!(ports_of_row("calibrate[1:0]` | in | switch ")[0].0, "calibrate");
+        assert_eq!(ports_of_row("t1`, `t2` | out | RC ")[1], ("t2".into(), "RC".into()));
+    }
+}

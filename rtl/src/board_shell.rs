@@ -1,7 +1,7 @@
 //! Board shell: the device with its wheels set, and the pins a builder wires.
 //!
 //! No figure. The presets come from the machine file as constants of the generated design; the
-//! rest are pins. All inputs are active high.
+//! rest are pins. Pins marked * are left out of a design that does not ask for them.
 //!
 //! | pin                   | dir | wire it to                                               |
 //! |-----------------------|-----|----------------------------------------------------------|
@@ -14,13 +14,16 @@
 //! | `calibrate[1:0]`      | in  | switch: off, 180°, 90°, 45°                              |
 //! | `manual_step`         | in  | push button: one step                                    |
 //! | `manual_forward`      | in  | switch: its direction                                    |
-//! | `range_x2`            | in  | switch: ×2 instead of ×1                                 |
+//! | `range_x2`            | in  | * switch: ×2 instead of ×1                               |
+//! | `enable`              | in  | * switch: steps are allowed                              |
+//! | `emergency_stop`      | in  | * contact to ground that opens: high stops all steps     |
 //! | `t1`, `t2`            | out | RC low-pass each, the difference to the recorder         |
 //! | `phase_a` … `phase_c` | out | power stage of the three windings                        |
 //! | `step`, `direction`   | out | … or a bought stepper driver                             |
 //! | `zero`                | out | lamp: the motor stands where it began                    |
 //! | `fault`               | out | lamp: out of steps, 4095 from zero                       |
 //! | `measuring`           | out | lamp: the initial phase is selected                      |
+//! | `alarm`               | out | * lamp: a signal is missing, the meter wrapped, or a stop |
 //!
 //! # Sequence
 //!
@@ -30,19 +33,26 @@
 //!
 //! # At the same time
 //!
-//! As in the [device](crate::device). Lamps and phases come from flip-flops; `t1` and `t2` pass
-//! one gate behind theirs, which a filter does not notice.
+//! As in the [device](crate::device) and the [supervisor](crate::supervisor). Lamps come from
+//! flip-flops; `t1` and `t2`, and the phases, pass one gate behind theirs, which neither a filter
+//! nor a winding notices. What the supervisor remembers it forgets when `start`, `correct` and
+//! `playback` are all off, so that nothing moves because a stop was released.
 //!
 //! # Inferred
 //!
-//! All of it. The power-on reset is a counter that FPGAs start at zero. The range is a pin, as
-//! on the original's panel, and the machine file's choice is for the builder to set.
+//! All of it. The power-on reset is a counter that FPGAs start at zero. The range is a setting like
+//! the others unless a switch is asked for, as on the original's panel.
 
 use rust_hdl::prelude::*;
 
 use crate::device::Device;
-use crate::settings::{Settings, SettingsError};
+use crate::input_conditioner::InputConditioner;
+use crate::input_synchroniser::InputSynchroniser;
+use crate::level_synchroniser::LevelSynchroniser;
+use crate::settings::{Conditioning, Settings, SettingsError};
+use crate::step_clock::StepClock;
 use crate::step_driver::{PULSE_CLOCKS, StepDriver};
+use crate::supervisor::Supervisor;
 
 /// The device on a board; see the [module](self) for pins.
 #[derive(Debug, LogicBlock)]
@@ -67,6 +77,10 @@ pub struct BoardShell {
     pub manual_forward: Signal<In, Bit>,
     /// ×2 instead of ×1.
     pub range_x2: Signal<In, Bit>,
+    /// Steps are allowed.
+    pub enable: Signal<In, Bit>,
+    /// High stops all steps.
+    pub emergency_stop: Signal<In, Bit>,
     /// Meter, or the calibration.
     pub t1: Signal<Out, Bit>,
     /// Its complement.
@@ -87,27 +101,57 @@ pub struct BoardShell {
     pub fault: Signal<Out, Bit>,
     /// The initial phase is selected.
     pub measuring: Signal<Out, Bit>,
+    /// A signal is missing, the meter wrapped, or a stop.
+    pub alarm: Signal<Out, Bit>,
     device: Device,
     step_driver: StepDriver,
+    milliseconds: StepClock,
+    supervisor: Supervisor,
+    grating_input: InputConditioner,
+    laser_input: InputConditioner,
+    start_input: InputConditioner,
+    correct_input: InputConditioner,
+    playback_input: InputConditioner,
+    manual_step_input: InputConditioner,
+    range_input: InputConditioner,
+    enable_input: InputConditioner,
+    stop_input: LevelSynchroniser,
+    lines: InputSynchroniser,
+    fringes: InputSynchroniser,
     power_up: DFF<Bits<4>>,
     power_up_next: Signal<Local, Bits<4>>,
     reset: Signal<Local, Bit>,
+    idle: Signal<Local, Bit>,
+    every_clock: Signal<Local, Bit>,
+    nothing: Signal<Local, Bit>,
     divide_a: Constant<Bits<12>>,
     divide_b: Constant<Bits<12>>,
     initial_phase: Constant<Bits<12>>,
     compensation: Constant<Bits<16>>,
     compensation_insert: Constant<Bit>,
     step_period: Constant<Bits<24>>,
+    range_set: Constant<Bit>,
+    range_wired: Constant<Bit>,
+    enable_wired: Constant<Bit>,
+    glitch_clocks: Constant<Bits<4>>,
+    debounce_ticks: Constant<Bits<4>>,
+    tick_period: Constant<Bits<24>>,
+    watchdog_ticks: Constant<Bits<12>>,
+    active_low: Constant<Bit>,
+    calibrate_inverted: Constant<Bits<2>>,
 }
 
 impl BoardShell {
-    /// The shell with these presets; the range is a pin and not taken from them.
+    /// The shell with these presets.
     ///
     /// # Errors
     ///
-    /// A value no wheel can show, or a step clock faster than the step pin's pulses.
-    pub fn new(settings: &Settings) -> Result<Self, SettingsError> {
+    /// A value no wheel can show or no counter hold, or a step clock faster than the step pin's
+    /// pulses.
+    #[expect(clippy::too_many_lines, reason = "fields, each of a line")]
+    pub fn new(settings: &Settings, conditioning: &Conditioning) -> Result<Self, SettingsError> {
         let wheels = settings.wheels()?;
+        conditioning.check()?;
         if settings.step_period < PULSE_CLOCKS {
             return Err(SettingsError::StepTooFast {
                 found: settings.step_period,
@@ -125,6 +169,8 @@ impl BoardShell {
             manual_step: Signal::default(),
             manual_forward: Signal::default(),
             range_x2: Signal::default(),
+            enable: Signal::default(),
+            emergency_stop: Signal::default(),
             t1: Signal::default(),
             t2: Signal::default(),
             phase_a: Signal::default(),
@@ -135,17 +181,43 @@ impl BoardShell {
             zero: Signal::default(),
             fault: Signal::default(),
             measuring: Signal::default(),
+            alarm: Signal::default(),
             device: Device::default(),
             step_driver: StepDriver::default(),
+            milliseconds: StepClock::default(),
+            supervisor: Supervisor::default(),
+            grating_input: InputConditioner::default(),
+            laser_input: InputConditioner::default(),
+            start_input: InputConditioner::default(),
+            correct_input: InputConditioner::default(),
+            playback_input: InputConditioner::default(),
+            manual_step_input: InputConditioner::default(),
+            range_input: InputConditioner::default(),
+            enable_input: InputConditioner::default(),
+            stop_input: LevelSynchroniser::default(),
+            lines: InputSynchroniser::default(),
+            fringes: InputSynchroniser::default(),
             power_up: DFF::default(),
             power_up_next: Signal::default(),
             reset: Signal::default(),
+            idle: Signal::default(),
+            every_clock: Signal::default(),
+            nothing: Signal::default(),
             divide_a: Constant::new(wheels.divide_a.into()),
             divide_b: Constant::new(wheels.divide_b.into()),
             initial_phase: Constant::new(wheels.initial_phase.into()),
             compensation: Constant::new(wheels.compensation.into()),
             compensation_insert: Constant::new(wheels.compensation_insert == 1),
             step_period: Constant::new(wheels.step_period.into()),
+            range_set: Constant::new(!conditioning.range_pin && wheels.range_x2 == 1),
+            range_wired: Constant::new(conditioning.range_pin),
+            enable_wired: Constant::new(conditioning.enable_pin),
+            glitch_clocks: Constant::new(u64::from(conditioning.glitch_clocks).into()),
+            debounce_ticks: Constant::new(u64::from(conditioning.debounce_ticks).into()),
+            tick_period: Constant::new(u64::from(conditioning.tick_period).into()),
+            watchdog_ticks: Constant::new(u64::from(conditioning.watchdog_ticks).into()),
+            active_low: Constant::new(conditioning.active_low),
+            calibrate_inverted: Constant::new(if conditioning.active_low { 3 } else { 0 }.into()),
         })
     }
 
@@ -154,8 +226,11 @@ impl BoardShell {
     /// # Errors
     ///
     /// As [`BoardShell::new`].
-    pub fn connected(settings: &Settings) -> Result<Self, SettingsError> {
-        let mut shell = Self::new(settings)?;
+    pub fn connected(
+        settings: &Settings,
+        conditioning: &Conditioning,
+    ) -> Result<Self, SettingsError> {
+        let mut shell = Self::new(settings, conditioning)?;
         shell.clock.connect();
         shell.grating.connect();
         shell.laser.connect();
@@ -166,11 +241,14 @@ impl BoardShell {
         shell.manual_step.connect();
         shell.manual_forward.connect();
         shell.range_x2.connect();
+        shell.enable.connect();
+        shell.emergency_stop.connect();
         shell.connect_all();
         Ok(shell)
     }
 }
 
+#[expect(clippy::too_many_lines, reason = "wires, each of a line")]
 impl Logic for BoardShell {
     #[hdl_gen]
     fn update(&mut self) {
@@ -180,20 +258,96 @@ impl Logic for BoardShell {
         if self.reset.val() {
             self.power_up.d.next = self.power_up_next.val();
         }
+        self.every_clock.next = true;
+        self.nothing.next = false;
 
+        // Pins.
+        self.milliseconds.clock.next = self.clock.val();
+        self.milliseconds.clear.next = self.reset.val();
+        self.milliseconds.period.next = self.tick_period.val();
+        self.grating_input.clock.next = self.clock.val();
+        self.grating_input.pin.next = self.grating.val();
+        self.grating_input.active_low.next = self.nothing.val();
+        self.grating_input.tick.next = self.every_clock.val();
+        self.grating_input.ticks.next = self.glitch_clocks.val();
+        self.laser_input.clock.next = self.clock.val();
+        self.laser_input.pin.next = self.laser.val();
+        self.laser_input.active_low.next = self.nothing.val();
+        self.laser_input.tick.next = self.every_clock.val();
+        self.laser_input.ticks.next = self.glitch_clocks.val();
+        self.start_input.clock.next = self.clock.val();
+        self.start_input.pin.next = self.start.val();
+        self.start_input.active_low.next = self.active_low.val();
+        self.start_input.tick.next = self.milliseconds.tick.val();
+        self.start_input.ticks.next = self.debounce_ticks.val();
+        self.correct_input.clock.next = self.clock.val();
+        self.correct_input.pin.next = self.correct.val();
+        self.correct_input.active_low.next = self.active_low.val();
+        self.correct_input.tick.next = self.milliseconds.tick.val();
+        self.correct_input.ticks.next = self.debounce_ticks.val();
+        self.playback_input.clock.next = self.clock.val();
+        self.playback_input.pin.next = self.playback.val();
+        self.playback_input.active_low.next = self.active_low.val();
+        self.playback_input.tick.next = self.milliseconds.tick.val();
+        self.playback_input.ticks.next = self.debounce_ticks.val();
+        self.manual_step_input.clock.next = self.clock.val();
+        self.manual_step_input.pin.next = self.manual_step.val();
+        self.manual_step_input.active_low.next = self.active_low.val();
+        self.manual_step_input.tick.next = self.milliseconds.tick.val();
+        self.manual_step_input.ticks.next = self.debounce_ticks.val();
+        self.range_input.clock.next = self.clock.val();
+        self.range_input.pin.next = self.range_x2.val();
+        self.range_input.active_low.next = self.active_low.val();
+        self.range_input.tick.next = self.milliseconds.tick.val();
+        self.range_input.ticks.next = self.debounce_ticks.val();
+        self.enable_input.clock.next = self.clock.val();
+        self.enable_input.pin.next = self.enable.val();
+        self.enable_input.active_low.next = self.active_low.val();
+        self.enable_input.tick.next = self.milliseconds.tick.val();
+        self.enable_input.ticks.next = self.debounce_ticks.val();
+        self.stop_input.clock.next = self.clock.val();
+        self.stop_input.pin.next = self.emergency_stop.val();
+
+        // Supervisor.
+        self.lines.clock.next = self.clock.val();
+        self.lines.pin.next = self.grating_input.steady.val();
+        self.fringes.clock.next = self.clock.val();
+        self.fringes.pin.next = self.laser_input.steady.val();
+        self.idle.next = !self.start_input.steady.val()
+            & !self.correct_input.steady.val()
+            & !self.playback_input.steady.val();
+        self.supervisor.clock.next = self.clock.val();
+        self.supervisor.clear.next = self.reset.val() | self.idle.val();
+        self.supervisor.tick.next = self.milliseconds.tick.val();
+        self.supervisor.limit.next = self.watchdog_ticks.val();
+        self.supervisor.wrap_watched.next =
+            self.correct_input.steady.val() & self.watchdog_ticks.val().any();
+        self.supervisor.measuring.next = self.device.measuring.val();
+        self.supervisor.line.next = self.lines.rising.val();
+        self.supervisor.fringe.next = self.fringes.rising.val();
+        self.supervisor.opening.next = self.device.grating_divided.val();
+        self.supervisor.shutting.next = self.device.laser_divided.val();
+        self.supervisor.enable.next = self.enable_input.steady.val() | !self.enable_wired.val();
+        self.supervisor.stop.next = self.stop_input.level.val();
+
+        // The device.
         self.device.clock.next = self.clock.val();
         self.device.master_reset.next = self.reset.val();
-        self.device.grating.next = self.grating.val();
-        self.device.laser.next = self.laser.val();
-        self.device.start.next = self.start.val();
-        self.device.correct.next = self.correct.val();
-        self.device.playback.next = self.playback.val();
-        self.device.calibrate.next = self.calibrate.val();
-        self.device.manual_step.next = self.manual_step.val();
-        self.device.manual_forward.next = self.manual_forward.val();
+        self.device.grating.next = self.grating_input.level.val();
+        self.device.laser.next = self.laser_input.level.val();
+        self.device.start.next = self.start_input.level.val();
+        self.device.correct.next =
+            self.correct_input.level.val() & self.supervisor.may_correct.val();
+        self.device.playback.next =
+            self.playback_input.level.val() & self.supervisor.may_step.val();
+        self.device.calibrate.next = self.calibrate.val() ^ self.calibrate_inverted.val();
+        self.device.manual_step.next =
+            self.manual_step_input.level.val() & self.supervisor.may_step.val();
+        self.device.manual_forward.next = self.manual_forward.val() ^ self.active_low.val();
         self.device.divide_a.next = self.divide_a.val();
         self.device.divide_b.next = self.divide_b.val();
-        self.device.range_x2.next = self.range_x2.val();
+        self.device.range_x2.next =
+            self.range_set.val() | (self.range_input.steady.val() & self.range_wired.val());
         self.device.initial_phase.next = self.initial_phase.val();
         self.device.compensation.next = self.compensation.val();
         self.device.compensation_insert.next = self.compensation_insert.val();
@@ -205,13 +359,14 @@ impl Logic for BoardShell {
 
         self.t1.next = self.device.t1.val();
         self.t2.next = self.device.t2.val();
-        self.phase_a.next = self.device.phase_a.val();
-        self.phase_b.next = self.device.phase_b.val();
-        self.phase_c.next = self.device.phase_c.val();
+        self.phase_a.next = self.device.phase_a.val() & !self.supervisor.stopped.val();
+        self.phase_b.next = self.device.phase_b.val() & !self.supervisor.stopped.val();
+        self.phase_c.next = self.device.phase_c.val() & !self.supervisor.stopped.val();
         self.step.next = self.step_driver.step_pin.val();
         self.direction.next = self.step_driver.direction_pin.val();
         self.zero.next = self.device.zero.val();
         self.fault.next = self.device.fault.val();
         self.measuring.next = self.device.measuring.val();
+        self.alarm.next = self.supervisor.alarm.val();
     }
 }

@@ -23,8 +23,8 @@
 //!
 //! # Inferred
 //!
-//! All of it; switches are not debounced: every block behind them takes levels, or waits for
-//! the step clock, which is slower than a bouncing contact.
+//! All of it; switches are not debounced here, see the
+//! [input conditioner](crate::input_conditioner).
 
 use rust_hdl::prelude::*;
 

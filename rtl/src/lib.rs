@@ -13,6 +13,7 @@ pub mod device;
 pub mod digital_comparison;
 pub mod direction_discriminator;
 pub mod initial_phase_selector;
+pub mod input_conditioner;
 pub mod input_synchroniser;
 pub mod level_synchroniser;
 pub mod phase_meter;
@@ -27,6 +28,7 @@ pub mod step_clock;
 pub mod step_driver;
 pub mod step_selector;
 pub mod subdivided_comparison;
+pub mod supervisor;
 
 mod blocks;
 

@@ -65,6 +65,50 @@ pub struct Settings {
     pub step_period: u32,
 }
 
+/// What stands between the pins of a board and the device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Conditioning {
+    /// Clocks a grating or laser level has to stand, 0 to 15; 0 is off.
+    pub glitch_clocks: u32,
+    /// Ticks a switch or button has to stand, 0 to 15; 0 is off.
+    pub debounce_ticks: u32,
+    /// Clocks of such a tick, 1 to 16 777 215.
+    pub tick_period: u32,
+    /// Ticks without a line or a fringe after which the loop stops, 0 to 4095; 0 is off.
+    pub watchdog_ticks: u32,
+    /// Switches connect their pins to ground.
+    pub active_low: bool,
+    /// The range is a switch, and not that of the settings.
+    pub range_pin: bool,
+    /// Steps need a switch that allows them.
+    pub enable_pin: bool,
+}
+
+impl Conditioning {
+    /// Pins as they are: what the board shell did before it could do more.
+    pub const OFF: Self = Self {
+        glitch_clocks: 0,
+        debounce_ticks: 0,
+        tick_period: 1,
+        watchdog_ticks: 0,
+        active_low: false,
+        range_pin: false,
+        enable_pin: false,
+    };
+
+    /// Checks that counters can hold the numbers.
+    ///
+    /// # Errors
+    ///
+    /// The first that they cannot.
+    pub fn check(&self) -> Result<(), SettingsError> {
+        in_range("glitch filter", self.glitch_clocks, 0, 15)?;
+        in_range("debouncing", self.debounce_ticks, 0, 15)?;
+        in_range("tick period", self.tick_period, 1, 0xff_ffff)?;
+        in_range("watchdog", self.watchdog_ticks, 0, 4095)
+    }
+}
+
 /// The same as the levels on the device's inputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Wheels {

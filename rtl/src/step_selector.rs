@@ -48,7 +48,9 @@
 //! # Inferred
 //!
 //! Manual steps go by the step clock like all others: no two steps are ever closer than its
-//! period, whatever the panel does, and a bouncing button makes one step.
+//! period, whatever the panel does. A button that bounces for longer than that, or bounces when it
+//! is released, makes a step more: the board shell puts an
+//! [input conditioner](crate::input_conditioner) before it.
 
 use rust_hdl::prelude::*;
 

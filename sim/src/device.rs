@@ -61,6 +61,15 @@ pub fn device_lanes() -> Lanes<'static, DeviceKernel> {
     Lanes::new(device())
 }
 
+/// The blocks of the device by their names and pages, under the project's licence, for Verilog.
+#[must_use]
+pub fn library() -> Library {
+    let blocks = helixlock_rtl::BLOCKS.iter().fold(Library::new(), |library, card| {
+        library.with(card.name, card.summary, (card.build)()).described(card.ports())
+    });
+    blocks.licensed("MIT OR Apache-2.0")
+}
+
 fn elaborated() -> Netlist {
     let card = helixlock_rtl::BLOCKS.iter().find(|card| card.name == "device");
     let card = card.expect("the build script has found it");

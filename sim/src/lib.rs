@@ -19,7 +19,7 @@ pub use closed_loop::{
     peak_to_peak, run_pass, signals_of, simulate, time_of, unwrap_um, write_vcd,
 };
 pub use device::{
-    DeviceEngine, DeviceKernel, DevicePins, Dialled, device, device_engine, device_lanes,
+    DeviceEngine, DeviceKernel, DevicePins, Dialled, device, device_engine, device_lanes, library,
     set_wheels, settings_for, stepped_device,
 };
 pub use engine::{

@@ -1,38 +1,83 @@
-// The device with its wheels set, and the pins a builder wires
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// board_shell: The device with its wheels set, and the pins a builder wires
 
 `default_nettype none
 
 module board_shell (
+    // clock: the board's oscillator
     input  wire         clock,
+    // grating: shaped grating signal, one rising edge a line
     input  wire         grating,
+    // laser: shaped interferometer signal, one rising edge a fringe
     input  wire         laser,
+    // start: switch: select the initial phase, then measure
     input  wire         start,
+    // correct: switch: correct, else only measure
     input  wire         correct,
+    // playback: switch "reset": steps back to zero
     input  wire         playback,
+    // calibrate: switch: off, 180°, 90°, 45°
     input  wire [1:0]   calibrate,
+    // manual_step: push button: one step
     input  wire         manual_step,
+    // manual_forward: switch: its direction
     input  wire         manual_forward,
+    // range_x2: * switch: ×2 instead of ×1
     input  wire         range_x2,
+    // enable: * switch: steps are allowed
+    input  wire         enable,
+    // emergency_stop: * contact to ground that opens: high stops all steps
+    input  wire         emergency_stop,
+    // t1: RC low-pass each, the difference to the recorder
     output wire         t1,
+    // t2: RC low-pass each, the difference to the recorder
     output wire         t2,
+    // phase_a: power stage of the three windings
     output wire         phase_a,
+    // phase_b: power stage of the three windings
     output wire         phase_b,
+    // phase_c: power stage of the three windings
     output wire         phase_c,
+    // step: … or a bought stepper driver
     output wire         step,
+    // direction: … or a bought stepper driver
     output wire         direction,
+    // zero: lamp: the motor stands where it began
     output wire         zero,
+    // fault: lamp: out of steps, 4095 from zero
     output wire         fault,
-    output wire         measuring
+    // measuring: lamp: the initial phase is selected
+    output wire         measuring,
+    // alarm: * lamp: a signal is missing, the meter wrapped, or a stop
+    output wire         alarm
 );
 
     wire [3:0] power_up_next;
     wire reset;
+    wire idle;
+    wire every_clock;
+    wire nothing;
     localparam [11:0] divide_a = 12'h110;
     localparam [11:0] divide_b = 12'h150;
     localparam [11:0] initial_phase = 12'h150;
     localparam [15:0] compensation = 16'h0;
     localparam compensation_insert = 1'b0;
     localparam [23:0] step_period = 24'h124f8;
+    localparam range_set = 1'b0;
+    localparam range_wired = 1'b1;
+    localparam enable_wired = 1'b1;
+    localparam [3:0] glitch_clocks = 4'd2;
+    localparam [3:0] debounce_ticks = 4'd3;
+    localparam [23:0] tick_period = 24'h5;
+    localparam [11:0] watchdog_ticks = 12'h12c;
+    localparam active_low = 1'b0;
+    localparam [1:0] calibrate_inverted = 2'd0;
+    wire device_correct;
+    wire device_playback;
+    wire [1:0] device_calibrate;
+    wire device_manual_step;
+    wire device_manual_forward;
+    wire device_range_x2;
     wire device_t1;
     wire device_t2;
     wire device_standard;
@@ -55,23 +100,53 @@ module board_shell (
     wire device_laser_divided;
     wire step_driver_step_pin;
     wire step_driver_direction_pin;
+    wire milliseconds_tick;
+    wire supervisor_clear;
+    wire supervisor_wrap_watched;
+    wire supervisor_enable;
+    wire supervisor_may_correct;
+    wire supervisor_may_step;
+    wire supervisor_stopped;
+    wire supervisor_lines_missing;
+    wire supervisor_fringes_missing;
+    wire supervisor_wrapped;
+    wire supervisor_alarm;
+    wire grating_input_level;
+    wire grating_input_steady;
+    wire laser_input_level;
+    wire laser_input_steady;
+    wire start_input_level;
+    wire start_input_steady;
+    wire correct_input_level;
+    wire correct_input_steady;
+    wire playback_input_level;
+    wire playback_input_steady;
+    wire manual_step_input_level;
+    wire manual_step_input_steady;
+    wire range_input_level;
+    wire range_input_steady;
+    wire enable_input_level;
+    wire enable_input_steady;
+    wire stop_input_level;
+    wire lines_rising;
+    wire fringes_rising;
     reg [3:0] power_up_d;
     reg [3:0] power_up_q;
 
     device device (
         .clock(clock),
         .master_reset(reset),
-        .grating(grating),
-        .laser(laser),
-        .start(start),
-        .correct(correct),
-        .playback(playback),
-        .calibrate(calibrate),
-        .manual_step(manual_step),
-        .manual_forward(manual_forward),
+        .grating(grating_input_level),
+        .laser(laser_input_level),
+        .start(start_input_level),
+        .correct(device_correct),
+        .playback(device_playback),
+        .calibrate(device_calibrate),
+        .manual_step(device_manual_step),
+        .manual_forward(device_manual_forward),
         .divide_a(divide_a),
         .divide_b(divide_b),
-        .range_x2(range_x2),
+        .range_x2(device_range_x2),
         .initial_phase(initial_phase),
         .compensation(compensation),
         .compensation_insert(compensation_insert),
@@ -107,6 +182,133 @@ module board_shell (
         .direction_pin(step_driver_direction_pin)
     );
 
+    step_clock milliseconds (
+        .clock(clock),
+        .clear(reset),
+        .period(tick_period),
+        .tick(milliseconds_tick)
+    );
+
+    supervisor supervisor (
+        .clock(clock),
+        .clear(supervisor_clear),
+        .tick(milliseconds_tick),
+        .limit(watchdog_ticks),
+        .wrap_watched(supervisor_wrap_watched),
+        .measuring(device_measuring),
+        .line(lines_rising),
+        .fringe(fringes_rising),
+        .opening(device_grating_divided),
+        .shutting(device_laser_divided),
+        .enable(supervisor_enable),
+        .stop(stop_input_level),
+        .may_correct(supervisor_may_correct),
+        .may_step(supervisor_may_step),
+        .stopped(supervisor_stopped),
+        .lines_missing(supervisor_lines_missing),
+        .fringes_missing(supervisor_fringes_missing),
+        .wrapped(supervisor_wrapped),
+        .alarm(supervisor_alarm)
+    );
+
+    input_conditioner grating_input (
+        .clock(clock),
+        .pin(grating),
+        .active_low(nothing),
+        .tick(every_clock),
+        .ticks(glitch_clocks),
+        .level(grating_input_level),
+        .steady(grating_input_steady)
+    );
+
+    input_conditioner laser_input (
+        .clock(clock),
+        .pin(laser),
+        .active_low(nothing),
+        .tick(every_clock),
+        .ticks(glitch_clocks),
+        .level(laser_input_level),
+        .steady(laser_input_steady)
+    );
+
+    input_conditioner start_input (
+        .clock(clock),
+        .pin(start),
+        .active_low(active_low),
+        .tick(milliseconds_tick),
+        .ticks(debounce_ticks),
+        .level(start_input_level),
+        .steady(start_input_steady)
+    );
+
+    input_conditioner correct_input (
+        .clock(clock),
+        .pin(correct),
+        .active_low(active_low),
+        .tick(milliseconds_tick),
+        .ticks(debounce_ticks),
+        .level(correct_input_level),
+        .steady(correct_input_steady)
+    );
+
+    input_conditioner playback_input (
+        .clock(clock),
+        .pin(playback),
+        .active_low(active_low),
+        .tick(milliseconds_tick),
+        .ticks(debounce_ticks),
+        .level(playback_input_level),
+        .steady(playback_input_steady)
+    );
+
+    input_conditioner manual_step_input (
+        .clock(clock),
+        .pin(manual_step),
+        .active_low(active_low),
+        .tick(milliseconds_tick),
+        .ticks(debounce_ticks),
+        .level(manual_step_input_level),
+        .steady(manual_step_input_steady)
+    );
+
+    input_conditioner range_input (
+        .clock(clock),
+        .pin(range_x2),
+        .active_low(active_low),
+        .tick(milliseconds_tick),
+        .ticks(debounce_ticks),
+        .level(range_input_level),
+        .steady(range_input_steady)
+    );
+
+    input_conditioner enable_input (
+        .clock(clock),
+        .pin(enable),
+        .active_low(active_low),
+        .tick(milliseconds_tick),
+        .ticks(debounce_ticks),
+        .level(enable_input_level),
+        .steady(enable_input_steady)
+    );
+
+    level_synchroniser stop_input (
+        .clock(clock),
+        .pin(emergency_stop),
+        .level(stop_input_level)
+    );
+
+    input_synchroniser lines (
+        .clock(clock),
+        .pin(grating_input_steady),
+        .rising(lines_rising)
+    );
+
+    input_synchroniser fringes (
+        .clock(clock),
+        .pin(laser_input_steady),
+        .rising(fringes_rising)
+    );
+
     assign power_up_next = power_up_q + 4'd1;
     assign reset = ~(&power_up_q);
 
@@ -117,16 +319,29 @@ module board_shell (
         end
     end
 
+    assign every_clock = 1'b1;
+    assign nothing = 1'b0;
+    assign idle = ~start_input_steady & ~correct_input_steady & ~playback_input_steady;
+    assign supervisor_clear = reset | idle;
+    assign supervisor_wrap_watched = correct_input_steady & (|watchdog_ticks);
+    assign supervisor_enable = enable_input_steady | ~enable_wired;
+    assign device_correct = correct_input_level & supervisor_may_correct;
+    assign device_playback = playback_input_level & supervisor_may_step;
+    assign device_calibrate = calibrate ^ calibrate_inverted;
+    assign device_manual_step = manual_step_input_level & supervisor_may_step;
+    assign device_manual_forward = manual_forward ^ active_low;
+    assign device_range_x2 = range_set | (range_input_steady & range_wired);
     assign t1 = device_t1;
     assign t2 = device_t2;
-    assign phase_a = device_phase_a;
-    assign phase_b = device_phase_b;
-    assign phase_c = device_phase_c;
+    assign phase_a = device_phase_a & ~supervisor_stopped;
+    assign phase_b = device_phase_b & ~supervisor_stopped;
+    assign phase_c = device_phase_c & ~supervisor_stopped;
     assign step = step_driver_step_pin;
     assign direction = step_driver_direction_pin;
     assign zero = device_zero;
     assign fault = device_fault;
     assign measuring = device_measuring;
+    assign alarm = supervisor_alarm;
 
     initial begin
         power_up_q = 4'd0;
@@ -137,7 +352,7 @@ module board_shell (
     end
 
     // Without a reader here; named so that linters know it is meant.
-    wire unused_bits = &{1'b0, device_standard, device_cp1, device_cp2, device_q, device_q_bar, device_reverse, device_count, device_count_forward, device_grating_divided, device_laser_divided};
+    wire unused_bits = &{1'b0, device_standard, device_cp1, device_cp2, device_q, device_q_bar, device_reverse, device_count, device_count_forward, supervisor_lines_missing, supervisor_fringes_missing, supervisor_wrapped, manual_step_input_steady, range_input_level, enable_input_level};
 endmodule
 
 `default_nettype wire

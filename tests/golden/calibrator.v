@@ -1,14 +1,22 @@
-// Puts a known phase on the meter outputs (figs. 11, 12)
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// calibrator: Puts a known phase on the meter outputs (figs. 11, 12)
 
 `default_nettype none
 
 module calibrator (
+    // clock: FPGA clock, rising edge
     input  wire         clock,
+    // clear: start state
     input  wire         clear,
+    // line: high for one clock per grating line, gated or not
     input  wire         line,
+    // meter: the measured pulse
     input  wire         meter,
+    // calibrate: 0 measured, 1 180°, 2 90° below it, 3 45° below it
     input  wire [1:0]   calibrate,
+    // t1: meter output
     output wire         t1,
+    // t2: its complement
     output wire         t2
 );
 

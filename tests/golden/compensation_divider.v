@@ -1,12 +1,18 @@
-// Seven decades of which four are set: one pulse in F (fig. 9)
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// compensation_divider: Seven decades of which four are set: one pulse in F (fig. 9)
 
 `default_nettype none
 
 module compensation_divider (
+    // clock: FPGA clock, rising edge
     input  wire         clock,
+    // clear: back to zero; pulses are not counted meanwhile
     input  wire         clear,
+    // pulse: high for one clock per laser pulse
     input  wire         pulse,
+    // preset: F/1000, four BCD digits, millions on top; 0000 is off
     input  wire [15:0]  preset,
+    // due: high for one clock, the clock after every F-th pulse
     output wire         due
 );
 

@@ -1,13 +1,20 @@
-// Blocks or inserts one laser pulse in F (fig. 9)
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// cumulative_compensator: Blocks or inserts one laser pulse in F (fig. 9)
 
 `default_nettype none
 
 module cumulative_compensator (
+    // clock: FPGA clock, rising edge
     input  wire         clock,
+    // clear: divider to zero, nothing owed
     input  wire         clear,
+    // laser: high for one clock per fringe
     input  wire         laser,
+    // preset: F/1000, four BCD digits; 0000 is off
     input  wire [15:0]  preset,
+    // insert: insert (ΔS < 0) instead of block (ΔS > 0)
     input  wire         insert,
+    // pulse: the compensated train, for divider B and the phase selector
     output wire         pulse
 );
 

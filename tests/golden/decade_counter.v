@@ -1,12 +1,18 @@
-// One decimal digit with carry (fig. 7)
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// decade_counter: One decimal digit with carry (fig. 7)
 
 `default_nettype none
 
 module decade_counter (
+    // clock: FPGA clock, rising edge
     input  wire         clock,
+    // clear: to zero
     input  wire         clear,
+    // count: high for one clock: one up
     input  wire         count,
+    // digit: 0 to 9, BCD
     output wire [3:0]   digit,
+    // carry: high while this count takes the digit from 9 to 0
     output wire         carry
 );
 

@@ -1,44 +1,82 @@
-// The whole measuring and correcting logic (figs. 6, 14)
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// device: The whole measuring and correcting logic (figs. 6, 14)
 
 `default_nettype none
 
 module device (
+    // clock: FPGA clock, rising edge
     input  wire         clock,
+    // master_reset: everything to its start; synchronous, four clocks or more
     input  wire         master_reset,
+    // grating: grating lines, asynchronous, rising edges count
     input  wire         grating,
+    // laser: interference fringes, likewise
     input  wire         laser,
+    // start: level: select the initial phase, then measure
     input  wire         start,
+    // correct: level: correct, else only measure
     input  wire         correct,
+    // playback: level: steps back to zero ("reset" switch, fig. 17)
     input  wire         playback,
+    // calibrate: 0 off, 1 180°, 2 90°, 3 45°
     input  wire [1:0]   calibrate,
+    // manual_step: rising edge: one step
     input  wire         manual_step,
+    // manual_forward: its direction
     input  wire         manual_forward,
+    // divide_a: A, three BCD digits
     input  wire [11:0]  divide_a,
+    // divide_b: B, three BCD digits
     input  wire [11:0]  divide_b,
+    // range_x2: ×2 instead of ×1
     input  wire         range_x2,
+    // initial_phase: m, three BCD digits
     input  wire [11:0]  initial_phase,
+    // compensation: F/1000, four BCD digits; 0000 is off
     input  wire [15:0]  compensation,
+    // compensation_insert: insert instead of block
     input  wire         compensation_insert,
+    // step_period: clocks from step to step; 0 stops the step clock
     input  wire [23:0]  step_period,
+    // t1: meter and complement, or the calibration
     output wire         t1,
+    // t2: meter and complement, or the calibration
     output wire         t2,
+    // standard: standard square wave
     output wire         standard,
+    // cp1: clocks of the discriminator's flip-flop, active low
     output wire         cp1,
+    // cp2: clocks of the discriminator's flip-flop, active low
     output wire         cp2,
+    // q: that flip-flop: the loop wants forward, reverse
     output wire         q,
+    // q_bar: that flip-flop: the loop wants forward, reverse
     output wire         q_bar,
+    // step: high for one clock: a step is taken
     output wire         step,
+    // forward: direction the motor is driven in, and its complement
     output wire         forward,
+    // reverse: direction the motor is driven in, and its complement
     output wire         reverse,
+    // phase_a: drives of the three windings
     output wire         phase_a,
+    // phase_b: drives of the three windings
     output wire         phase_b,
+    // phase_c: drives of the three windings
     output wire         phase_c,
+    // count: steps away from zero
     output wire [11:0]  count,
+    // count_forward: on which side
     output wire         count_forward,
+    // zero: the count is zero
     output wire         zero,
+    // fault: a step was refused at 4095
     output wire         fault,
+    // measuring: the initial phase is selected
     output wire         measuring,
+    // grating_divided: high for one clock: sets the meter, a comparison starts
     output wire         grating_divided,
+    // laser_divided: high for one clock: clears the meter
     output wire         laser_divided
 );
 

@@ -1,17 +1,28 @@
-// Wider than the standard: forward; narrower: reverse (figs. 15, 16)
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// direction_discriminator: Wider than the standard: forward; narrower: reverse (figs. 15, 16)
 
 `default_nettype none
 
 module direction_discriminator (
+    // clock: FPGA clock, rising edge
     input  wire         clock,
+    // clear: Q low, nothing decided
     input  wire         clear,
+    // hold: no pulses, nothing decided; Q stays
     input  wire         hold,
+    // meter: the measured pulse
     input  wire         meter,
+    // standard: the standard square wave
     input  wire         standard,
+    // cp1: clock that sets Q, active low (point 5 of the figure)
     output wire         cp1,
+    // cp2: clock that clears Q, active low (point 6)
     output wire         cp2,
+    // q: motor forward, negative correction
     output wire         q,
+    // q_bar: motor reverse, positive correction
     output wire         q_bar,
+    // decided: Q is a decision of this pass
     output wire         decided
 );
 

@@ -1,14 +1,21 @@
-// Lets the grating through once m laser pulses have passed (fig. 8)
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// initial_phase_selector: Lets the grating through once m laser pulses have passed (fig. 8)
 
 `default_nettype none
 
 module initial_phase_selector (
+    // clock: FPGA clock, rising edge
     input  wire         clock,
+    // clear: back to zero, gate shut
     input  wire         clear,
+    // laser: high for one clock per compensated laser pulse
     input  wire         laser,
     input  wire         grating,
+    // preset: m, three BCD digits
     input  wire [11:0]  preset,
+    // open: the gate is open: the phase is selected, measuring begins
     output wire         open,
+    // line: grating lines that pass the gate
     output wire         line
 );
 

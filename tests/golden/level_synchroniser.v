@@ -1,28 +1,24 @@
-// Two flip-flops between a panel switch and the logic
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// level_synchroniser: Two flip-flops between a panel switch and the logic
 
 `default_nettype none
 
 module level_synchroniser (
+    // clock: FPGA clock, rising edge
     input  wire         clock,
+    // pin: the switch, at any time
     input  wire         pin,
+    // level: the same level, two rising edges later
     output wire         level
 );
 
-    reg first_d;
-    reg first_q;
-    reg second_d;
-    reg second_q;
+    wire first_d;
+    (* ASYNC_REG = "TRUE", keep = "true" *) reg first_q;
+    wire second_d;
+    (* ASYNC_REG = "TRUE", keep = "true" *) reg second_q;
 
-    always @* begin
-        first_d = first_q;
-        first_d = pin;
-    end
-
-    always @* begin
-        second_d = second_q;
-        second_d = first_q;
-    end
-
+    assign first_d = pin;
+    assign second_d = first_q;
     assign level = second_q;
 
     initial begin

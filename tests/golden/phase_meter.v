@@ -1,12 +1,18 @@
-// Set by the grating, cleared by the laser: its mean is the phase (figs. 3, 6)
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// phase_meter: Set by the grating, cleared by the laser: its mean is the phase (figs. 3, 6)
 
 `default_nettype none
 
 module phase_meter (
+    // clock: FPGA clock, rising edge
     input  wire         clock,
+    // hold: low, whatever comes: the initial phase is being selected
     input  wire         hold,
+    // grating: high for one clock: sets
     input  wire         grating,
+    // laser: high for one clock: clears
     input  wire         laser,
+    // meter: the pulse whose width is the phase, registered
     output wire         meter
 );
 

@@ -1,13 +1,20 @@
-// Three decades and their coincidence: one pulse in 1 to 999 (fig. 7)
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// programmable_divider: Three decades and their coincidence: one pulse in 1 to 999 (fig. 7)
 
 `default_nettype none
 
 module programmable_divider (
+    // clock: FPGA clock, rising edge
     input  wire         clock,
+    // clear: back to zero; pulses are not counted meanwhile
     input  wire         clear,
+    // pulse: high for one clock per pulse to count
     input  wire         pulse,
+    // preset: N, three BCD digits, hundreds on top
     input  wire [11:0]  preset,
+    // divided: high for one clock, the clock after every N-th pulse
     output wire         divided,
+    // half: high while the count is ⌊N/2⌋
     output wire         half
 );
 

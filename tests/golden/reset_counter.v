@@ -1,18 +1,30 @@
-// Counts the steps and plays them back to zero (fig. 17)
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// reset_counter: Counts the steps and plays them back to zero (fig. 17)
 
 `default_nettype none
 
 module reset_counter (
+    // clock: FPGA clock, rising edge
     input  wire         clock,
+    // clear: here is zero; no fault
     input  wire         clear,
+    // request: high for one clock: a step is asked for
     input  wire         request,
+    // forward: its direction, unless played back
     input  wire         forward,
+    // playback: go back to zero and stay there
     input  wire         playback,
+    // step: the step is taken: ring and counter both move
     output wire         step,
+    // drive_forward: its direction
     output wire         drive_forward,
+    // count: steps away from zero, 0 to 4095
     output wire [11:0]  count,
+    // count_forward: on which side of zero; at zero, where it last was
     output wire         count_forward,
+    // zero: the count is zero (line 158 of the figure)
     output wire         zero,
+    // fault: a step was refused at 4095; until zero is reached again
     output wire         fault
 );
 

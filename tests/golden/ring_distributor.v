@@ -1,14 +1,22 @@
-// Three phases, six steps, and a way out of the two illegal states (fig. 14)
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// ring_distributor: Three phases, six steps, and a way out of the two illegal states (fig. 14)
 
 `default_nettype none
 
 module ring_distributor (
+    // clock: FPGA clock, rising edge
     input  wire         clock,
+    // clear: to phase A alone
     input  wire         clear,
+    // step: high for one clock: one step, 0.0125 µm at the table
     input  wire         step,
+    // forward: direction of that step
     input  wire         forward,
+    // phase_a: drives of the three windings, registered
     output wire         phase_a,
+    // phase_b: drives of the three windings, registered
     output wire         phase_b,
+    // phase_c: drives of the three windings, registered
     output wire         phase_c
 );
 

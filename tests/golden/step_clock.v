@@ -1,11 +1,16 @@
-// Free-running oscillator whose frequency is the correction speed (fig. 14)
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// step_clock: Free-running oscillator whose frequency is the correction speed (fig. 14)
 
 `default_nettype none
 
 module step_clock (
+    // clock: FPGA clock, rising edge
     input  wire         clock,
+    // clear: a whole period from now to the next tick
     input  wire         clear,
+    // period: clocks from tick to tick, 1 to 16 777 215; 0 stops it
     input  wire [23:0]  period,
+    // tick: high for one clock
     output wire         tick
 );
 

@@ -1,13 +1,20 @@
-// Pulse and direction for a bought stepper driver
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// step_driver: Pulse and direction for a bought stepper driver
 
 `default_nettype none
 
 module step_driver (
+    // clock: FPGA clock, rising edge
     input  wire         clock,
+    // clear: pulse away
     input  wire         clear,
+    // step: high for one clock: a step is taken
     input  wire         step,
+    // forward: its direction
     input  wire         forward,
+    // step_pin: low for 64 clocks after that, then high for 64
     output wire         step_pin,
+    // direction_pin: that direction, until the next step
     output wire         direction_pin
 );
 

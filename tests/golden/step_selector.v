@@ -1,18 +1,31 @@
-// Chooses who moves the motor: the discriminator, the panel or the playback (fig. 14)
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// step_selector: Chooses who moves the motor: the discriminator, the panel or the playback (fig.
+// | 14)
 
 `default_nettype none
 
 module step_selector (
+    // clock: FPGA clock, rising edge
     input  wire         clock,
+    // clear: forgets a manual step that waits
     input  wire         clear,
+    // tick: the step clock
     input  wire         tick,
+    // correcting: the loop has decided and may step
     input  wire         correcting,
+    // automatic_forward: the discriminator's Q
     input  wire         automatic_forward,
+    // manual_enable: the panel may step: not in the correct position
     input  wire         manual_enable,
+    // manual_step: high for one clock per press
     input  wire         manual_step,
+    // manual_forward: direction switch of the panel
     input  wire         manual_forward,
+    // playback: steps are being played back
     input  wire         playback,
+    // request: high for one clock: a step is asked for
     output wire         request,
+    // forward: its direction, if it is not played back
     output reg          forward
 );
 

@@ -58,7 +58,7 @@ const WORTHS: &[(&[&str], Worth)] = &[
         &["programmable_divider", "range_stage", "decade_counter", "initial_phase_selector"],
         Worth::Line,
     ),
-    (&["input_synchroniser"], Worth::Line),
+    (&["input_synchroniser", "input_conditioner", "lines", "fringes"], Worth::Line),
     (&["laser_input", "compensator", "divider_b", "laser_range", "laser_divided"], Worth::Fringe),
     (&["compensation_divider", "cumulative_compensator"], Worth::Fringe),
     (&["phase_meter", "standard_wave", "calibrator", "t1", "t2", "standard"], Worth::Clock),
@@ -69,7 +69,8 @@ const WORTHS: &[(&[&str], Worth)] = &[
     (&["direction_pin", "direction"], Worth::Step),
     (&["start_input", "correct_input", "playback_input", "level_synchroniser"], Worth::Switch),
     (&["manual_step_input", "manual_forward_input", "power_up_q"], Worth::Switch),
-    (&["calibrate_low_input", "calibrate_high_input"], Worth::Switch),
+    (&["calibrate_low_input", "calibrate_high_input", "range_input"], Worth::Switch),
+    (&["enable_input", "stop_input", "supervisor", "alarm", "milliseconds"], Worth::Switch),
     (&["scale_lookup", "digital_comparison", "subdivided_comparison"], Worth::Apart),
 ];
 

@@ -156,12 +156,13 @@ fn next_level(input: &Port, now: u64, clock: usize, random: &mut ChaCha8Rng) -> 
     let mut one_in = |n: u32| random.random_range(0..n) == 0;
     let seldom = clock > 0 && !one_in(512);
     match input.name.as_str() {
+        "stop" | "emergency_stop" => u64::from(one_in(4096)),
         "clear" | "master_reset" => u64::from(clock < 4 || one_in(4096)),
         "divide_a" | "divide_b" | "preset" | "initial_phase" | "compensation" if !seldom => {
             wheel(input, random)
         }
-        "step_period" | "period" if !seldom => random.random_range(1..12),
-        "start" => u64::from(clock > 8 && !one_in(2048)),
+        "step_period" | "period" | "ticks" | "limit" if !seldom => random.random_range(1..12),
+        "start" | "enable" | "measuring" => u64::from(clock > 8 && !one_in(2048)),
         "calibrate"
         | "range_x2"
         | "insert"
@@ -171,13 +172,16 @@ fn next_level(input: &Port, now: u64, clock: usize, random: &mut ChaCha8Rng) -> 
         | "hold"
         | "correcting"
         | "compensation_insert"
+        | "active_low"
+        | "wrap_watched"
             if !seldom =>
         {
             random.random_range(0..=mask(input.width))
         }
         "forward" | "manual_forward" | "automatic_forward" if one_in(6000) || clock == 0 => 1 - now,
         "grating" | "laser" | "pulse" | "count" | "step" | "request" | "tick" | "divided"
-        | "line" | "pin" | "manual_step" | "half" | "meter" | "standard" => {
+        | "line" | "fringe" | "opening" | "shutting" | "pin" | "manual_step" | "half" | "meter"
+        | "standard" => {
             let density = 2 + u32::try_from(clock / 700 % 5).unwrap_or(0);
             u64::from(one_in(density))
         }

@@ -1,0 +1,75 @@
+//! What is between the pins and the device, and how the modules are called.
+
+use clap::{Args, ValueEnum};
+use helixlock_gen::{Board, leave_out};
+use helixlock_netlist::Design;
+use helixlock_rtl::settings::Conditioning;
+
+/// Options of the emitted design.
+#[derive(Debug, Args)]
+pub(super) struct Options {
+    /// Name all modules with this before their name, for use in a larger design
+    #[arg(long, value_name = "PREFIX", default_value = "")]
+    pub(super) prefix: String,
+    /// Further pins, separated by commas
+    #[arg(long, value_name = "PINS", value_delimiter = ',')]
+    pins: Vec<Pin>,
+    /// Clocks that a level of grating or laser has to stand, 0 to 15; 0 takes every edge
+    #[arg(long, value_name = "CLOCKS", default_value_t = 4)]
+    glitch_clocks: u32,
+    /// Milliseconds that a switch or button has to stand, 0 to 15
+    #[arg(long, value_name = "MS", default_value_t = 10)]
+    debounce: u32,
+    /// Milliseconds without a line or fringe that stop the loop, 0 to 4095; 0 watches nothing
+    #[arg(long, value_name = "MS", default_value_t = 1000)]
+    watchdog: u32,
+    /// Switches lead their pins to the supply, not to ground
+    #[arg(long)]
+    active_high: bool,
+}
+
+/// A pin that a design may lack.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Pin {
+    /// Switch: the range, in place of the machine file's
+    Range,
+    /// Switch: steps are allowed
+    Enable,
+    /// Contact that opens to stop
+    EmergencyStop,
+}
+
+impl Pin {
+    const ALL: [(Self, &str); 3] = [
+        (Self::Range, "range_x2"),
+        (Self::Enable, "enable"),
+        (Self::EmergencyStop, "emergency_stop"),
+    ];
+}
+
+impl Options {
+    /// The conditioning they ask for on a board, whose ticks are milliseconds.
+    pub(super) fn conditioning(&self, board: &Board) -> anyhow::Result<Conditioning> {
+        let conditioning = Conditioning {
+            glitch_clocks: self.glitch_clocks,
+            debounce_ticks: self.debounce,
+            tick_period: 1000 * board.clock_mhz,
+            watchdog_ticks: self.watchdog,
+            active_low: !self.active_high,
+            range_pin: self.pins.contains(&Pin::Range),
+            enable_pin: self.pins.contains(&Pin::Enable),
+        };
+        conditioning.check()?;
+        Ok(conditioning)
+    }
+
+    /// Takes the pins from the design that nobody asked for; their levels say nothing then.
+    pub(super) fn leave_out_pins(&self, design: &mut Design) -> anyhow::Result<()> {
+        for (pin, port) in Pin::ALL {
+            if !self.pins.contains(&pin) {
+                leave_out(design, port, 0)?;
+            }
+        }
+        Ok(())
+    }
+}
