@@ -90,10 +90,10 @@ fn the_same_machine_gives_the_same_bytes() {
 #[test]
 fn the_test_bench_passes_and_finds_a_fault() {
     let folder = tempfile::tempdir().expect("a scratch folder");
-    // A fast step clock keeps the test short.
+    // A fast step clock and short debouncing keep the test short.
     let machine = machine_with(&folder, "frequency = \"", "frequency = \"20");
     let output = folder.path().join("out");
-    let generated = generate(&machine, &output, &[]);
+    let generated = generate(&machine, &output, &["--debounce", "1"]);
     assert!(generated.status.success(), "{}", String::from_utf8_lossy(&generated.stderr));
     let simulate = || Command::new("make").arg("sim").current_dir(&output).output().unwrap();
     let passed = simulate();

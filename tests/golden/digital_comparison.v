@@ -1,4 +1,4 @@
-// Clocks between two pulses and from period to period (document 4)
+// digital_comparison: Clocks between two pulses and from period to period (document 4)
 
 `default_nettype none
 
@@ -25,9 +25,9 @@ module digital_comparison (
     reg [31:0] delay_latch_q;
     reg [31:0] period_latch_d;
     reg [31:0] period_latch_q;
-    reg delay_new_d;
+    wire delay_new_d;
     reg delay_new_q;
-    reg period_new_d;
+    wire period_new_d;
     reg period_new_q;
 
     assign one_more = since_q + 32'h1;
@@ -65,10 +65,7 @@ module digital_comparison (
         end
     end
 
-    always @* begin
-        delay_new_d = delay_new_q;
-        delay_new_d = shutting & (opening | gate_q) & ~clear;
-    end
+    assign delay_new_d = shutting & (opening | gate_q) & ~clear;
 
     always @* begin
         period_latch_d = period_latch_q;
@@ -77,11 +74,7 @@ module digital_comparison (
         end
     end
 
-    always @* begin
-        period_new_d = period_new_q;
-        period_new_d = begun_q & opening & ~clear;
-    end
-
+    assign period_new_d = begun_q & opening & ~clear;
     assign delay = delay_latch_q;
     assign delay_ready = delay_new_q;
     assign period = period_latch_q;

@@ -1,4 +1,5 @@
-// Finds the correction of a place in the EEPROM and steps the corrector to it (document 3)
+// scale_lookup: Finds the correction of a place in the EEPROM and steps the corrector to it
+// | (document 3)
 
 `default_nettype none
 
@@ -38,9 +39,9 @@ module scale_lookup (
     wire [11:0] stands_less;
     reg [11:0] place_d;
     reg [11:0] place_q;
-    reg [11:0] pointer_d;
+    wire [11:0] pointer_d;
     reg [11:0] pointer_q;
-    reg inside_d;
+    wire inside_d;
     reg inside_q;
     reg [4:0] phase_d;
     reg [4:0] phase_q;
@@ -82,16 +83,8 @@ module scale_lookup (
         end
     end
 
-    always @* begin
-        pointer_d = pointer_q;
-        pointer_d = wanted;
-    end
-
-    always @* begin
-        inside_d = inside_q;
-        inside_d = place_q < places;
-    end
-
+    assign pointer_d = wanted;
+    assign inside_d = place_q < places;
     assign phase_more = phase_q + 5'h1;
 
     always @* begin

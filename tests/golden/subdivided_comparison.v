@@ -1,4 +1,5 @@
-// Where between two input pulses an output pulse falls, as a fraction (document 4)
+// subdivided_comparison: Where between two input pulses an output pulse falls, as a fraction
+// | (document 4)
 
 `default_nettype none
 
@@ -48,7 +49,7 @@ module subdivided_comparison (
     reg [15:0] quotient_q;
     reg [4:0] left_d;
     reg [4:0] left_q;
-    reg done_d;
+    wire done_d;
     reg done_q;
 
     assign one_more = since_q + 33'h1;
@@ -145,11 +146,7 @@ module subdivided_comparison (
         end
     end
 
-    always @* begin
-        done_d = done_q;
-        done_d = (left_q == 5'h1) & ~clear;
-    end
-
+    assign done_d = (left_q == 5'h1) & ~clear;
     assign fraction = quotient_q;
     assign pulses = pulses_latch_q;
     assign ready = done_q;
