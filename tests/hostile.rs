@@ -114,10 +114,9 @@ fn fault(case: &Case, run: &Output) -> Option<String> {
     let at_fault = match (run.status.code(), run.status.signal()) {
         (_, Some(signal)) => Some(format!("ended by signal {signal}")),
         (Some(0 | 1), _) if case.wanted == Wanted::Refused => Some("answered".into()),
-        (Some(0 | 1), _) => None,
         (Some(2), _) if error.is_empty() => Some("refused without a word".into()),
         (Some(2), _) if !out.is_empty() => Some("refused with an answer".into()),
-        (Some(2), _) => None,
+        (Some(0..=2), _) => None,
         (code, _) => Some(format!("exit status {code:?}")),
     };
     let escapes = |bytes: &[u8]| {

@@ -23,8 +23,7 @@ fn an_effect_without_a_value_is_refused_by_name_and_place() {
         ("sqrt(3-position_mm)", "motion", "`odd` gives NaN µm at 5.0"),
         ("sqrt(3-position_mm)", "workpiece", "`odd` gives NaN µm at 5."),
         ("1/(time_s-time_s)", "angle-reference", "`odd` gives inf µm at 0.000000 s"),
-        ("exp(1000*time_s)", "motion", "`odd` gives 1000"),
-        ("1000000*floor(position_mm)", "motion", "move the table by more than 200000 pulses"),
+        ("exp(1000*time_s)", "motion", "the effects move the table by more than"),
         ("0/0+error_um", "electronics", "`odd` gives NaN µm at 0.000000 s"),
     ] {
         put(&path, &machine(formula, entry));
@@ -91,7 +90,9 @@ fn a_sweep_of_too_many_cases_says_their_number() {
         let keys = ["dividers.a", "dividers.b", "drive.frequency", "spindle.speed"];
         let axes: Vec<_> = keys[..axes].iter().map(|key| format!("{key}={range}")).collect();
         let mut words = vec!["sweep", machine, "-o", &out];
-        axes.iter().for_each(|axis| words.extend(["--set", axis]));
+        for axis in &axes {
+            words.extend(["--set", axis]);
+        }
         let run = helixlock(&words);
         assert_eq!(run.status, 2, "{run:?}");
         assert!(run.stderr.contains(found), "{run:?}");

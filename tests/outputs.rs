@@ -190,7 +190,9 @@ fn killed_at_any_system_call_it_leaves_all_or_nothing() {
             let out = folder.path().join("out");
             let _ = fs::remove_dir_all(&out);
             fs::create_dir(&out).expect("a folder can be made");
-            names.iter().for_each(|name| put(&out.join(name), "old"));
+            for name in names {
+                put(&out.join(name), "old");
+            }
             let killed = Command::new("strace")
                 .args(["-f", "-qq", "-o", "/dev/null", "-e", &format!("trace={calls}"), "-e"])
                 .arg(format!("inject={calls}:signal=KILL:when={time}"))

@@ -35,7 +35,9 @@ impl<'a> Bench<'a> {
         engine.watch(&netlist.outputs);
         let inputs = vec![0; netlist.inputs.len()];
         let mut bench = Self { netlist, engine, inputs, active_low, vectors: vec![] };
-        PANEL.iter().for_each(|switch| bench.set(switch, 0));
+        for switch in PANEL {
+            bench.set(switch, 0);
+        }
         bench
     }
 
@@ -79,7 +81,9 @@ impl<'a> Bench<'a> {
     /// These inputs high for two clocks, then low for two.
     pub(super) fn pulse(&mut self, names: &[&str]) {
         for level in [1, 0] {
-            names.iter().for_each(|name| self.set(name, level));
+            for name in names {
+                self.set(name, level);
+            }
             self.clocks(2);
         }
     }

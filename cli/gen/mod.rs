@@ -99,8 +99,7 @@ impl Gen {
             &project,
             &board,
             &board.pins_of(design.top()),
-            &dialled,
-            file_clock_hz,
+            (&dialled, file_clock_hz),
             synthesis.as_ref(),
         );
         if self.json {

@@ -12,11 +12,11 @@ use crate::shared::keys::keys;
 use crate::shared::wheels::Wheels;
 
 keys! {
-    /// The project in plain numbers; the JSON of `--json`.
+    /// The project in plain numbers; the JSON of `--json`. `machine` is what the machine file
+    /// says: its settings, and its clock, Hz.
     Summary(
-        project: &Project, board: &Board, pins: &[helixlock_gen::Pin], dialled: &Dialled,
-        machine_file_clock_hz: f64,
-        synthesis: Option<&Synthesis>
+        project: &Project, board: &Board, pins: &[helixlock_gen::Pin],
+        machine: (&Dialled, f64), synthesis: Option<&Synthesis>
     ) {
         board: String = board.name.clone(),
         title: String = board.title.clone(),
@@ -24,8 +24,8 @@ keys! {
         package: String = board.package.clone(),
         clock_source: String = board.clock_source.clone(),
         clock_hz: u64 = 1_000_000 * u64::from(board.clock_mhz),
-        machine_file_clock_hz: f64 = machine_file_clock_hz,
-        settings: Wheels = Wheels::new(dialled),
+        machine_file_clock_hz: f64 = machine.1,
+        settings: Wheels = Wheels::new(machine.0),
         notes: Vec<String> = board.notes.clone(),
         pins: Vec<Pin> = pins.iter().map(Pin::new).collect(),
         files: Vec<String> = project.files.iter().map(|(name, _)| name.clone()).collect(),

@@ -47,7 +47,7 @@ pub(crate) fn problem(
     signals: &Signals,
 ) -> anyhow::Result<Problem> {
     let measurement = if input.is_dump() {
-        captured(machine, signals.read(machine, data, input)?)?
+        captured(machine, &signals.read(machine, data, input)?)?
     } else if signals.named() {
         bail!("{}: found a table, expected a VCD capture with the named signals", data.display());
     } else {
@@ -59,7 +59,7 @@ pub(crate) fn problem(
 }
 
 /// The samples of a capture.
-fn captured(machine: &Model, trains: PulseTrains) -> anyhow::Result<Measurement> {
+fn captured(machine: &Model, trains: &PulseTrains) -> anyhow::Result<Measurement> {
     let (table, notes) = trains.table(machine)?;
     let mut measurement = Measurement::from_table(&table, &Nominal::of(machine))?;
     measurement.notes.splice(0..0, notes);

@@ -72,29 +72,29 @@ impl Batch {
     ) -> anyhow::Result<()> {
         let path = self.folder.join(name);
         make_folder(path.parent().unwrap_or(&self.folder))?;
-        self.put(PathBuf::from(name), path, fill)
+        self.put(PathBuf::from(name), &path, fill)
     }
 
     fn put(
         &mut self,
         name: PathBuf,
-        path: PathBuf,
+        path: &Path,
         fill: impl FnOnce(&mut dyn Write) -> anyhow::Result<()>,
     ) -> anyhow::Result<()> {
-        match Target::of(&path, &self.inputs)? {
-            Target::File { path: end, mode } if is_inside(&self.folder, &path, &end) => {
-                let file = filled(&self.folder, &path, fill)?;
-                keep_mode(&file, mode, &path)?;
-                self.inside.push((file, name));
+        match Target::of(path, &self.inputs)? {
+            Target::File { path: end, mode } if is_inside(&self.folder, path, &end) => {
+                let whole = filled(&self.folder, path, fill)?;
+                keep_mode(&whole, mode, path)?;
+                self.inside.push((whole, name));
             }
             Target::File { path: end, mode } => {
-                let file = filled(folder_of(&end), &path, fill)?;
-                keep_mode(&file, mode, &path)?;
-                self.outside.push(Outside::File(file, end));
+                let whole = filled(folder_of(&end), path, fill)?;
+                keep_mode(&whole, mode, path)?;
+                self.outside.push(Outside::File(whole, end));
             }
             Target::Stream(end) => {
                 let mut content = Vec::new();
-                fill(&mut content).with_context(|| cannot(&path))?;
+                fill(&mut content).with_context(|| cannot(path))?;
                 self.outside.push(Outside::Stream(content, end));
             }
         }
@@ -168,7 +168,7 @@ pub(crate) fn write_whole(
         inside: Vec::new(),
         outside: Vec::new(),
     };
-    batch.put(name, path.to_owned(), fill)?;
+    batch.put(name, path, fill)?;
     batch.keep()
 }
 
@@ -194,13 +194,13 @@ fn filled(
     path: &Path,
     fill: impl FnOnce(&mut dyn Write) -> anyhow::Result<()>,
 ) -> anyhow::Result<Unfinished> {
-    let file = Unfinished::new(folder).with_context(|| cannot(path))?;
-    let mut buffer = BufWriter::new(file.file());
+    let whole = Unfinished::new(folder).with_context(|| cannot(path))?;
+    let mut buffer = BufWriter::new(whole.file());
     fill(&mut buffer).with_context(|| cannot(path))?;
     let end = buffer.flush();
     drop(buffer);
-    end.and_then(|()| file.file().sync_all()).with_context(|| cannot(path))?;
-    Ok(file)
+    end.and_then(|()| whole.file().sync_all()).with_context(|| cannot(path))?;
+    Ok(whole)
 }
 
 fn keep_mode(

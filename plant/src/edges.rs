@@ -151,8 +151,8 @@ impl Edges {
     /// The first value that no machine could follow; from there on no pulses come.
     #[must_use]
     pub fn failure(&self) -> Option<EffectError> {
-        let channels = [&self.line, &self.fringe].into_iter();
-        let failed = channels.filter_map(|channel| channel.failure.clone()).next();
+        let mut channels = [&self.line, &self.fringe].into_iter();
+        let failed = channels.find_map(|channel| channel.failure.clone());
         failed.or_else(|| self.failure.clone())
     }
 

@@ -77,7 +77,7 @@ fn broken() -> Vec<Case> {
     let mut chance = ChaCha8Rng::seed_from_u64(15);
     let mut changed = |seed: usize| {
         let mut bytes = good_table();
-        for _ in 0..1 + seed % 5 {
+        for _ in 0..=seed % 5 {
             let at = chance.random_range(0..bytes.len());
             bytes[at] = chance.random();
         }

@@ -47,9 +47,10 @@ fn lost_um(corrections: &[[f64; 2]], rows: &[usize]) -> f64 {
     for (&from, &to) in rows.iter().zip(rows.iter().skip(1)) {
         for place in from..to {
             let share = (place - from) as f64 / (to - from) as f64;
-            for way in 0..2 {
-                let line = corrections[from][way] * (1.0 - share) + corrections[to][way] * share;
-                lost_um = lost_um.max((corrections[place][way] - line).abs());
+            let ends = corrections[from].iter().zip(&corrections[to]);
+            for (correction, (begin, end)) in corrections[place].iter().zip(ends) {
+                let line = begin * (1.0 - share) + end * share;
+                lost_um = lost_um.max((correction - line).abs());
             }
         }
     }
