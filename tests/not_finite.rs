@@ -23,7 +23,8 @@ fn an_effect_without_a_value_is_refused_by_name_and_place() {
         ("sqrt(3-position_mm)", "motion", "`odd` gives NaN µm at 5.0"),
         ("sqrt(3-position_mm)", "workpiece", "`odd` gives NaN µm at 5."),
         ("1/(time_s-time_s)", "angle-reference", "`odd` gives inf µm at 0.000000 s"),
-        ("exp(1000*time_s)", "motion", "the effects move the table by more than"),
+        ("exp(1000*time_s)", "motion", "`odd` gives 1000"),
+        ("1000000*floor(position_mm)", "motion", "move the table by more than 20000 pulses"),
         ("0/0+error_um", "electronics", "`odd` gives NaN µm at 0.000000 s"),
     ] {
         put(&path, &machine(formula, entry));

@@ -23,8 +23,8 @@ use crate::{EffectError, Model, Motion, motion::Pass, motion::in_reach};
 /// Shortest time between two pulses of one channel, s: photo detectors of 1 MHz.
 pub const SHORTEST_S: f64 = 1e-6;
 
-/// Most pulses that a reading may owe at once: 0.2 s of them, some 60 mm of fringes.
-const MOST_OWED: u32 = 200_000;
+/// Most pulses that a reading may owe at once: 20 ms of them, some 6 mm of fringes.
+const MOST_OWED: u32 = 20_000;
 
 /// Which pulse train an edge belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -48,7 +48,10 @@ fn texts() -> Vec<Case> {
             machine.replacen("\"6 mm\"", &format!("\"{}\"", "6".repeat(5_000_000)), 1),
         ),
         ("a key with escapes", format!("{machine}\n\"\\u001b[2J\" = 1\n")),
-        ("a value with escapes", machine.replacen("6 mm", "\\u001b]0;x\\u0007 mm", 1)),
+        (
+            "a value with escapes",
+            machine.replacen("lead = \"6 mm", "lead = \"\\u001b]0;x\\u0007 mm", 1),
+        ),
         (
             "a number of a million digits",
             format!("{machine}\n[filter]\ncutoff = {}\n", "1".repeat(1_000_000)),
