@@ -4,15 +4,15 @@
 //! counted here; then a flip-flop, cleared beforehand, opens the grating's gate. So the two
 //! channels start m laser pulses apart, `φ0 = m/B · 360°`, at ×2 `m/2B · 360°`.
 //!
-//! | port     | dir | meaning                                                        |
-//! |----------|-----|----------------------------------------------------------------|
-//! | `clock`  | in  | FPGA clock, rising edge                                        |
-//! | `clear`  | in  | back to zero, gate shut                                        |
-//! | `laser`  | in  | high for one clock per compensated laser pulse                 |
-//! | `grating`| in  | high for one clock per grating line                            |
-//! | `preset` | in  | m, three BCD digits                                            |
-//! | `open`   | out | the gate is open: the phase is selected, measuring begins      |
-//! | `line`   | out | grating lines that pass the gate                               |
+//! | port      | dir | meaning                                                        |
+//! |-----------|-----|----------------------------------------------------------------|
+//! | `clock`   | in  | FPGA clock, rising edge                                        |
+//! | `clear`   | in  | back to zero, gate shut                                        |
+//! | `laser`   | in  | high for one clock per compensated laser pulse                 |
+//! | `grating` | in  | high for one clock per grating line                            |
+//! | `preset`  | in  | m, three BCD digits                                            |
+//! | `open`    | out | the gate is open: the phase is selected, measuring begins      |
+//! | `line`    | out | grating lines that pass the gate                               |
 //!
 //! # Waveform
 //!
