@@ -10,6 +10,7 @@ module initial_phase_selector (
     input  wire         clear,
     // laser: high for one clock per compensated laser pulse
     input  wire         laser,
+    // grating: high for one clock per grating line
     input  wire         grating,
     // preset: m, three BCD digits
     input  wire [11:0]  preset,
