@@ -129,10 +129,12 @@ mod tests {
 
     use super::*;
 
+    /// A grating with the lines that these dividers want for a lead of 6 mm.
     fn machine(a: u32, b: u32, range: u32, m: u32, compensation: &str) -> Model {
+        let lines = (6000.0 / 0.316_409_915 * f64::from(a) / f64::from(b)).round();
         let text = format!(
             "[workpiece]\nlead = \"6 mm\"\nlength = \"8 mm\"\n[spindle]\nspeed = \"60 rpm\"\n\
-             [grating]\nlines = 13906\ndiameter = \"200 mm\"\n\
+             [grating]\nlines = {lines}\ndiameter = \"200 mm\"\n\
              [laser]\nwavelength = \"0.63281983 um\"\n\
              [dividers]\na = {a}\nb = {b}\nrange = {range}\ninitial_phase = {m}\n\
              compensation = \"{compensation}\"\n\
