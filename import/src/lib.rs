@@ -15,6 +15,7 @@ mod delimited;
 mod encoding;
 pub mod error;
 mod formats;
+mod fringes;
 mod grid;
 mod header;
 mod instant;

@@ -9,6 +9,7 @@ use crate::delimited;
 use crate::encoding;
 use crate::error::{ImportError, Place};
 use crate::formats;
+use crate::fringes;
 use crate::grid::Grid;
 use crate::header;
 use crate::limits;
@@ -89,6 +90,9 @@ fn read(source: Source<'_>, decisions: &mut Decisions<'_>) -> Result<Built, Impo
     }
     if let Some((format, reason)) = formats::binary(source.name, source.bytes)? {
         decisions.text("file", "format", || (format.into(), reason.into()));
+        if format == "sigrok" {
+            return formats::sigrok::read(source.bytes, decisions);
+        }
         let grid = match format {
             "spreadsheet" => formats::spreadsheet::grid(source.bytes, decisions)?,
             "npy" => formats::npy::grid(source.name, source.bytes)?,
@@ -104,6 +108,7 @@ fn read(source: Source<'_>, decisions: &mut Decisions<'_>) -> Result<Built, Impo
     });
     match format.as_str() {
         "phd2" => formats::phd2::read(&lines, decisions),
+        "eqmod" => formats::eqmod::read(&lines, decisions),
         "renishaw" => formats::renishaw::read(&lines, decisions),
         "iso230" => formats::iso230::read(&lines, decisions),
         "linuxcnc-comp" => formats::linuxcnc::read_comp(&lines, decisions),
@@ -162,7 +167,11 @@ pub(crate) fn understand(
         rules: &rules,
         missing: &missing,
     };
-    understood.build(decisions)
+    let built = understood.build(decisions)?;
+    if !fringes::are_in(&built.columns) || !decisions.questions.is_empty() {
+        return Ok(built);
+    }
+    Ok(Built { columns: fringes::demodulated(&built.columns, decisions)?, ..built })
 }
 
 /// The unit of `Unit: mm` above the table.

@@ -6,7 +6,7 @@ mod units;
 use crate::data::{self, Target, Word};
 use crate::decide::Decisions;
 use crate::error::quoted;
-
+use crate::fringes::{COUNT, DETECTORS};
 use crate::header::{self, Header};
 use crate::question::Answer;
 use crate::recipe::ColumnRule;
@@ -290,12 +290,12 @@ fn observed(candidates: &[Candidate<'_>], decisions: &mut Decisions<'_>) {
         .map(|candidate| candidate.header.name.clone())
         .take(12)
         .collect();
-    if !has(&OBSERVED) && !free.is_empty() {
+    if !has(&OBSERVED) && !has(&DETECTORS) && !free.is_empty() {
         let rotary = candidates.iter().any(|candidate| candidate.is("angle_rev"));
         let to = if rotary { "error_arcsec" } else { "error_um" };
         decisions.question("no column is known as the measured error", answers(&free, to));
     }
-    if !has(&COORDINATES) && !free.is_empty() {
+    if !has(&COORDINATES) && !has(&[COUNT]) && !free.is_empty() {
         decisions.question("no column is known as position or time", answers(&free, "position_mm"));
     }
 }

@@ -101,6 +101,12 @@ const TABLES: &[Case] = &[
 ];
 
 const LOGS: &[Case] = &[
+    ("worm.pec", Replace("!WormPeriod=480", "!WormPeriod"), ""),
+    ("worm.pec", Replace("!WormPeriod=480", "!WormPeriod=soon"), ""),
+    ("worm.pec", Replace("1 8388712 ", "1 8388712 more "), ""),
+    ("worm.pec", Replace("1 8388712 ", "one 8388712 "), ""),
+    ("worm.pec", Replace("2 8388817 ", "1 8388817 "), ""),
+    ("worm.pec", Whole(b"!WormPeriod=480\n"), ""),
     ("laser.rtl", Replace("Target-count: 5", "Target-count: 6"), ""),
     ("laser.rtl", Replace("Run-count: 4", "Run-count: 5"), ""),
     ("laser.rtl", Replace("  1   2   0.800", "  1   2"), ""),
@@ -173,6 +179,10 @@ const LOGS: &[Case] = &[
 ];
 
 const BINARY: &[Case] = &[
+    ("stepper.sr", Cut(100), ""),
+    ("stepper.sr", Byte(30, b'x'), ""),
+    ("stepper.sr", Replace("", ""), "[sigrok]\nstep = \"TX\""),
+    ("stepper.sr", Replace("", ""), "[sigrok]\nstep = 1"),
     ("array.npy", Replace("", ""), ""),
     ("array.npy", Cut(9), ""),
     ("array.npy", Cut(40), ""),

@@ -59,6 +59,8 @@ fn samples_that_leave_nothing_open() {
         "record.npy",
         "workbook.xlsx",
         "sheet.ods",
+        "worm.pec",
+        "stepper.sr",
     ] {
         check(name, "");
     }
@@ -91,6 +93,16 @@ fn samples_that_need_an_answer_ask_for_it() {
         assert!(!open.questions.is_empty(), "{name} is read without an answer");
         check(name, answer);
     }
+}
+
+/// Forty steps forward and 25 back, five samples of a millisecond each.
+#[test]
+fn steps_of_a_session_are_counted_with_their_direction() {
+    let table = check("stepper.sr", "");
+    let column = |name: &str| table.column(name).expect("the sample is whole");
+    let (time_s, steps) = (column("time_s"), column("steps"));
+    assert_eq!((steps.len(), steps[39], steps[64]), (65, 40.0, 15.0));
+    assert!((time_s[64] - 0.323).abs() < 1e-12, "{}", time_s[64]);
 }
 
 /// The two encodings of one Chinese table give one table.

@@ -2,12 +2,14 @@
 
 pub(crate) mod camonitor;
 mod channels;
+pub(crate) mod eqmod;
 pub(crate) mod iso230;
 pub(crate) mod linuxcnc;
 pub(crate) mod npy;
 pub(crate) mod parquet;
 pub(crate) mod phd2;
 pub(crate) mod renishaw;
+pub(crate) mod sigrok;
 pub(crate) mod spreadsheet;
 pub(crate) mod twincat;
 
@@ -23,11 +25,7 @@ pub(crate) fn binary(
     if begins(b"PK\x03\x04") {
         let sigrok = bytes.get(30..37) == Some(b"version");
         return match () {
-            () if sigrok => Err(refused(
-                name,
-                "a sigrok session",
-                "`sigrok-cli -i FILE.sr -O vcd -o FILE.vcd` makes a capture that `compare` and `diagnose` read",
-            )),
+            () if sigrok => Ok(Some(("sigrok", "a ZIP archive that begins with `version`"))),
             () if holds(b"xl/") => {
                 Ok(Some(("spreadsheet", "a ZIP archive with `xl/` in it: an Excel workbook")))
             }
@@ -74,6 +72,8 @@ pub(crate) fn textual(name: &str, lines: &[&str]) -> (&'static str, &'static str
     let ending = name.rsplit('.').next().unwrap_or_default().to_lowercase();
     if any(&|line| line.starts_with("Guiding Begins at") || line.starts_with("Frame,Time,mount,")) {
         ("phd2", "the words of a PHD2 guide log")
+    } else if any(&|line| eqmod::fits(line)) {
+        ("eqmod", "the period of a worm behind `!`")
     } else if any(&|line| line.starts_with("DEVIATIONS::") || line.starts_with("TARGET DATA::")) {
         ("renishaw", "sections such as `DEVIATIONS::`")
     } else if any(&|line| {

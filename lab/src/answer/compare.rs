@@ -144,6 +144,7 @@ fn sensor_residual(
         passes.iter().map(|pass| pass.rms_um * pass.rms_um * count(pass.samples)).sum();
     let rms_um = (square / count(samples.max(1))).sqrt();
     let smaller = (rms_um / rms(&layout, &left).max(f64::MIN_POSITIVE)).powi(2);
+    let told = problem.told_variances();
     SensorResidual {
         sensor: problem.sensors[sensor],
         samples,
@@ -155,7 +156,7 @@ fn sensor_residual(
         looked_at: rows.len(),
         outliers: blocks()
             .flat_map(|block| block.rows.clone())
-            .filter(|&row| 1.0 < problem.layout.inflation[row])
+            .filter(|&row| told[row] < problem.layout.inflation[row])
             .count(),
         spectrum: amplitude_spectrum(problem, residual, sensor),
     }

@@ -75,12 +75,29 @@ pub struct Measurement {
     pub pass_names: Vec<f64>,
     /// Per sensor one value a sample, NaN where the cell is missing; the counter in µm.
     pub observations: BTreeMap<Sensor, Vec<f64>>,
+    /// Standard deviations of the recorder's values, where the file tells them (`error_um_sd`);
+    /// their sizes against each other weigh the samples.
+    pub deviations: Option<Vec<f64>>,
     /// Logged covariates, known and unknown; gaps are bridged from their neighbours.
     pub covariates: BTreeMap<String, Vec<f64>>,
     /// True when time was measured, not worked out from travel and speed.
     pub timed: bool,
     /// What a user should know about how the file was read.
     pub notes: Vec<String>,
+}
+
+/// Column with the standard deviation of each value of the recorder.
+fn deviation_column(nominal: &Nominal) -> &'static str {
+    if nominal.rotary { "error_arcsec_sd" } else { "error_um_sd" }
+}
+
+/// Standard deviations, where the table has one for every value that it has.
+fn deviations<'a>(table: &'a Table, nominal: &Nominal) -> Option<&'a [f64]> {
+    let told = table.column(deviation_column(nominal))?;
+    let values = table.column(sensor_column(Sensor::Recorder, nominal.rotary))?;
+    let pairs = told.iter().zip(values);
+    let whole = pairs.clone().all(|(sd, value)| !value.is_finite() || 0.0 < *sd && sd.is_finite());
+    whole.then_some(told)
 }
 
 /// True for a column that is no covariate; one that nobody knows is kept as one.
@@ -261,6 +278,13 @@ fn assemble(
         let factor = if sensor == Sensor::Counter { nominal.step_um } else { 1.0 };
         observations.insert(sensor, pick(values).iter().map(|value| value * factor).collect());
     }
+    let deviations = deviations(table, nominal).map(pick);
+    if deviations.is_none() && table.column(deviation_column(nominal)).is_some() {
+        notes.push(format!(
+            "column `{}` is left out: it needs a number above 0 for every error",
+            deviation_column(nominal)
+        ));
+    }
     let covariates = covariates(table, nominal, &passes, &mut notes);
     if nominal.closed && covariates.contains_key("steps") {
         notes.push("the steps are known and taken off: the error is that without them".to_owned());
@@ -275,6 +299,7 @@ fn assemble(
         pass: passes.pass,
         pass_names: passes.names,
         observations,
+        deviations,
         covariates,
         timed: coordinates.timed,
         notes,
@@ -289,6 +314,9 @@ fn covariates(
 ) -> BTreeMap<String, Vec<f64>> {
     let mut known = BTreeMap::new();
     let covariate = |name: &str| {
+        if name == deviation_column(nominal) {
+            return false;
+        }
         let own =
             !is_coordinate_or_sensor(name) || (name == "steps" && steps_are_moves(table, nominal));
         own && !is_of_another_run(name)

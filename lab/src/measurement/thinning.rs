@@ -37,6 +37,14 @@ impl Measurement {
             direction: mean(&self.direction),
             pass: groups.iter().map(|rows| self.pass[rows.start]).collect(),
             observations,
+            deviations: self.deviations.as_deref().map(|told| {
+                let of = |rows: &Range<usize>| {
+                    let known = told[rows.clone()].iter().filter(|sd| sd.is_finite());
+                    let squares: f64 = known.clone().map(|sd| sd * sd).sum();
+                    squares.sqrt() / count(known.count())
+                };
+                groups.iter().map(of).collect()
+            }),
             covariates: self.covariates.iter().map(|(n, v)| (n.clone(), mean(v))).collect(),
             ..self.clone()
         }

@@ -12,7 +12,7 @@ use crate::measurement::Measurement;
 use crate::noise::{Block, Layout, outlier_inflation};
 use crate::numerics::{count, highest_frequency, median};
 use crate::policy::extent::MOST_BETWEEN;
-use crate::policy::reading::WRITTEN_INTERVAL;
+use crate::policy::reading::{MOST_TOLD, WRITTEN_INTERVAL};
 use crate::policy::size::SWINGS;
 
 /// One value of one sensor.
@@ -126,7 +126,28 @@ impl Problem {
 
     /// Weighs outliers down, as they stand out of what a model leaves.
     pub(crate) fn mark_outliers(&mut self, left: &[f64]) {
-        self.layout.inflation = outlier_inflation(&self.layout, left);
+        let told = self.told_variances();
+        let scaled: Vec<f64> =
+            left.iter().zip(&told).map(|(left, variance)| left / variance.sqrt()).collect();
+        let outliers = outlier_inflation(&self.layout, &scaled);
+        self.layout.inflation = outliers.iter().zip(&told).map(|(own, told)| own * told).collect();
+    }
+
+    /// Variance of every row against the usual one, as the file tells it, in powers of two: most
+    /// neighbours then share one, which the noise works faster with.
+    pub(crate) fn told_variances(&self) -> Vec<f64> {
+        let Some(told) = &self.measurement.deviations else { return vec![1.0; self.rows.len()] };
+        let mut finite: Vec<f64> = told.iter().copied().filter(|sd| sd.is_finite()).collect();
+        let usual = median(&mut finite);
+        let variance = |row: &Row| {
+            let share = told[row.sample] / usual;
+            if row.sensor != Sensor::Recorder || !(0.0 < share && share.is_finite()) {
+                return 1.0;
+            }
+            let share = share.clamp(1.0 / MOST_TOLD, MOST_TOLD);
+            libm::exp2(libm::round(2.0 * libm::log2(share)))
+        };
+        self.rows.iter().map(variance).collect()
     }
 
     /// Observed less predicted, µm (arcsec); every pass has an arbitrary zero.

@@ -22,6 +22,11 @@ pub(crate) const MOST_OFF: f64 = 1.25;
 /// JASA 88:782), three deviations. Doubled: knocks of less than six weigh fully.
 pub(crate) const OUTLIER_DEVIATIONS: f64 = 3.0;
 
+/// How much longer or shorter than the usual one a standard deviation told by the file may be.
+///
+/// Chosen: a row that weighs 4096 times another already decides alone. Doubled: 16 384 times.
+pub(crate) const MOST_TOLD: f64 = 64.0;
+
 /// Neighbours on each side that a sample is judged by.
 ///
 /// Chosen: seven samples hold a step on one side. Doubled: a wave of thirteen samples is all
