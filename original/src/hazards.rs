@@ -52,6 +52,7 @@ pub fn hazards() -> Result<Vec<Hazard>, Error> {
         ways::late_direction()?,
         ways::lost_pulse()?,
         ways::added_pulse_too_close()?,
+        ways::added_pulse_lost()?,
     ])
 }
 

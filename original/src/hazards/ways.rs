@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::figures::compensator::{self, Correction};
 use crate::figures::discriminator::{self, ClockInputs};
 use crate::figures::{Clear, divider, phase_selector, reset_counter};
-use crate::library::{FLIP_FLOP_PULSES, SN7400, SN7476};
+use crate::library::{FLIP_FLOP_PULSES, SN7400, SN7476, rc_limits};
 use crate::pulses::{Change, Train};
 use crate::simulator::{Check, Simulator};
 
@@ -145,9 +145,9 @@ pub(super) fn late_direction() -> Result<Hazard, Error> {
         what: "the counter miscounts a step whose direction is new",
         turned: "time from direction to step, all parts slowest",
         begins_ps,
-        given_ps: 1_000_000_000,
+        given_ps: 0,
         above: false,
-        kept_away_by: "the step oscillator, whose half period is a millisecond and more",
+        kept_away_by: "nothing in the text: the discriminator does not wait for the step oscillator",
     })
 }
 
@@ -200,5 +200,34 @@ pub(super) fn added_pulse_too_close() -> Result<Hazard, Error> {
         given_ps: pause_ps.unwrap_or(0),
         above: false,
         kept_away_by: "the carry through the decades, which the added pulse waits for",
+    })
+}
+
+/// An added pulse falls while divider B clears itself behind the pulse before it.
+pub(super) fn added_pulse_lost() -> Result<Hazard, Error> {
+    let mut circuit = Circuit::new("compensator_and_divider");
+    let (laser, reset) = (circuit.input("laser", false), circuit.input("reset", false));
+    let pulses =
+        circuit.block("compensator", |c| compensator::add(c, laser, reset, 1, Correction::Insert));
+    let divided = circuit.block("b", |c| divider::add(c, pulses, reset, 500, Clear::Delayed));
+    circuit.output("divided", divided);
+    let mut train = Train::new();
+    // The 1000th is the F-th and ends a division; with the added one 1499 are three times 500.
+    for number in 1..=1499 {
+        train.pulse(number * REST_PS, laser, REST_PS / 2);
+    }
+    let changes = train.changes();
+    let begins_ps = begins(100_000, divider::DELAY_PS, &mut |delay_ps| {
+        let delays = typical(&circuit).with(&circuit, "b_late", [delay_ps, delay_ps])?;
+        Ok(rises(&mut run(&circuit, &delays, &changes)?, &circuit, "divided")? != 3)
+    })?;
+    Ok(Hazard {
+        figure: "9 and 7",
+        what: "an added pulse behind the B-th is lost while divider B is cleared",
+        turned: "delay of the divider's clear, all else typical",
+        begins_ps,
+        given_ps: rc_limits(divider::DELAY_PS).rise.longest_ps,
+        above: true,
+        kept_away_by: "an added pulse that waits for the clear; the text has no word of it",
     })
 }
