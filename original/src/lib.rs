@@ -1,11 +1,12 @@
 //! The device as it was built: gates and flip-flops with delays, no clock.
 //!
 //! [`circuit`] says what is joined to what, out of the parts in [`library`]; [`figures`] has a
-//! circuit for each logic drawing of document 1. Everything else is made from that one
+//! circuit for each logic drawing of document 1, and [`device`] joins them. Everything else is made from that one
 //! description: [`Simulator`] runs it, [`verilog()`] prints it for another simulator, [`dump()`]
 //! writes its waveforms.
 
 pub mod circuit;
+pub mod device;
 pub mod figures;
 pub mod hazards;
 pub mod library;
