@@ -34,6 +34,42 @@ fn examples_keep_the_bound() {
     }
 }
 
+/// Every figure is there, alike with typical delays, and the hazards with it.
+#[test]
+fn figures_are_certified_gate_by_gate() {
+    let words = ["examples/sg7430-6mm/machine.toml", "--length", "1 mm", "--json"];
+    let output = certify(&[&words[..], &["--pulses", "300", "--spread", "2"]].concat());
+    let certificate: serde_json::Value =
+        serde_json::from_slice(&output.stdout).expect("JSON alone");
+    let blocks = certificate["blocks"].as_array().expect("a list");
+    assert_eq!(blocks.len(), 13, "{certificate}");
+    for block in blocks {
+        assert_eq!(block["different"], 0, "{block}");
+        assert_eq!(block["pulses"], 300 + 2 * 30, "{block}");
+    }
+    assert_eq!(certificate["hazards"].as_array().map(Vec::len), Some(8), "{certificate}");
+}
+
+/// All figures joined keep their bound on a machine, loop open and loop closed, and their reset
+/// counter knows where the motor is.
+#[test]
+fn the_whole_original_is_certified_gate_by_gate() {
+    let words = ["examples/sg7430-6mm/machine.toml", "--length", "10 mm", "--gates", "--json"];
+    let output = certify(&[&words[..], &["--pulses", "1", "--spread", "0"]].concat());
+    let certificate: serde_json::Value =
+        serde_json::from_slice(&output.stdout).expect("JSON alone");
+    let whole = &certificate["whole_original"];
+    assert_eq!(whole["holds"], true, "{whole}");
+    assert_eq!(whole["reset_counter_off_by_steps"], 0, "{whole}");
+    let number = |key: &str| whole[key].as_f64().expect("a number");
+    // 63 comparisons a turn, less those of the phase selection; a closed loop that never steps shows
+    // nothing.
+    assert!(90.0 < number("comparisons") && 90.0 < number("closed_comparisons"), "{whole}");
+    assert!(500.0 < number("closed_steps"), "{whole}");
+    let largest_s = number("largest_difference_s");
+    assert!(1e-9 < largest_s && largest_s < number("bound_s"), "{whole}");
+}
+
 /// What is given of the flip-flops counts, and is said to be given. By hand: 80.3 ns of settling over
 /// 10 ns is e^8.03 = 10^3.5; 0.2 ns · 12 MHz · 1900 fringes/s are 10^8.2 upsets a year.
 #[test]

@@ -14,7 +14,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("workbench", &[]),
     ("plant", &["traces"]),
     ("gen", &["netlist"]),
-    ("sim", &["rtl", "netlist", "plant", "traces"]),
+    ("sim", &["rtl", "netlist", "original", "plant", "traces"]),
     ("lab", &["sim", "plant", "traces"]),
 ];
 

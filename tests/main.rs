@@ -41,6 +41,7 @@ mod make_sim;
 mod metrology;
 mod not_finite;
 mod odd_machines;
+mod original;
 mod outputs;
 mod parquet_readers;
 mod phase_meter;

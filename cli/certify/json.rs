@@ -1,10 +1,68 @@
 //! The keys of `certify --json`; they do not change.
 
-use helixlock_sim::{Certificate, FlipFlop};
+use helixlock_original::Hazard;
+use helixlock_sim::{BlockCheck, Certificate, FlipFlop, WholeGates};
+use serde::Serialize;
 
 use crate::shared::keys::keys;
 
+/// A certificate, and the figures gate by gate.
+#[derive(Serialize)]
+pub(crate) struct WholeJson {
+    #[serde(flatten)]
+    pub(crate) certificate: CertificateJson,
+    pub(crate) blocks: Vec<BlockJson>,
+    pub(crate) hazards: Vec<HazardJson>,
+    /// `None` unless asked for.
+    pub(crate) whole_original: Option<GatesJson>,
+}
+
 keys! {
+    /// A figure against its block.
+    BlockJson(one: &BlockCheck) {
+        figure: &'static str = one.figure,
+        block: &'static str = one.block,
+        pulses: u64 = one.pulses,
+        different: u64 = one.different,
+        delay_sets: u64 = one.drawn,
+        delay_sets_different: u64 = one.drawn_different,
+        first_different_seed: Option<u64> = one.first_seed,
+        slowest_answer_ps: u64 = one.slowest_ps,
+        data_sheet_violations: u64 = one.violations,
+        swallowed_pulses: u64 = one.swallowed,
+    }
+    /// Where gates can go wrong.
+    HazardJson(one: &Hazard) {
+        figure: &'static str = one.figure,
+        what: &'static str = one.what,
+        turned: &'static str = one.turned,
+        begins_ps: Option<u64> = one.begins_ps,
+        given_ps: u64 = one.given_ps,
+        kept_away: bool = one.is_kept_away(),
+        kept_away_by: &'static str = one.kept_away_by,
+    }
+    /// The whole original, gate by gate.
+    GatesJson(one: &WholeGates) {
+        holds: bool = one.holds(),
+        parts: usize = one.parts,
+        changes: u64 = one.events,
+        comparisons: usize = one.open.comparisons,
+        largest_difference_s: f64 = one.open.largest_s,
+        largest_difference_at_ends_s: f64 = one.open.largest_at_ends_s,
+        bound_s: f64 = one.bound_s,
+        bound_at_ends_s: f64 = one.bound_at_ends_s,
+        other_decisions: usize = one.open.other_decisions,
+        other_decision_from_coincidence_s: f64 = one.open.other_decision_s,
+        closed_comparisons: usize = one.closed.comparisons,
+        closed_steps: usize = one.closed.steps_taken,
+        closed_largest_difference_steps: u64 = one.closed.largest_steps,
+        closed_bound_steps: u64 = one.closed.bound_steps,
+        closed_alike: usize = one.closed.alike,
+        closed_alike_largest_difference_s: f64 = one.closed.alike_largest_s,
+        data_sheet_violations: u64 = one.violations,
+        swallowed_pulses: u64 = one.swallowed,
+        reset_counter_off_by_steps: u64 = one.miscounted,
+    }
     /// A whole certificate.
     CertificateJson(all: &Certificate, flip_flop: FlipFlop, mtbf_log10_years: f64) {
         holds: bool = all.holds(),

@@ -1,5 +1,6 @@
 //! `helixlock certify`: the synchronous device against the asynchronous one of the print.
 
+mod gates;
 mod json;
 mod text;
 
@@ -8,10 +9,14 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
+use helixlock_original::hazards;
 use helixlock_plant::Model;
-use helixlock_sim::{Course, FLIP_FLOP, FlipFlop, Options, certify, mtbf_log10_years};
+use helixlock_sim::{
+    BlockCheck, Course, FLIP_FLOP, FlipFlop, Options, Spread, certify, certify_gates, check_blocks,
+    mtbf_log10_years,
+};
 
-use self::json::CertificateJson;
+use self::json::{BlockJson, CertificateJson, GatesJson, HazardJson, WholeJson};
 use crate::shared::output::print_json;
 use crate::shared::progress;
 use crate::shared::quantity::length_mm;
@@ -19,7 +24,8 @@ use crate::shared::quantity::length_mm;
 /// Compare the clocked logic with the asynchronous original over a whole pass
 ///
 /// Loop open and loop closed, and on edges made to coincide: prints the largest difference in time
-/// and µm and the bound that follows from the clock. Exit status 1 when a bound is not kept.
+/// and µm and the bound that follows from the clock. Then block by block against the gates of the
+/// report's figures. Exit status 1 when a bound is not kept, or gates of typical delay differ.
 #[derive(Debug, Args)]
 pub(crate) struct Certify {
     /// Machine file
@@ -37,6 +43,22 @@ pub(crate) struct Certify {
     /// What clock-to-output, routing and set-up take of a clock, ns; 3 is assumed
     #[arg(long, value_name = "NS", value_parser = positive_ns)]
     lost: Option<f64>,
+    /// Pulses that each figure and its block are given
+    #[arg(long, value_name = "N", default_value_t = 2000,
+          value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
+    pulses: u64,
+    /// Sets of gate delays, drawn between the limits of the data sheets, with a tenth of the pulses
+    #[arg(long, value_name = "N", default_value_t = 10,
+          value_parser = clap::value_parser!(u64).range(0..=100_000))]
+    spread: u64,
+    /// Where drawing begins
+    #[arg(long, value_name = "N", default_value_t = 1977)]
+    seed: u64,
+    /// Run the whole original gate by gate too, loop open and loop closed; with typical delays, or
+    /// `--gates=SEED` with delays drawn between the limits of the data sheets
+    #[arg(long, value_name = "SEED", num_args = 0..=1, require_equals = true)]
+    #[expect(clippy::option_option, reason = "the flag may come with a seed or without")]
+    gates: Option<Option<u64>>,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -58,16 +80,35 @@ impl Certify {
         let bar = progress::bar(Course::new(&machine, &options)?.clocks(), "clocks");
         let certificate = certify(&machine, self.length, &mut |clocks| bar.set_position(clocks))?;
         bar.finish_and_clear();
+        let checks = check_blocks(&self.spread())?;
+        let hazards = hazards()?;
+        let whole =
+            self.gates.map(|seed| certify_gates(&machine, self.length, seed)).transpose()?;
         let (clock_hz, fringe_hz) = (certificate.clock_hz, certificate.fringe_hz);
         let mtbf = mtbf_log10_years(self.flip_flop(), clock_hz, fringe_hz);
         if self.json {
-            print_json(out, &CertificateJson::new(&certificate, self.flip_flop(), mtbf))?;
+            let words = CertificateJson::new(&certificate, self.flip_flop(), mtbf);
+            let blocks = checks.iter().map(BlockJson::new).collect();
+            let hazards = hazards.iter().map(HazardJson::new).collect();
+            let whole_original = whole.as_ref().map(GatesJson::new);
+            print_json(out, &WholeJson { certificate: words, blocks, hazards, whole_original })?;
         } else {
             text::print(&certificate, out)?;
             let given = [self.settling, self.window, self.lost];
             text::print_metastability(mtbf, given, out)?;
+            gates::print(&checks, &hazards, out)?;
+            whole.iter().try_for_each(|whole| gates::print_whole(whole, out))?;
         }
-        Ok(if certificate.holds() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+        let holds = certificate.holds()
+            && checks.iter().all(BlockCheck::is_alike)
+            && whole.is_none_or(|whole| whole.holds());
+        Ok(if holds { ExitCode::SUCCESS } else { ExitCode::from(1) })
+    }
+
+    /// How much the figures are given.
+    fn spread(&self) -> Spread {
+        let Self { pulses, spread: drawn, seed, .. } = *self;
+        Spread { pulses, drawn, drawn_pulses: pulses.div_ceil(10), seed }
     }
 
     /// What is said of the flip-flops, and of what was not said what is assumed.

@@ -8,6 +8,7 @@ mod parallel;
 pub mod sweep;
 
 pub use certify::{
-    BothClosed, Certificate, FLIP_FLOP, FlipFlop, OpenLoop, certify, mtbf_log10_years,
+    BlockCheck, BothClosed, Certificate, FLIP_FLOP, FlipFlop, OpenLoop, Spread, WholeGates,
+    certify, certify_gates, check_blocks, mtbf_log10_years,
 };
 pub use parallel::parallel;

@@ -17,6 +17,9 @@ pub enum Error {
     /// A wheel cannot show its number.
     #[error(transparent)]
     Wheels(#[from] WheelError),
+    /// A figure of the original cannot be run.
+    #[error(transparent)]
+    Original(#[from] helixlock_original::Error),
     /// Lines or fringes come faster than the FPGA clock can sample them.
     #[error(
         "{input}: pulses at {time_s:.6} s come too fast for a clock of {clock_hz} Hz, \
@@ -30,6 +33,9 @@ pub enum Error {
         /// FPGA clock, Hz.
         clock_hz: f64,
     },
+    /// The gates of the original have the x2 range only.
+    #[error("the gates of the original have a standard square wave at range 2 only, found range 1")]
+    NoGates,
     /// The pass is over before the meter has compared anything.
     #[error(
         "the pass ends after {length_mm} mm, before the first comparison, expected a longer one"

@@ -24,11 +24,13 @@
 //! widths differ from half a period by less than a clock, or by less than the old flip-flop's
 //! shortest clock, the two may decide differently, and no difference is measurable.
 
+mod blocks;
 mod closed;
 mod coincidence;
 mod metastability;
 mod open;
 mod seen;
+mod whole;
 
 use helixlock_plant::Model;
 
@@ -36,9 +38,11 @@ use crate::Error;
 use crate::closed_loop::{Course, Grinder, Options};
 use crate::historic::TTL;
 
+pub use blocks::{BlockCheck, Spread, check_blocks};
 pub use closed::BothClosed;
 pub use metastability::{FLIP_FLOP, FlipFlop, mtbf_log10_years};
 pub use open::OpenLoop;
+pub use whole::{WholeGates, certify_gates};
 
 use coincidence::{Beat, Meeting};
 

@@ -161,8 +161,8 @@ impl WatchedCell {
 
 /// Sums up comparisons from pulses and changes.
 #[derive(Debug, Default)]
-struct Reading {
-    comparisons: Vec<HistoricComparison>,
+pub(super) struct Reading {
+    pub(super) comparisons: Vec<HistoricComparison>,
     /// Its grating pulse, s.
     begun_s: Option<f64>,
     /// The laser's edge before that, s.
@@ -176,7 +176,7 @@ struct Reading {
 }
 
 impl Reading {
-    fn change(&mut self, at_s: f64, change: Change) {
+    pub(super) fn change(&mut self, at_s: f64, change: Change) {
         match change {
             Change::Q(level) => self.forward = level,
             Change::Meter(true) => self.risen_s = Some(at_s),
@@ -186,7 +186,7 @@ impl Reading {
         }
     }
 
-    fn pulse(&mut self, time_s: f64, pulse: Pulse, delay_s: f64) {
+    pub(super) fn pulse(&mut self, time_s: f64, pulse: Pulse, delay_s: f64) {
         match pulse {
             Pulse::Half => self.middle_s = Some(time_s),
             Pulse::Laser => self.laser(time_s),

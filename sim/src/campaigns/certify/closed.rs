@@ -24,6 +24,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use helixlock_plant::{EffectError, Model};
+use helixlock_rtl::settings::Settings;
 
 use crate::Error;
 use crate::closed_loop::{
@@ -31,7 +32,7 @@ use crate::closed_loop::{
 };
 use crate::device::{device_engine, set_wheels};
 use crate::engine::Engine;
-use crate::historic::{HistoricComparison, HistoricLoop, Ticks};
+use crate::historic::{HistoricComparison, HistoricLoop, TTL, Ticks};
 
 use super::GATE_CLOCKS;
 use super::open::Difference;
@@ -72,23 +73,32 @@ pub(super) fn run_closed(
     let clock_hz = course.clock_hz();
     let new = run_synchronous(model, course, progress)?;
     let settings = course.dialled.settings;
-    let period = u64::from(settings.step_period);
-    let first_step = new.steps.first().map_or(0, |step| step.0);
-    let ticks = Ticks { next: first_step % period, period, clock_hz };
+    let ticks = new.ticks(&settings, clock_hz);
     let grinder = Grinder::new(model, course.length_mm)?;
     let gate_s = GATE_CLOCKS / clock_hz;
     let old = HistoricLoop::new(settings, gate_s, ticks, grinder).run(course.duration_s)?;
-    let comparisons: Vec<_> = new.with_steps().zip(old).collect();
+    Ok(compared(model, course, &new, &old, 1.0 / clock_hz + TTL.flip_flop_s))
+}
+
+/// What the two did; `ends_s` is how near to the ends the old one swallows pulses.
+pub(super) fn compared(
+    model: &Model,
+    course: &Course,
+    new: &Synchronous,
+    old: &[(HistoricComparison, i64)],
+    ends_s: f64,
+) -> BothClosed {
+    let comparisons: Vec<_> = new.with_steps().zip(old.iter().copied()).collect();
     let ticks_a_comparison = ceil(course.dialled.step_frequency_hz / course.comparison_hz) + 1;
     let bound_steps = 2 * ticks_a_comparison + 2;
-    let summary = summary(&comparisons, clock_hz);
-    Ok(BothClosed {
+    let summary = summary(&comparisons, course.clock_hz(), ends_s);
+    BothClosed {
         steps_taken: new.steps.len(),
         largest_um: model.drive.step_um * steps_as_number(summary.largest_steps),
         bound_steps,
         bound_um: model.drive.step_um * steps_as_number(bound_steps),
         ..summary
-    })
+    }
 }
 
 #[expect(
@@ -106,13 +116,20 @@ fn steps_as_number(steps: u64) -> f64 {
 }
 
 /// What the synchronous device did.
-struct Synchronous {
+pub(super) struct Synchronous {
     comparisons: Vec<Seen>,
     /// Clock of each step, and whether it was forward.
     steps: Vec<(u64, bool)>,
 }
 
 impl Synchronous {
+    /// The step clock: it has ticked at the first step.
+    pub(super) fn ticks(&self, settings: &Settings, clock_hz: f64) -> Ticks {
+        let period = u64::from(settings.step_period);
+        let first_step = self.steps.first().map_or(0, |step| step.0);
+        Ticks { next: first_step % period, period, clock_hz }
+    }
+
     /// Each comparison with the net steps at its end.
     fn with_steps(&self) -> impl Iterator<Item = (Seen, i64)> {
         let mut steps = self.steps.iter().peekable();
@@ -126,7 +143,7 @@ impl Synchronous {
     }
 }
 
-fn run_synchronous(
+pub(super) fn run_synchronous(
     model: &Model,
     course: &Course,
     progress: &mut dyn FnMut(u64),
@@ -159,11 +176,11 @@ fn run_synchronous(
 /// Comparisons of either device, with the net steps at their ends.
 type Pair = ((Seen, i64), (HistoricComparison, i64));
 
-fn summary(comparisons: &[Pair], clock_hz: f64) -> BothClosed {
+fn summary(comparisons: &[Pair], clock_hz: f64, ends_s: f64) -> BothClosed {
     let mut summary = BothClosed { comparisons: comparisons.len(), ..BothClosed::default() };
     let mut stood_alike = true;
     for ((new, new_steps), (old, old_steps)) in comparisons {
-        let Difference { width_s, at_ends, .. } = Difference::of(*new, old, clock_hz);
+        let Difference { width_s, at_ends, .. } = Difference::of(*new, old, clock_hz, ends_s);
         let stand_alike = new_steps == old_steps && new.forward == old.forward;
         if stood_alike && stand_alike && !at_ends {
             summary.alike += 1;

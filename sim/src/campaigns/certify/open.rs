@@ -55,13 +55,13 @@ pub(super) fn run_open(
     let differences: Vec<_> = synchronous
         .iter()
         .zip(&old)
-        .map(|(new, old)| Difference::of(*new, old, clock_hz))
+        .map(|(new, old)| Difference::of(*new, old, clock_hz, 1.0 / clock_hz + TTL.flip_flop_s))
         .collect();
     Ok(OpenLoop { runts, ..summary(&differences, 1.0 / clock_hz) })
 }
 
 /// Comparisons of the synchronous device.
-fn run_synchronous(
+pub(super) fn run_synchronous(
     settings: &Settings,
     process: impl Process,
     clock_hz: f64,
@@ -100,20 +100,21 @@ pub(super) struct Difference {
 }
 
 impl Difference {
-    pub(super) fn of(new: Seen, old: &HistoricComparison, clock_hz: f64) -> Self {
+    /// `ends_s` is how near to the ends the old device swallows pulses.
+    pub(super) fn of(new: Seen, old: &HistoricComparison, clock_hz: f64, ends_s: f64) -> Self {
         let period_s = time_of(new.clocks, clock_hz);
         let turns = time_of(new.high, clock_hz) / period_s - old.high_s / old.period_s;
         let from_middle_s = old.behind_middle_s.map_or(f64::INFINITY, f64::abs);
         Self {
             width_s: libm::remainder(turns, 1.0).abs() * period_s,
-            at_ends: old.from_ends_s < 1.0 / clock_hz + TTL.flip_flop_s,
+            at_ends: old.from_ends_s < ends_s,
             from_coincidence_s: from_middle_s.min(old.from_ends_s),
             decision: new.forward != old.forward,
         }
     }
 }
 
-fn summary(differences: &[Difference], clock_s: f64) -> OpenLoop {
+pub(super) fn summary(differences: &[Difference], clock_s: f64) -> OpenLoop {
     let largest = |chosen: &dyn Fn(&Difference) -> Option<f64>| {
         differences.iter().filter_map(chosen).fold(0.0, f64::max)
     };

@@ -1,0 +1,138 @@
+//! The original whole, gate by gate, against the synchronous device: loop open, the same lines and
+//! fringes for both, and loop closed, each on a machine of its own.
+//!
+//! # The bound
+//!
+//! Decades ripple, so a divided pulse comes up to twelve flip-flops and four gates behind the pulse
+//! that it counts, and the two channels need not be alike: at the limits of the data sheets
+//! 12 · 40 ns + 4 · 22 ns = 568 ns on top of the clock of the synchroniser. Where both divided pulses
+//! overlap, the meter of gates goes by the end of one: the delay of figure 7, 0.6 µs at most.
+
+use helixlock_original::device::{Wheels, circuit};
+use helixlock_original::figures::compensator::Correction;
+use helixlock_original::{Check, Corner, Delays};
+use helixlock_plant::Model;
+use helixlock_rtl::settings::{Range, Settings};
+
+use super::closed::{self, BothClosed, Synchronous};
+use super::open::{self, Difference, OpenLoop};
+use crate::Error;
+use crate::closed_loop::{Course, Grinder, Options};
+use crate::historic::{GateLoop, GateRun};
+
+/// By how much the ways through the dividers may differ, s.
+const RIPPLE_S: f64 = 568e-9;
+/// Longest divided pulse, s.
+const PULSE_S: f64 = 0.6e-6;
+
+/// What the gates of the whole original made of a pass.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WholeGates {
+    /// Gates, flip-flops and delay networks.
+    pub parts: usize,
+    /// Changes of their outputs, both runs together.
+    pub events: u64,
+    /// Loop open.
+    pub open: OpenLoop,
+    /// Loop closed.
+    pub closed: BothClosed,
+    /// A clock and the ripple, s: no difference of widths may reach it.
+    pub bound_s: f64,
+    /// The same where both divided pulses overlap, s.
+    pub bound_at_ends_s: f64,
+    /// Pulses shorter, or data less at rest, than a data sheet allows.
+    pub violations: u64,
+    /// Pulses that a gate swallowed.
+    pub swallowed: u64,
+    /// By how much the reset counter is off what the motor did, steps.
+    pub miscounted: u64,
+}
+
+impl WholeGates {
+    /// True when every difference is below its bound. What the reset counter lost is the original's
+    /// own fault and no difference: see the hazards.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        let Self { open, closed, .. } = self;
+        open.largest_s < self.bound_s
+            && open.largest_at_ends_s < self.bound_at_ends_s
+            && open.other_decision_s < self.bound_s
+            && closed.alike_largest_s < self.bound_s
+            && closed.largest_steps <= closed.bound_steps
+    }
+}
+
+/// Runs a pass through both; delays are typical, or drawn by a seed.
+///
+/// # Errors
+///
+/// [`Error`] when the device cannot serve the machine, or its range is not the one of the gates.
+pub fn certify_gates(
+    model: &Model,
+    length_mm: Option<f64>,
+    seed: Option<u64>,
+) -> Result<WholeGates, Error> {
+    let course = Course::new(model, &Options { length_mm, ..Options::default() })?;
+    let (settings, clock_hz) = (course.dialled.settings, course.clock_hz());
+    let circuit = circuit(&wheels(&settings)?);
+    let delays = match seed {
+        Some(seed) => Delays::drawn(&circuit, seed),
+        None => Delays::corner(&circuit, Corner::Typical),
+    };
+    let grinder = || Grinder::new(model, course.length_mm);
+    let ends_s = 1.0 / clock_hz + RIPPLE_S + PULSE_S;
+
+    let new =
+        open::run_synchronous(&settings, grinder()?, clock_hz, course.duration_s, &mut |_| {})?;
+    let first = GateLoop::new(&circuit, &delays, None, grinder()?)?.run(course.duration_s)?;
+    let pairs = new.iter().zip(&first.comparisons);
+    let differences: Vec<_> =
+        pairs.map(|(new, (old, _))| Difference::of(*new, old, clock_hz, ends_s)).collect();
+    let open = open::summary(&differences, 1.0 / clock_hz);
+
+    let new: Synchronous = closed::run_synchronous(model, &course, &mut |_| {})?;
+    let ticks = Some(new.ticks(&settings, clock_hz));
+    let second = GateLoop::new(&circuit, &delays, ticks, grinder()?)?.run(course.duration_s)?;
+    let closed = closed::compared(model, &course, &new, &second.comparisons, ends_s);
+    if open.comparisons == 0 || closed.comparisons == 0 {
+        return Err(Error::NoComparison { length_mm: course.length_mm });
+    }
+    let [violations, swallowed] = found(&[&first, &second]);
+    Ok(WholeGates {
+        parts: circuit.elements.len(),
+        events: first.events + second.events,
+        open,
+        closed,
+        bound_s: 1.0 / clock_hz + RIPPLE_S,
+        bound_at_ends_s: ends_s,
+        violations,
+        swallowed,
+        miscounted: (second.steps.abs() % 4096).abs_diff(second.counted),
+    })
+}
+
+fn wheels(settings: &Settings) -> Result<Wheels, Error> {
+    if settings.range != Range::X2 {
+        return Err(Error::NoGates);
+    }
+    // The settings are within the wheels' three and four digits.
+    let wheel = |number: u32| u16::try_from(number).unwrap_or(u16::MAX);
+    let way = if settings.insert { Correction::Insert } else { Correction::Block };
+    let thousands = settings.compensation_f / 1000;
+    Ok(Wheels {
+        a: wheel(settings.a),
+        b: wheel(settings.b),
+        initial_phase: wheel(settings.initial_phase),
+        compensation: (0 < thousands).then(|| (wheel(thousands), way)),
+    })
+}
+
+/// What data sheets do not allow, and what gates swallowed.
+fn found(runs: &[&GateRun]) -> [u64; 2] {
+    let findings = || runs.iter().flat_map(|run| &run.findings);
+    let count = |swallowed: bool| {
+        let chosen = findings().filter(|one| (one.check == Check::Swallowed) == swallowed);
+        chosen.map(|one| one.count).sum()
+    };
+    [count(false), count(true)]
+}
