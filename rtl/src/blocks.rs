@@ -136,15 +136,15 @@ pub const APART: &[BlockCard] = &[
         "Where between two input pulses an output pulse falls, as a fraction (document 4)"),
 ];
 
-/// The 6 mm screw of document 1, 160 steps per second at 12 MHz.
+/// Wheels so low that a test sees what each of them does within some thousand clocks.
 const EXAMPLE: Settings = Settings {
-    a: 110,
-    b: 150,
+    a: 4,
+    b: 3,
     range: Range::X2,
-    initial_phase: 150,
-    compensation_f: 0,
-    insert: false,
-    step_period: 75_000,
+    initial_phase: 2,
+    compensation_f: 1000,
+    insert: true,
+    step_period: 200,
 };
 
 /// Conditioning so fast that a test sees all of it within some thousand clocks.
@@ -152,7 +152,7 @@ const HASTY: Conditioning = Conditioning {
     glitch_clocks: 2,
     debounce_ticks: 3,
     tick_period: 5,
-    watchdog_ticks: 300,
+    watchdog_ticks: 40,
     active_low: false,
     range_pin: true,
     enable_pin: true,

@@ -6,7 +6,8 @@ use std::process::{Command, ExitCode};
 
 use anyhow::Context;
 use clap::Parser;
-use xtask::prove::{Sources, document, rows};
+use xtask::prove::rows::{self, Extent};
+use xtask::prove::{Sources, document};
 use xtask::same_output::SameOutput;
 use xtask::sbom::sbom;
 use xtask::setup::Tools;
@@ -25,8 +26,11 @@ enum Task {
         /// One mutant in twenty instead of all
         #[arg(long)]
         short: bool,
+        /// Only this block
+        #[arg(long, value_name = "BLOCK")]
+        block: Option<String>,
         /// Put the table into docs/verification.md
-        #[arg(long, conflicts_with = "short")]
+        #[arg(long, conflicts_with_all = ["short", "block"])]
         write: bool,
     },
     /// Print what the command is made of, as SPDX
@@ -53,7 +57,10 @@ fn run(task: Task, out: &mut impl Write) -> anyhow::Result<bool> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().context("the repository")?;
     match task {
         Task::Check { no_install } => check(root, no_install, out),
-        Task::Prove { short, write } => prove(root, short, write, out),
+        Task::Prove { short, block, write } => {
+            let one_in = if short { 20 } else { 1 };
+            prove(root, &Extent { one_in, block }, write, out)
+        }
         Task::Sbom => {
             write!(out, "{}", sbom(root)?)?;
             Ok(true)
@@ -100,11 +107,11 @@ fn deny(path: &std::ffi::OsStr, out: &mut impl Write) -> anyhow::Result<bool> {
 }
 
 /// Everything that can be said of the emitted Verilog, as a table.
-fn prove(root: &Path, short: bool, write: bool, out: &mut impl Write) -> anyhow::Result<bool> {
+fn prove(root: &Path, extent: &Extent, write: bool, out: &mut impl Write) -> anyhow::Result<bool> {
     let sources = Sources::of(root);
     let witness_folder = root.join("target/witnesses");
     std::fs::create_dir_all(&witness_folder)?;
-    let (table, good) = rows::all(&sources, &witness_folder, if short { 20 } else { 1 })?;
+    let (table, good) = rows::all(&sources, &witness_folder, extent)?;
     writeln!(out, "{table}")?;
     if write {
         document::write(root, &sources, &table)?;

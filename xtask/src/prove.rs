@@ -13,5 +13,6 @@ mod sources;
 pub mod synthesis;
 pub mod table;
 pub mod vacuity;
+mod workshop;
 
 pub use sources::Sources;

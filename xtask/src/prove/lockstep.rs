@@ -15,6 +15,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::consequence::worth;
 use super::sources::Sources;
+use super::workshop::Workshop;
 use crate::tools::{run, write_scratch};
 
 /// A drawn history of a block: what goes in and, by the engine, what comes out.
@@ -47,11 +48,15 @@ impl History {
             (ports(&netlist, &netlist.inputs), ports(&netlist, &netlist.outputs));
         let mut engine = Interpreter::new(&netlist);
         let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let mut workshop = (block == "board_shell").then(Workshop::default);
         let mut lines = Vec::with_capacity(clocks);
         for clock in 0..clocks {
             for input in &inputs {
-                let now = engine.value(input.id);
-                engine.set_input(input.id, next_level(input, now, clock, &mut random));
+                let level = match &mut workshop {
+                    Some(workshop) => workshop.level(&input.name, clock, &mut random),
+                    None => next_level(input, engine.value(input.id), clock, &mut random),
+                };
+                engine.set_input(input.id, level);
             }
             let bits = inputs.iter().chain(&outputs).map(|port| {
                 format!("{:0width$b}", engine.value(port.id), width = port.width as usize)
@@ -156,7 +161,7 @@ fn next_level(input: &Port, now: u64, clock: usize, random: &mut ChaCha8Rng) -> 
     let mut one_in = |n: u32| random.random_range(0..n) == 0;
     let seldom = clock > 0 && !one_in(512);
     match input.name.as_str() {
-        "stop" | "emergency_stop" => u64::from(one_in(4096)),
+        "stop" => u64::from(one_in(4096)),
         "clear" | "master_reset" => u64::from(clock < 4 || one_in(4096)),
         "divide_a" | "divide_b" | "preset" | "initial_phase" | "compensation" if !seldom => {
             wheel(input, random)

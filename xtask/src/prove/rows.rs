@@ -3,6 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use anyhow::bail;
 use helixlock_rtl::BLOCKS;
 use rayon::prelude::*;
 
@@ -15,24 +16,47 @@ use super::table::{Row, markdown};
 use super::vacuity::idle;
 use super::{Sources, forgets, synthesis};
 
+/// What of it is to be done.
+#[derive(Clone, Debug)]
+pub struct Extent {
+    /// One mutant in so many is tried.
+    pub one_in: usize,
+    /// The one block to look at; all without.
+    pub block: Option<String>,
+}
+
+impl Extent {
+    fn takes(&self, block: &str) -> bool {
+        self.block.as_ref().is_none_or(|only| only == block)
+    }
+}
+
 /// The whole table, with the mutants that nothing noticed below it, and whether all is well.
 ///
-/// One mutant in `one_in` is tried; waveforms of witnesses go to `folder`.
+/// Waveforms of witnesses go to `folder`.
 ///
 /// # Errors
 ///
-/// When a tool cannot be started, or a file cannot be read or written.
-pub fn all(sources: &Sources, folder: &Path, one_in: usize) -> anyhow::Result<(String, bool)> {
-    let blocks = sources.blocks()?;
+/// When there is no such block, a tool cannot be started, or a file cannot be read or written.
+pub fn all(sources: &Sources, folder: &Path, extent: &Extent) -> anyhow::Result<(String, bool)> {
+    if let Some(block) =
+        extent.block.as_ref().filter(|_| !synthesis::blocks().any(|card| extent.takes(card.name)))
+    {
+        bail!("block `{block}`, expected one of the list");
+    }
+    let mut blocks = sources.blocks()?;
+    blocks.retain(|block| extent.takes(block));
     let rows: anyhow::Result<Vec<_>> =
         blocks.par_iter().map(|block| proven(sources, block, folder)).collect();
     let mut rows: Vec<_> = rows?.into_iter().flatten().collect();
-    rows.push(power_up(sources)?);
-    let cards: Vec<_> = synthesis::blocks().collect();
+    if extent.takes("device") {
+        rows.push(power_up(sources)?);
+    }
+    let cards: Vec<_> = synthesis::blocks().filter(|card| extent.takes(card.name)).collect();
     let equal: anyhow::Result<Vec<_>> =
         cards.par_iter().map(|card| equality(sources, card.name)).collect();
     rows.extend(equal?.into_iter().flatten());
-    let (row, survivors) = mutants(sources, one_in)?;
+    let (row, survivors) = mutants(sources, extent)?;
     rows.push(row);
     let mut text = markdown(&rows);
     for (Mutant { module, line, was, now }, fate) in survivors {
@@ -127,10 +151,11 @@ fn equality(sources: &Sources, block: &str) -> anyhow::Result<Vec<Row>> {
 }
 
 /// The row of the mutants, and those that nothing noticed.
-fn mutants(sources: &Sources, one_in: usize) -> anyhow::Result<(Row, Vec<(Mutant, Fate)>)> {
+fn mutants(sources: &Sources, extent: &Extent) -> anyhow::Result<(Row, Vec<(Mutant, Fate)>)> {
     let mut tried = Vec::new();
-    for card in BLOCKS {
-        let chosen: Vec<_> = of_module(sources, card.name)?.into_iter().step_by(one_in).collect();
+    for card in BLOCKS.iter().filter(|card| extent.takes(card.name)) {
+        let mutants = of_module(sources, card.name)?;
+        let chosen: Vec<_> = mutants.into_iter().step_by(extent.one_in).collect();
         let history = History::draw(card.name, 30_000, 7430)?;
         let fates: anyhow::Result<Vec<_>> = chosen
             .into_par_iter()
