@@ -4,6 +4,7 @@ mod add;
 mod certify;
 mod challenge;
 mod compare;
+mod completions;
 mod diagnose;
 mod dividers;
 mod effects;
@@ -12,6 +13,7 @@ mod r#gen;
 mod import;
 mod init;
 mod learn;
+mod man;
 mod scale;
 mod screw;
 mod serve;
@@ -37,6 +39,7 @@ enum Command {
     Certify(certify::Certify),
     Challenge(challenge::Challenge),
     Compare(compare::Compare),
+    Completions(completions::Completions),
     Diagnose(diagnose::Diagnose),
     Dividers(dividers::Dividers),
     Effects(effects::Effects),
@@ -45,6 +48,7 @@ enum Command {
     Import(import::Import),
     Init(init::Init),
     Learn(learn::Learn),
+    Man(man::Manual),
     Scale(Box<scale::ScaleCommand>),
     Screw(screw::Screw),
     Serve(serve::Serve),
@@ -94,6 +98,7 @@ fn run(command: Command, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         Command::Certify(command) => command.run(out),
         Command::Challenge(command) => command.run(out),
         Command::Compare(command) => command.run(out),
+        Command::Completions(command) => command.run(out),
         Command::Diagnose(command) => command.run(out),
         Command::Dividers(command) => command.run(out),
         Command::Effects(command) => command.run(out),
@@ -102,6 +107,7 @@ fn run(command: Command, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         Command::Import(command) => command.run(out),
         Command::Init(command) => command.run(out),
         Command::Learn(command) => command.run(out),
+        Command::Man(command) => command.run(out),
         Command::Scale(scale) => scale.run(out),
         Command::Screw(screw) => screw.run(out),
         Command::Serve(serve) => serve.run(out),

@@ -1,0 +1,43 @@
+//! `helixlock man`: the manual's pages, made of the same words as `--help`.
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::CommandFactory;
+use clap_mangen::Man;
+
+use crate::Command;
+use crate::shared::output::Batch;
+
+/// The manual: its first page, or all pages into a folder
+#[derive(Debug, clap::Args)]
+pub(crate) struct Manual {
+    /// Folder for all pages, one a command, such as "/usr/local/share/man/man1"
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+}
+
+impl Manual {
+    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+        let mut command = Command::command();
+        command.build(); // gives every subcommand its whole name
+        let Some(folder) = self.output else {
+            Man::new(command).render(out)?;
+            return Ok(ExitCode::SUCCESS);
+        };
+        let mut batch = Batch::new(&folder, [])?;
+        write_pages(&command, &mut batch)?;
+        batch.keep()?;
+        writeln!(out, "{}: the manual, `man -l {0}/helixlock.1` shows it", folder.display())?;
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// A page for the command, then for those below it.
+fn write_pages(command: &clap::Command, batch: &mut Batch) -> anyhow::Result<()> {
+    let man = Man::new(command.clone());
+    batch.write(&man.get_filename(), |file| Ok(man.render(file)?))?;
+    let below = command.get_subcommands().filter(|command| command.get_name() != "help");
+    below.filter(|command| !command.is_hide_set()).try_for_each(|below| write_pages(below, batch))
+}
