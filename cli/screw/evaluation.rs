@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use helixlock_metrology::screw::{
-    Characteristic, Curve, FAITHFUL_PER_TURN, Gap, Grading, MeanLine, Status,
+    Characteristic, Curve, Estimate, FAITHFUL_PER_TURN, Gap, Grading, MeanLine, Status,
 };
 
 /// A screw evaluated by either standard.
@@ -30,12 +30,26 @@ pub(crate) struct Evaluation {
     pub(crate) grading: Grading,
     /// Standard uncertainty, µm.
     pub(crate) uncertainty_um: Option<f64>,
+    /// Standard deviation of a single reading, µm.
+    pub(crate) reading_noise_um: Option<f64>,
+    /// What is known of the characteristics, in their order.
+    pub(crate) estimates: Vec<Option<Estimate>>,
 }
 
 impl Evaluation {
     /// True when the grade holds.
     pub(crate) fn meets(&self, grade: &str) -> bool {
         self.grading.verdicts.iter().any(|verdict| verdict.grade == grade && verdict.holds)
+    }
+
+    /// Every characteristic with what is known of it without the noise of the readings.
+    pub(crate) fn without_noise(
+        &self,
+    ) -> impl Iterator<Item = (&Characteristic, Option<Estimate>)> {
+        let noisy = self.reading_noise_um.is_some();
+        let estimate = move |index: usize| self.estimates[index].filter(|_| noisy);
+        let each = self.characteristics.iter().enumerate();
+        each.map(move |(index, one)| (one, estimate(index)))
     }
 
     /// What a reader of the result must know.
@@ -45,6 +59,9 @@ impl Evaluation {
             if let Err(why) = &one.reached {
                 notes.push(format!("{} has no value: {why}", one.symbol));
             }
+        }
+        if let Some(noise_um) = self.reading_noise_um {
+            notes.push(format!("values are as measured, wider than the screw by noise of {noise_um} µm a reading; probabilities are of the values without it"));
         }
         if self.samples_per_turn < FAITHFUL_PER_TURN {
             let found = self.samples_per_turn;

@@ -1,7 +1,7 @@
 //! The keys of `screw --json`; they do not change.
 
 use helixlock_metrology::screw::{
-    Characteristic, Gap, GradeVerdict, Judgement, MeanLine, Reached, Status,
+    Characteristic, Estimate, Gap, GradeVerdict, Judgement, MeanLine, Reached, Status,
 };
 use serde::{Serialize, Serializer};
 
@@ -26,11 +26,13 @@ keys! {
         status: &'static str = found.grading.status.name(),
         refused_by: Option<&'static str> = found.grading.refused_by.map(Status::name),
         uncertainty_um: Option<f64> = found.uncertainty_um,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        reading_noise_um: Option<f64> = found.reading_noise_um,
         not_judged: &'a [&'static str] = &found.grading.not_judged,
         #[serde(skip_serializing_if = "Option::is_none")]
         asked: Option<AskedJson<'a>> = asked.map(|(grade, holds)| AskedJson::new(grade, holds)),
         characteristics: Vec<CharacteristicJson> =
-            found.characteristics.iter().map(CharacteristicJson::new).collect(),
+            found.without_noise().map(|(one, size)| CharacteristicJson::new(one, size)).collect(),
         grades: Vec<VerdictJson<'a>> = found.grading.verdicts.iter().map(VerdictJson::new).collect(),
         gaps: Vec<GapJson> = found.gaps.iter().map(GapJson::new).collect(),
         notes: Vec<String> = found.notes(),
@@ -46,14 +48,21 @@ keys! {
         holds: bool = holds,
     }
 
-    CharacteristicJson(one: &Characteristic) {
+    CharacteristicJson(one: &Characteristic, without_noise: Option<Estimate>) {
         symbol: &'static str = one.symbol,
         meaning: &'static str = one.meaning,
         value_um: Option<f64> = one.reached.as_ref().ok().map(|reached| reached.value_um),
+        #[serde(skip_serializing_if = "Option::is_none")]
+        without_noise: Option<EstimateJson> = without_noise.map(|size| EstimateJson::new(&size)),
         #[serde(flatten)]
         place: Option<PlaceJson> = one.reached.as_ref().ok().map(PlaceJson::new),
         #[serde(skip_serializing_if = "Option::is_none")]
         missing: Option<String> = one.reached.as_ref().err().map(ToString::to_string),
+    }
+
+    EstimateJson(size: &Estimate) {
+        size_um: f64 = size.size_um,
+        uncertainty_um: f64 = size.uncertainty_um,
     }
 
     PlaceJson(reached: &Reached) {

@@ -13,8 +13,8 @@ use anyhow::{Context, anyhow, bail};
 use clap::{Args, ValueEnum};
 use helixlock_metrology::Error;
 use helixlock_metrology::screw::{
-    Curve, ToleranceTable, Weighting, built_in_table, evaluate_travel, fit_mean_line, grade,
-    helical_characteristics, pitch_characteristics,
+    Characteristic, Curve, Estimate, ToleranceTable, Weighting, built_in_table, evaluate_travel,
+    fit_mean_line, grade, helical_characteristics, pitch_characteristics, without_reading_noise,
 };
 
 use self::evaluation::Evaluation;
@@ -57,6 +57,13 @@ pub(crate) struct Screw {
     /// Standard uncertainty (k = 1) of each characteristic, µm: gives every grade its probability
     #[arg(long, value_name = "UM", value_parser = length_um)]
     uncertainty: Option<f64>,
+    /// Standard deviation of a single reading, independent from reading to reading, µm: takes off
+    /// what noise adds to each characteristic, and gives it an uncertainty and every grade a probability
+    #[arg(long, value_name = "UM", value_parser = length_um, conflicts_with = "uncertainty")]
+    reading_noise: Option<f64>,
+    /// Seed of the noise that `--reading-noise` tries; equal seeds give equal results
+    #[arg(long, default_value = "1", requires = "reading_noise")]
+    seed: u64,
     /// Grade the screw has to meet
     #[arg(long, value_name = "GRADE")]
     grade: Option<String>,
@@ -145,15 +152,9 @@ impl Screw {
             By::Travel => Weighting::Travel,
         };
         let variation = evaluate_travel(&curve, self.lead, self.compensation, weighting)?;
-        let characteristics = match self.standard {
-            Standard::Iso3408 => variation.characteristics.to_vec(),
-            Standard::Jbt2886 => {
-                let mut all = helical_characteristics(&curve, self.lead).to_vec();
-                all.extend(pitch_characteristics(&curve, self.lead));
-                all
-            }
-        };
-        let grading = grade(table, &characteristics, curve.length_mm(), self.uncertainty);
+        let characteristics = self.characteristics(&curve, weighting)?;
+        let estimates = self.estimates(&curve, weighting, &characteristics);
+        let grading = grade(table, &characteristics, curve.length_mm(), &estimates);
         Ok(Evaluation {
             path: self.data.clone(),
             standard: table.standard.clone(),
@@ -163,10 +164,50 @@ impl Screw {
             intervals_in_300_mm: variation.intervals_in_300_mm,
             gaps: variation.gaps,
             uncertainty_um: self.uncertainty,
+            reading_noise_um: self.reading_noise,
             characteristics,
+            estimates,
             grading,
             curve,
         })
+    }
+
+    /// What the standard asks for.
+    fn characteristics(
+        &self,
+        curve: &Curve,
+        weighting: Weighting,
+    ) -> Result<Vec<Characteristic>, Error> {
+        Ok(match self.standard {
+            Standard::Iso3408 => evaluate_travel(curve, self.lead, self.compensation, weighting)?
+                .characteristics
+                .to_vec(),
+            Standard::Jbt2886 => {
+                let mut all = helical_characteristics(curve, self.lead).to_vec();
+                all.extend(pitch_characteristics(curve, self.lead));
+                all
+            }
+        })
+    }
+
+    /// What is known of each characteristic: nothing, unless its uncertainty or the noise is.
+    fn estimates(
+        &self,
+        curve: &Curve,
+        weighting: Weighting,
+        characteristics: &[Characteristic],
+    ) -> Vec<Option<Estimate>> {
+        if let Some(noise_um) = self.reading_noise {
+            // The lead, all that can be refused, was accepted before.
+            let evaluate =
+                |curve: &Curve| self.characteristics(curve, weighting).unwrap_or_default();
+            return without_reading_noise(curve, noise_um, self.seed, &evaluate);
+        }
+        let estimate = |one: &Characteristic| {
+            let size_um = one.reached.ok()?.value_um.abs();
+            Some(Estimate { size_um, uncertainty_um: self.uncertainty? })
+        };
+        characteristics.iter().map(estimate).collect()
     }
 
     /// The useful travel, without run-outs.

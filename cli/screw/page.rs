@@ -1,5 +1,6 @@
 //! Report of `helixlock screw`.
 
+use helixlock_metrology::screw::Estimate;
 use helixlock_report::{Band, Colour, Figure, Page, Panel, Part, Series, Style, Table};
 
 use super::evaluation::Evaluation;
@@ -76,8 +77,9 @@ fn widest(evaluation: &Evaluation) -> Vec<Band> {
 }
 
 fn characteristics(evaluation: &Evaluation) -> Table {
-    let mut table = Table::new(["symbol", "value in µm", "from mm", "to mm", "meaning"]);
-    for one in &evaluation.characteristics {
+    let mut table =
+        Table::new(["symbol", "value in µm", "without noise", "from mm", "to mm", "meaning"]);
+    for (one, without_noise) in evaluation.without_noise() {
         match &one.reached {
             Ok(reached) => {
                 let [from, to] = reached.stretch_mm();
@@ -85,15 +87,21 @@ fn characteristics(evaluation: &Evaluation) -> Table {
                 table.row([
                     one.symbol.to_owned(),
                     value,
+                    without_noise.map_or(String::new(), in_words),
                     format!("{from:.3}"),
                     format!("{to:.3}"),
                     one.meaning.into(),
                 ])
             }
-            Err(why) => table.row([one.symbol, "", "", "", &why.to_string()]),
+            Err(why) => table.row([one.symbol, "", "", "", "", &why.to_string()]),
         };
     }
     table
+}
+
+/// As in `4.75 ± 0.82`, k = 2.
+fn in_words(size: Estimate) -> String {
+    format!("{:.3} ± {:.3} (k = 2)", size.size_um, 2.0 * size.uncertainty_um)
 }
 
 fn limits(evaluation: &Evaluation) -> Table {

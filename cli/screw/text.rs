@@ -2,6 +2,8 @@
 
 use std::io::Write;
 
+use helixlock_metrology::screw::Estimate;
+
 use super::evaluation::Evaluation;
 
 /// Characteristics, grade, notes; `asked` is the grade asked for, and whether it is met.
@@ -23,7 +25,7 @@ pub(crate) fn print(
     }
     let slope = evaluation.mean_line.slope_um_per_mm * 1000.0;
     writeln!(out, "mean line {slope:+.3} µm/m\n")?;
-    for one in &evaluation.characteristics {
+    for (one, without_noise) in evaluation.without_noise() {
         if let Ok(reached) = &one.reached {
             let [from, to] = reached.stretch_mm();
             writeln!(
@@ -31,6 +33,10 @@ pub(crate) fn print(
                 "{:<6} {:9.3} µm   {from:10.3} … {to:.3} mm   {}",
                 one.symbol, reached.value_um, one.meaning
             )?;
+            if let Some(Estimate { size_um, uncertainty_um }) = without_noise {
+                let twice = 2.0 * uncertainty_um;
+                writeln!(out, "       {size_um:9.3} µm   without noise, ± {twice:.3} µm (k = 2)")?;
+            }
         }
     }
     writeln!(out)?;

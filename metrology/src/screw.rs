@@ -5,11 +5,13 @@
 //! reached, and grades with their probability come out.
 
 mod characteristic;
+pub mod coverage;
 mod curve;
 mod grade;
 mod helical;
 mod mean_line;
 mod pitch;
+mod reading_noise;
 mod tolerance;
 mod travel_variation;
 mod windows;
@@ -20,6 +22,7 @@ pub use grade::{GradeVerdict, Grading, Judgement, grade};
 pub use helical::helical_characteristics;
 pub use mean_line::{MeanLine, Weighting, fit_mean_line};
 pub use pitch::pitch_characteristics;
+pub use reading_noise::{Estimate, without_reading_noise};
 pub use tolerance::{Limit, Status, ToleranceTable, built_in_table};
 pub use travel_variation::{FAITHFUL_PER_TURN, TravelVariation, evaluate_travel};
 pub use windows::{WINDOW_SLACK_MM, Widest, widest_in_windows};

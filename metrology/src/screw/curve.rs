@@ -95,6 +95,13 @@ impl Curve {
         Self { travel_mm, deviation_um: self.deviation_um[chosen].to_vec() }.long_enough()
     }
 
+    /// The same travel with other deviations, each made of the one there is, µm.
+    #[must_use]
+    pub(super) fn changed(&self, change: impl FnMut(&f64) -> f64) -> Self {
+        let deviation_um = self.deviation_um.iter().map(change).collect();
+        Self { travel_mm: self.travel_mm.clone(), deviation_um }
+    }
+
     /// Median distance of neighbouring samples, mm; samples at one place do not count.
     #[must_use]
     pub fn median_step_mm(&self) -> f64 {

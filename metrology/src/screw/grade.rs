@@ -2,7 +2,7 @@
 
 use statrs::distribution::{ContinuousCDF, Normal};
 
-use super::{Characteristic, Status, ToleranceTable};
+use super::{Characteristic, Estimate, Status, ToleranceTable};
 
 /// How one characteristic stands to one limit.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,8 +59,9 @@ pub struct Grading {
 
 /// Grades a screw.
 ///
-/// `uncertainty_um` is the standard uncertainty (k = 1) of each characteristic; their errors are
-/// taken as normal and independent, so a grade's probability is the product over its limits.
+/// `estimates` are what is known of each characteristic, in their order; their errors are taken as
+/// normal and independent, so a grade's probability is the product over its limits. Without them
+/// there is no probability. Whether a limit holds is said of the value as it was measured.
 /// Both the grade and its probability are monotone: with every characteristic made larger in
 /// size, neither gets better. A worse grade is never less probable than a better one.
 #[must_use]
@@ -68,10 +69,10 @@ pub fn grade(
     table: &ToleranceTable,
     characteristics: &[Characteristic],
     useful_travel_mm: f64,
-    uncertainty_um: Option<f64>,
+    estimates: &[Option<Estimate>],
 ) -> Grading {
     let verdict =
-        |grade: &String| judge(table, grade, characteristics, useful_travel_mm, uncertainty_um);
+        |grade: &String| judge(table, grade, characteristics, useful_travel_mm, estimates);
     let mut verdicts: Vec<GradeVerdict> = table.grades.iter().map(verdict).collect();
     make_cumulative(&mut verdicts);
     let best = verdicts.iter().position(|verdict| verdict.holds);
@@ -106,10 +107,10 @@ fn judge(
     grade: &str,
     characteristics: &[Characteristic],
     useful_travel_mm: f64,
-    uncertainty_um: Option<f64>,
+    estimates: &[Option<Estimate>],
 ) -> GradeVerdict {
     let (mut judgements, mut without_limit) = (Vec::new(), Vec::new());
-    for one in characteristics {
+    for (index, one) in characteristics.iter().enumerate() {
         let (Ok(reached), Some(limit)) = (&one.reached, table.limit(grade, one.limit)) else {
             continue;
         };
@@ -122,7 +123,7 @@ fn judge(
             value_um: reached.value_um,
             limit_um,
             holds: reached.value_um.abs() <= limit_um,
-            probability: uncertainty_um.and_then(|u| within(reached.value_um, limit_um, u)),
+            probability: estimates.get(index).copied().flatten().and_then(|e| within(e, limit_um)),
             status: limit.status,
             source: limit.source.clone(),
         });
@@ -146,11 +147,11 @@ fn judge(
     }
 }
 
-/// Probability that the true value, normal about `value_um`, lies within `±limit_um`.
+/// Probability that the true value, normal about the estimate, lies within `±limit_um`.
 ///
 /// For a band width the lower side hardly counts, as no true band is negative.
-fn within(value_um: f64, limit_um: f64, uncertainty_um: f64) -> Option<f64> {
-    let true_value = Normal::new(value_um.abs(), uncertainty_um).ok()?;
+fn within(estimate: Estimate, limit_um: f64) -> Option<f64> {
+    let true_value = Normal::new(estimate.size_um, estimate.uncertainty_um).ok()?;
     Some(true_value.cdf(limit_um) - true_value.cdf(-limit_um))
 }
 
@@ -169,6 +170,11 @@ mod tests {
         Curve::new(&x, &y).unwrap()
     }
 
+    /// A characteristic known to 1 µm.
+    fn known(value_um: f64) -> Estimate {
+        Estimate { size_um: value_um.abs(), uncertainty_um: 1.0 }
+    }
+
     fn rank(standard: &str, curve: &Curve) -> (usize, Vec<Option<f64>>) {
         let table = built_in_table(standard).unwrap();
         let characteristics = if standard == "jbt2886" {
@@ -178,7 +184,9 @@ mod tests {
         } else {
             evaluate_travel(curve, 5.0, 0.0, Weighting::Samples).unwrap().characteristics.to_vec()
         };
-        let grading = grade(&table, &characteristics, curve.length_mm(), Some(1.0));
+        let estimate = |one: &Characteristic| one.reached.ok().map(|found| known(found.value_um));
+        let estimates: Vec<_> = characteristics.iter().map(estimate).collect();
+        let grading = grade(&table, &characteristics, curve.length_mm(), &estimates);
         let best = grading.verdicts.iter().position(|verdict| verdict.holds);
         let probabilities = grading.verdicts.iter().map(|verdict| verdict.probability).collect();
         (best.unwrap_or(usize::MAX), probabilities)
@@ -205,10 +213,10 @@ mod tests {
 
     #[test]
     fn a_value_on_its_limit_is_within_it_half_the_time() {
-        let half = within(21.0, 21.0, 1.0).unwrap();
+        let half = within(known(21.0), 21.0).unwrap();
         assert!((half - 0.5).abs() < 1e-12);
         // Φ(1.96) = 0.975
-        assert!((within(10.0, 11.96, 1.0).unwrap() - 0.975).abs() < 1e-4);
+        assert!((within(known(10.0), 11.96).unwrap() - 0.975).abs() < 1e-4);
     }
 
     /// What a short screw does not have is not asked of it; what was not measured is.
@@ -218,7 +226,7 @@ mod tests {
         let given = |travel_mm: &[f64]| {
             let curve = Curve::new(travel_mm, &vec![0.0; travel_mm.len()]).unwrap();
             let found = evaluate_travel(&curve, 5.0, 0.0, Weighting::Samples).unwrap();
-            grade(&table, &found.characteristics, curve.length_mm(), None)
+            grade(&table, &found.characteristics, curve.length_mm(), &[])
         };
         assert_eq!(given(&[0.0, 2.5, 5.0]).grade, None);
         let once_a_turn: Vec<f64> = (0..40).map(|k| f64::from(k) * 5.0).collect();
@@ -231,7 +239,7 @@ mod tests {
     fn a_recalled_table_makes_an_unverified_verdict() {
         let table = built_in_table("jbt2886").unwrap();
         let curve = curve(&vec![0.0; 400], 1.0);
-        let found = grade(&table, &helical_characteristics(&curve, 5.0), 500.0, None);
+        let found = grade(&table, &helical_characteristics(&curve, 5.0), 500.0, &[]);
         assert_eq!((found.grade.as_deref(), found.status), (Some("3"), Status::Unverified));
     }
 }

@@ -1,0 +1,109 @@
+//! Does ±1.96 u hold the true band as often as it says? Screws and noise are drawn; truth is known.
+
+use std::f64::consts::TAU;
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, Normal, StandardNormal};
+
+use super::{Curve, Weighting, evaluate_travel, without_reading_noise};
+use crate::number::number;
+
+/// What kind of screw is drawn: 600 mm, lead 6 mm, eight samples a turn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Screw {
+    /// A wave of 470 mm and one of a turn.
+    Waves,
+    /// A deviation that wanders.
+    Wandering,
+    /// A bow, and a small wave of a turn.
+    Bowed,
+    /// One long wave, nothing within a turn.
+    Smooth,
+}
+
+impl Screw {
+    /// All kinds, in the order of the table.
+    pub const ALL: [Self; 4] = [Self::Waves, Self::Wandering, Self::Bowed, Self::Smooth];
+
+    /// The screw in words, as the table of coverage has it.
+    #[must_use]
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Self::Waves => "waves of 470 mm and of a turn",
+            Self::Wandering => "wanders, with a wave of a turn",
+            Self::Bowed => "bowed, with a small wave of a turn",
+            Self::Smooth => "one long wave, nothing within a turn",
+        }
+    }
+
+    fn curve(self) -> Curve {
+        let travel_mm: Vec<f64> = (0..=800).map(|k| f64::from(k) * 0.75).collect();
+        let mut random = ChaCha8Rng::seed_from_u64(5);
+        let mut wandered = 0.0;
+        let deviation_um: Vec<f64> = travel_mm
+            .iter()
+            .map(|x| {
+                let step: f64 = StandardNormal.sample(&mut random);
+                wandered += 0.1 * step;
+                let turn = libm::sin(TAU * x / 6.0);
+                match self {
+                    Self::Waves => 3.0 * libm::sin(TAU * x / 470.0) + 0.8 * turn,
+                    Self::Wandering => wandered + 0.5 * turn,
+                    Self::Bowed => 1e-5 * (x - 300.0) * (x - 300.0) + 0.3 * turn,
+                    Self::Smooth => 4.0 * libm::sin(TAU * x / 1200.0),
+                }
+            })
+            .collect();
+        Curve::new(&travel_mm, &deviation_um).expect("the travel goes one way")
+    }
+}
+
+/// How V300 and V2π came out, on average.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coverage {
+    /// What noise adds to the bands as measured, µm.
+    pub widening_um: f64,
+    /// What is left of it, µm.
+    pub left_um: f64,
+    /// Share of the bands that ±1.96 u holds.
+    pub held: f64,
+}
+
+/// Draws so many records of a screw with noise of a standard deviation, in µm.
+///
+/// # Panics
+///
+/// When `noise_um` is not a finite size.
+#[must_use]
+pub fn coverage(screw: Screw, noise_um: f64, records: u32, seed: u64) -> Coverage {
+    let curve = screw.curve();
+    let characteristics = |curve: &Curve| {
+        let found = evaluate_travel(curve, 6.0, 0.0, Weighting::Samples).expect("6 mm is a lead");
+        found.characteristics[2..].to_vec() // V300 and V2π
+    };
+    let size = |curve: &Curve| -> Vec<f64> {
+        let all = characteristics(curve);
+        all.iter().filter_map(|one| one.reached.ok()).map(|found| found.value_um).collect()
+    };
+    let truth = size(&curve);
+    let noise = Normal::new(0.0, noise_um).expect("noise is a finite size");
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let (mut widening_um, mut left_um, mut held) = (0.0, 0.0, 0.0);
+    let bands = f64::from(records) * number(truth.len());
+    for record in 0..records {
+        let measured = curve.changed(|deviation_um| deviation_um + noise.sample(&mut random));
+        let seed = seed + u64::from(record);
+        let estimates = without_reading_noise(&measured, noise_um, seed, &characteristics);
+        let found = size(&measured).into_iter().zip(estimates.into_iter().flatten());
+        for (truth, (wide, estimate)) in truth.iter().zip(found) {
+            let error_um = estimate.size_um - truth;
+            widening_um += (wide - truth) / bands;
+            left_um += error_um / bands;
+            if error_um.abs() < 1.96 * estimate.uncertainty_um {
+                held += 1.0 / bands;
+            }
+        }
+    }
+    Coverage { widening_um, left_um, held }
+}
