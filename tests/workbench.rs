@@ -332,7 +332,8 @@ fn every_screen_can_be_read() {
     let data = std::fs::read_to_string(elsewhere.path().join("data.csv")).unwrap();
     put(&bench.path().join("data.csv"), &data);
     let server = Server::over(bench.path());
-    for look in ["desk light en-US", "desk dark zh-CN", "phone light zh-CN", "phone dark en-US"] {
+    let looks = ["desk light en-US", "phone dark zh-CN", "desk dark zh-CN", "phone light en-US"];
+    for look in &looks[..if all() { 4 } else { 2 }] {
         story("reads", &server, &look.split(' ').collect::<Vec<_>>());
     }
 }
@@ -348,11 +349,11 @@ fn the_keyboard_is_enough() {
     assert_eq!(json(&ledger)["verdict"], "explained");
 }
 
-/// Challenges 1 to 50: a name at every peak that has one, and nowhere else.
+/// Challenges up to 50: a name at every peak that has one, and nowhere else.
 #[test]
 fn names_in_a_spectrum_stand_at_peaks_and_apart() {
     let bench = scratch();
-    for seed in 1..=50 {
+    for seed in (1..=50).step_by(if all() { 1 } else { 7 }) {
         let (_, elsewhere) = challenge(&seed.to_string());
         for (from, to) in [("machine.toml", "toml"), ("data.csv", "csv")] {
             let text = std::fs::read_to_string(elsewhere.path().join(from)).unwrap();
@@ -360,4 +361,9 @@ fn names_in_a_spectrum_stand_at_peaks_and_apart() {
         }
     }
     story("labels", &Server::over(bench.path()), &[]);
+}
+
+/// Every look and every challenge instead of some.
+fn all() -> bool {
+    std::env::var("HELIXLOCK_WORKBENCH").is_ok()
 }
