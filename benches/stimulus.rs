@@ -36,6 +36,14 @@ pub(crate) fn dense(netlist: &Netlist, clocks: u64) -> Vec<PinEvent> {
     events
 }
 
+/// Held in reset, where every register is written at every clock: nothing can be passed over.
+#[allow(dead_code, reason = "the peers' run alone has a use for it")]
+pub(crate) fn held(netlist: &Netlist) -> Vec<PinEvent> {
+    let mut events = settings(netlist, 500.0);
+    events.push(PinEvent { clock: 10, pin: pin_of(netlist, "master_reset"), value: 1 });
+    events
+}
+
 /// Pulses on both inputs, each level held for 2 to 6 clocks as chance will have it: what happens next
 /// cannot be foreseen, not by a processor's branch predictor either.
 #[allow(dead_code, reason = "the peers' run alone has a use for it")]

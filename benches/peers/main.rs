@@ -4,26 +4,30 @@
 //! cargo bench --bench peers -- run
 //! ```
 //!
-//! builds Verilator (plain, and guided by a profile), CXXRTL and Icarus from the emitted Verilog,
-//! runs all of them alternately, holds every end state to ours, and prints the tables of
-//! `docs/performance.md`. Times are processor time, so that another program on the machine does not
-//! count.
+//! builds Verilator and CXXRTL (Debian's and the newest, plain and guided by a profile) and Icarus
+//! from the emitted Verilog, runs all of them alternately, holds every end state to ours, and prints
+//! the tables of `docs/performance.md`. Times are processor time, so that another program on the
+//! machine does not count. Nobody is compiled for one processor alone (`-march=native`).
 
 #![allow(clippy::print_stdout, reason = "a benchmark prints what it measured")]
 #![allow(clippy::cast_precision_loss, reason = "clocks stay below 2⁵³")]
 
 mod build;
+mod cxxrtl;
+mod icarus;
 mod ours;
 #[path = "../stimulus.rs"]
 mod stimulus;
 mod table;
+mod tools;
+mod verilator;
 
 use std::path::Path;
 
 use helixlock_sim::device;
 
 use crate::build::Peer;
-use crate::stimulus::{PinEvent, dense, irregular, pass};
+use crate::stimulus::{PinEvent, dense, held, irregular, pass};
 use crate::table::Column;
 
 /// Runs of each engine; the quickest counts.
@@ -55,6 +59,12 @@ fn main() -> anyhow::Result<()> {
     let netlist = device().netlist();
     let works = [
         Work {
+            name: "held in reset",
+            events: held(netlist),
+            clocks: 2_000_000,
+            clocks_for_slow: 50_000,
+        },
+        Work {
             name: "dense",
             events: dense(netlist, 2_000_000),
             clocks: 2_000_000,
@@ -79,23 +89,28 @@ fn main() -> anyhow::Result<()> {
         columns.push(measure(&work, &peers, folder.path())?);
     }
     println!("{}", table::engines(&columns));
-    let pass_ns = columns.last().map_or(f64::NAN, Column::reference_ns);
+    let pass_ns = columns.last().map_or(f64::NAN, |pass| 1e9 * pass.quickest_peer());
     println!("{}", ours::closed_loop(pass_ns)?);
     println!("{}", ours::by_clock_rate()?);
     Ok(())
 }
 
-/// The processor, and the versions of the peers.
+/// The processor, the compiler, and what is not measured.
 fn machine() -> anyhow::Result<String> {
     let processor = std::fs::read_to_string("/proc/cpuinfo")?;
     let name = processor.lines().find_map(|line| line.strip_prefix("model name")).unwrap_or("");
-    let mut versions = vec![name.trim_start_matches([':', '\t', ' ']).to_owned()];
-    for (tool, flag) in [("verilator", "--version"), ("yosys", "-V"), ("iverilog", "-V")] {
-        let output = std::process::Command::new(tool).arg(flag).output()?;
-        let text = String::from_utf8_lossy(&output.stdout).into_owned();
-        versions.extend(text.lines().next().map(|line| line.trim().to_owned()));
+    let mut lines = vec![name.trim_start_matches([':', '\t', ' ']).to_owned()];
+    for (tool, flag) in [("g++", "--version"), ("iverilog", "-V")] {
+        lines.push(tools::version(tool, flag)?);
     }
-    Ok(versions.join("\n") + "\n")
+    if tools::verilators()?.len() == 1 || tools::yosyses()?.len() == 1 {
+        lines.push(format!(
+            "not measured: newer peers, which `python3 -m venv {0}` and `{0}/bin/pip install -r \
+             benches/peers/requirements.txt` bring",
+            tools::ENVIRONMENT
+        ));
+    }
+    Ok(lines.join("\n") + "\n")
 }
 
 /// Everybody on one stimulus.

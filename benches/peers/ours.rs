@@ -122,29 +122,26 @@ fn grind_quickly(clock_mhz: u32, length_mm: u32, rounds: usize) -> anyhow::Resul
     Ok(best)
 }
 
-/// Whole passes of 1 m at 15 rpm and 12 MHz, plant included, against what the reference peer would
+/// Whole passes of 1 m at 15 rpm and 12 MHz, plant included, against what the quickest peer would
 /// take for their clocks.
-pub(crate) fn closed_loop(reference_ns: f64) -> anyhow::Result<String> {
+pub(crate) fn closed_loop(peer_ns: f64) -> anyhow::Result<String> {
     let run = grind_quickly(12, 1000, crate::ROUNDS)?;
     let mut text = String::from(
-        "| 1 m at 15 rpm and 12 MHz, plant included | clocks | s | Verilator, clocks alone, s | × |\n\
+        "| 1 m at 15 rpm and 12 MHz, plant included | clocks | s | quickest peer, clocks alone, s | × |\n\
          |---|---:|---:|---:|---:|\n",
     );
     let passes = ["loop open", "loop closed, then played back"];
     for ((pass, clocks), seconds) in passes.into_iter().zip(run.clocks).zip(run.seconds) {
-        let reference = reference_ns * 1e-9 * clocks as f64;
+        let peer = peer_ns * 1e-9 * clocks as f64;
         writeln!(
             text,
             "| {pass} | {clocks} | {} | {} | {} |",
             digits(seconds),
-            digits(reference),
-            digits(reference / seconds)
+            digits(peer),
+            digits(peer / seconds)
         )?;
     }
-    writeln!(
-        text,
-        "\nVerilator's time is that of the pass above, scaled by the number of clocks."
-    )?;
+    writeln!(text, "\nThe peer's time is that of the pass above, scaled by the number of clocks.")?;
     Ok(text)
 }
 

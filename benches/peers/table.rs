@@ -7,8 +7,8 @@ use anyhow::ensure;
 
 use crate::Run;
 
-/// The peer all ratios are to.
-pub(crate) const REFERENCE: &str = "Verilator -O3";
+/// What the names of our engines begin with.
+const OURS: &str = "helixlock";
 
 /// The quickest run of every engine on one stimulus.
 pub(crate) struct Column {
@@ -40,9 +40,10 @@ impl Column {
         Ok(())
     }
 
-    /// Nanoseconds the reference takes for a clock.
-    pub(crate) fn reference_ns(&self) -> f64 {
-        1e9 * self.per_clock(REFERENCE)
+    /// Seconds that the quickest of the others takes for a clock.
+    pub(crate) fn quickest_peer(&self) -> f64 {
+        let peers = self.rows.iter().filter(|(name, _)| !name.starts_with(OURS));
+        peers.map(|(_, per_clock)| *per_clock).fold(f64::INFINITY, f64::min)
     }
 
     fn per_clock(&self, name: &str) -> f64 {
@@ -55,14 +56,14 @@ pub(crate) fn engines(columns: &[Column]) -> String {
     let mut text = String::from("| engine |");
     for column in columns {
         // Writing into a string does not fail.
-        let _ = write!(text, " {}, ns a clock | × Verilator |", column.title);
+        let _ = write!(text, " {}, ns a clock | × quickest peer |", column.title);
     }
     let _ = writeln!(text, "\n|---|{}", "---:|---:|".repeat(columns.len()));
     for (name, _) in columns.first().map_or(&[][..], |column| &column.rows) {
         let _ = write!(text, "| {name} |");
         for column in columns {
             let per_clock = column.per_clock(name);
-            let ratio = column.per_clock(REFERENCE) / per_clock;
+            let ratio = column.quickest_peer() / per_clock;
             let _ = write!(text, " {} | {} |", digits(1e9 * per_clock), digits(ratio));
         }
         text.push('\n');
