@@ -14,6 +14,7 @@ mod import;
 mod init;
 mod learn;
 mod man;
+mod merge;
 mod scale;
 mod screw;
 mod serve;
@@ -26,7 +27,7 @@ mod transmission;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{CommandFactory, Parser};
 use helixlock_plant::MachineError;
 
 use crate::shared::terminal::{Terminal, shown};
@@ -49,6 +50,7 @@ enum Command {
     Init(init::Init),
     Learn(learn::Learn),
     Man(man::Manual),
+    Merge(merge::Merge),
     Scale(Box<scale::ScaleCommand>),
     Screw(screw::Screw),
     Serve(serve::Serve),
@@ -98,7 +100,7 @@ fn run(command: Command, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         Command::Certify(command) => command.run(out),
         Command::Challenge(command) => command.run(out),
         Command::Compare(command) => command.run(out),
-        Command::Completions(command) => command.run(out),
+        Command::Completions(command) => command.run(Command::command(), out),
         Command::Diagnose(command) => command.run(out),
         Command::Dividers(command) => command.run(out),
         Command::Effects(command) => command.run(out),
@@ -107,7 +109,8 @@ fn run(command: Command, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         Command::Import(command) => command.run(out),
         Command::Init(command) => command.run(out),
         Command::Learn(command) => command.run(out),
-        Command::Man(command) => command.run(out),
+        Command::Man(command) => command.run(Command::command(), out),
+        Command::Merge(command) => command.run(out),
         Command::Scale(scale) => scale.run(out),
         Command::Screw(screw) => screw.run(out),
         Command::Serve(serve) => serve.run(out),

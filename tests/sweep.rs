@@ -89,3 +89,81 @@ fn a_case_that_cannot_be_run_is_named() {
     let total = table.column("closed_total_um").unwrap();
     assert!(total[0].is_finite() && total[1].is_nan());
 }
+
+/// The sweep of `sweep`, part by part into a folder.
+fn part(folder: &Path, number: usize) -> Command {
+    let mut command = sweep(folder);
+    command.arg("--shard").arg(format!("{number}/3"));
+    command
+}
+
+fn merge(folder: &Path, output: &Path) -> std::process::Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_helixlock"));
+    command.arg("merge").arg(folder).arg("-o").arg(output).output().unwrap()
+}
+
+/// Workers side by side, one of them killed and begun anew by the Makefile of the example: the same
+/// bytes as one process alone.
+#[test]
+fn parts_of_many_machines_make_the_file_of_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let parts = folder.path().join("parts");
+    let mut killed = part(&parts, 2).spawn().unwrap();
+    while killed.try_wait().unwrap().is_none() {
+        let journals =
+            fs::read_dir(&parts).into_iter().flatten().map(|entry| entry.unwrap().path());
+        let mut texts = journals.filter_map(|path| fs::read_to_string(path).ok());
+        if texts.any(|text| 2 < text.lines().count()) {
+            killed.kill().unwrap();
+        }
+    }
+    let made = Command::new("make")
+        .args(["-j", "3", "-C", "examples/many-machines", "PARTS=3"])
+        .arg(format!("HELIXLOCK={}", env!("CARGO_BIN_EXE_helixlock")))
+        .arg(format!("OUT={}", parts.display()))
+        .output()
+        .unwrap();
+    assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+    for name in ["whole.csv", "whole.parquet"] {
+        let [whole, merged] =
+            [name.to_owned(), format!("merged-{name}")].map(|name| folder.path().join(name));
+        assert!(sweep(&whole).status().unwrap().success());
+        assert_eq!(merge(&parts, &merged).status.code(), Some(0));
+        assert_eq!(fs::read(&merged).unwrap(), fs::read(&whole).unwrap(), "{name}");
+    }
+    assert_eq!(
+        fs::read(parts.join("cases.parquet")).unwrap(),
+        fs::read(folder.path().join("whole.parquet")).unwrap()
+    );
+}
+
+/// What is no whole sweep is told and leaves no file.
+#[test]
+fn parts_that_do_not_belong_together_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let (parts, output) = (folder.path().join("parts"), folder.path().join("all.csv"));
+    let refused = |wanted: &str| {
+        let run = merge(&parts, &output);
+        let said = String::from_utf8(run.stderr).unwrap();
+        assert!(run.status.code() == Some(2) && said.contains(wanted), "{said}");
+        assert!(!output.exists(), "{wanted}");
+    };
+    assert!(part(&parts, 1).status().unwrap().success());
+    refused("2 of 3 parts are missing: 2, 3");
+    assert!(part(&parts, 3).status().unwrap().success());
+    let other = part(&parts, 2).args(["--draw", "spindle.speed=5..6 rpm"]).status().unwrap();
+    assert!(other.success());
+    refused("are of two sweeps, expected one");
+    let names: Vec<_> = fs::read_dir(&parts).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let part_of = |number: &str| {
+        names.iter().find(|path| {
+            let name = path.file_name().unwrap().to_str().unwrap();
+            name.starts_with(number) && name.ends_with(".parquet")
+        })
+    };
+    let (first, second) = (part_of("part-1-").unwrap(), part_of("part-2-").unwrap());
+    fs::remove_file(second).unwrap();
+    let name = first.file_name().unwrap().to_str().unwrap().replace("part-1-", "part-2-");
+    fs::copy(first, parts.join(name)).unwrap();
+    refused("does not hold the cases of part 2 of 3, expected 8 to 15");
+}

@@ -3,10 +3,7 @@
 use std::io::Write;
 use std::process::ExitCode;
 
-use clap::CommandFactory;
 use clap_complete::{Shell, generate};
-
-use crate::Command;
 
 /// The script by which a shell completes the words of helixlock
 #[derive(Debug, clap::Args)]
@@ -16,9 +13,14 @@ pub(crate) struct Completions {
 }
 
 impl Completions {
-    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+    /// Prints the script for all words of `helixlock`.
+    pub(crate) fn run(
+        self,
+        mut helixlock: clap::Command,
+        out: &mut impl Write,
+    ) -> anyhow::Result<ExitCode> {
         let mut script = Vec::new(); // the generator panics where a pipe is closed
-        generate(self.shell, &mut Command::command(), "helixlock", &mut script);
+        generate(self.shell, &mut helixlock, "helixlock", &mut script);
         out.write_all(&script)?;
         Ok(ExitCode::SUCCESS)
     }

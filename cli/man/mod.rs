@@ -4,10 +4,8 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::CommandFactory;
 use clap_mangen::Man;
 
-use crate::Command;
 use crate::shared::output::Batch;
 
 /// The manual: its first page, or all pages into a folder
@@ -19,15 +17,19 @@ pub(crate) struct Manual {
 }
 
 impl Manual {
-    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
-        let mut command = Command::command();
-        command.build(); // gives every subcommand its whole name
+    /// Prints or writes the pages of `helixlock`.
+    pub(crate) fn run(
+        self,
+        mut helixlock: clap::Command,
+        out: &mut impl Write,
+    ) -> anyhow::Result<ExitCode> {
+        helixlock.build(); // gives every subcommand its whole name
         let Some(folder) = self.output else {
-            Man::new(command).render(out)?;
+            Man::new(helixlock).render(out)?;
             return Ok(ExitCode::SUCCESS);
         };
         let mut batch = Batch::new(&folder, [])?;
-        write_pages(&command, &mut batch)?;
+        write_pages(&helixlock, &mut batch)?;
         batch.keep()?;
         writeln!(out, "{}: the manual, `man -l {0}/helixlock.1` shows it", folder.display())?;
         Ok(ExitCode::SUCCESS)

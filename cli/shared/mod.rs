@@ -14,6 +14,7 @@ pub(crate) mod progress;
 pub(crate) mod quantity;
 pub(crate) mod residual_picture;
 pub(crate) mod series;
+pub(crate) mod shards;
 pub(crate) mod spectrum;
 pub(crate) mod terminal;
 pub(crate) mod wheels;

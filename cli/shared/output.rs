@@ -237,7 +237,8 @@ fn cannot(path: &Path) -> String {
     format!("{}: cannot be written", path.display())
 }
 
-fn make_folder(path: &Path) -> anyhow::Result<()> {
+/// Makes a folder, with its parents.
+pub(crate) fn make_folder(path: &Path) -> anyhow::Result<()> {
     std::fs::create_dir_all(path)
         .with_context(|| format!("{}: the folder cannot be made", path.display()))
 }

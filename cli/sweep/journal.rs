@@ -33,8 +33,8 @@ pub(crate) struct Journal {
 }
 
 impl Journal {
-    /// Opens the journal of the results `output`, or begins one; `identity` tells sweeps apart.
-    pub(crate) fn open(output: &Path, identity: &str, width: usize) -> anyhow::Result<Self> {
+    /// Opens the journal of the results `output`, or begins one; `fingerprint` tells sweeps apart.
+    pub(crate) fn open(output: &Path, fingerprint: u64, width: usize) -> anyhow::Result<Self> {
         let path = path_beside(output);
         let mut file = open_to_append(&path)?;
         if let Err(TryLockError::WouldBlock) = file.try_lock() {
@@ -42,7 +42,7 @@ impl Journal {
         }
         let mut text = String::new();
         file.read_to_string(&mut text).with_context(|| path.display().to_string())?;
-        let head = format!("# helixlock sweep {:016x}\n", fingerprint(identity));
+        let head = format!("# helixlock sweep {fingerprint:016x}\n");
         // A head cut off in the middle is that of a sweep which has done nothing.
         let whole = text.rfind('\n').map_or(0, |end| end + 1);
         if whole != 0 && !text.starts_with(&head) {
@@ -102,13 +102,6 @@ fn row(line: &str, width: usize) -> Option<Row> {
     (cells.len() == width).then_some(Row { case: case.parse().ok()?, cells, failure })
 }
 
-/// FNV-1a over the bytes.
-fn fingerprint(text: &str) -> u64 {
-    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -121,16 +114,16 @@ mod tests {
     fn a_cut_line_is_run_again_and_nothing_else() {
         let folder = tempfile::tempdir().unwrap();
         let output = folder.path().join("out.csv");
-        let mut journal = Journal::open(&output, "this", 2).unwrap();
+        let mut journal = Journal::open(&output, 1, 2).unwrap();
         journal.append(row(3)).unwrap();
         journal.append(row(1)).unwrap();
         journal.write("2,0.1").unwrap();
         drop(journal);
-        let mut journal = Journal::open(&output, "this", 2).unwrap();
+        let mut journal = Journal::open(&output, 1, 2).unwrap();
         assert_eq!([1, 2, 3].map(|case| journal.has(case)), [true, false, true]);
         journal.append(row(2)).unwrap();
         drop(journal);
-        let journal = Journal::open(&output, "this", 2).unwrap();
+        let journal = Journal::open(&output, 1, 2).unwrap();
         assert_eq!(journal.rows.iter().map(|row| row.case).collect::<Vec<_>>(), [1, 2, 3]);
         assert!(journal.rows.iter().all(|row| row.cells[1].is_nan()));
         assert!(journal.rows.iter().all(|row| row.failure.as_deref() == Some("no\nway")));
@@ -140,8 +133,8 @@ mod tests {
     fn another_sweep_is_refused() {
         let folder = tempfile::tempdir().unwrap();
         let output = folder.path().join("out.csv");
-        drop(Journal::open(&output, "this", 2).unwrap());
-        let error = Journal::open(&output, "that", 2).unwrap_err().to_string();
+        drop(Journal::open(&output, 1, 2).unwrap());
+        let error = Journal::open(&output, 2, 2).unwrap_err().to_string();
         assert!(error.contains("is of another machine file"), "{error}");
     }
 }

@@ -3,6 +3,7 @@
 mod journal;
 
 use std::io::Write;
+use std::ops::Range;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Mutex;
@@ -12,14 +13,13 @@ use clap::Args;
 use helixlock_plant::{Formula, MachineFile, MeasuredCurve, Model};
 use helixlock_sim::sweep::{Axis, Case, DrawnAxis, FIGURES, MOST_CASES, Plan};
 use helixlock_sim::{Options, parallel};
-use helixlock_traces::csv::write_csv;
-use helixlock_traces::parquet::write_parquet;
 use helixlock_traces::table::{Column, Table};
 
 use self::journal::{Journal, Row};
 use crate::shared::input::machine_files;
-use crate::shared::output::write_whole;
+use crate::shared::output::make_folder;
 use crate::shared::progress;
+use crate::shared::shards::{Format, PartName, Shard, write_cases};
 
 /// Simulate many machines: any value of the file over a range, or by chance
 ///
@@ -30,9 +30,12 @@ pub(crate) struct Sweep {
     /// Machine file
     #[arg(value_name = "MACHINE.toml")]
     machine: PathBuf,
-    /// Results, one row a case: `.csv` or `.parquet`
-    #[arg(short, long, value_name = "FILE")]
+    /// Results, one row a case: `.csv` or `.parquet`; with `--shard` the folder of the parts
+    #[arg(short, long, value_name = "FILE|DIR")]
     output: PathBuf,
+    /// Simulate only this part of so many, `2/8`, on one machine of many; `helixlock merge` joins them
+    #[arg(long, value_name = "PART/PARTS")]
+    shard: Option<Shard>,
     /// A key of the machine file and its values: `drive.frequency=80,160 Hz`, or eight values
     /// `drive.frequency=40..320:8 Hz`; effects are counted from 0: `effect.0.amplitude=1,2 um`
     #[arg(long = "set", value_name = "KEY=VALUES")]
@@ -57,26 +60,18 @@ impl Sweep {
         let file = MachineFile::read(&self.machine)?;
         let plan = self.plan()?;
         let options = Options { length_mm: self.length, ..Options::default() };
-        let is_parquet = self.is_parquet()?;
         let curves = curves(&file.model);
-        let identity = format!("{}\n{curves:?}\n{plan:?}\n{options:?}", file.text());
+        let version = env!("CARGO_PKG_VERSION");
+        let identity = format!("{version}\n{}\n{curves:?}\n{plan:?}\n{options:?}", file.text());
+        let (output, format) = self.target(&plan, fingerprint(&identity))?;
         let width = plan.columns().len() + FIGURES.len();
-        let journal = Journal::open(&self.output, &identity, width)?;
+        let journal = Journal::open(&output, fingerprint(&identity), width)?;
         let resumed = journal.rows.len();
-        let rows = run_missing(&file, &plan, &options, journal)?;
-        let table = table(&plan, &rows);
+        let rows = run_missing(&file, &plan, self.cases(&plan), &options, journal)?;
         let inputs = machine_files(&self.machine, &file.model);
-        write_whole(&self.output, inputs, |mut file| {
-            if is_parquet {
-                let mut bytes = Vec::new();
-                write_parquet(&table, &mut bytes)?;
-                Ok(file.write_all(&bytes)?)
-            } else {
-                Ok(write_csv(&table, &mut file)?)
-            }
-        })?;
+        write_cases(&output, format, inputs, &table(&plan, &rows))?;
         let done = rows.len() - resumed;
-        writeln!(out, "{}: {} cases, {done} of them run now", self.output.display(), rows.len())?;
+        writeln!(out, "{}: {} cases, {done} of them run now", output.display(), rows.len())?;
         let failed = |row: &Row| Some(format!("case {}: {}", row.case, row.failure.as_ref()?));
         let failures: Vec<String> = rows.iter().filter_map(failed).collect();
         for failure in &failures {
@@ -96,22 +91,35 @@ impl Sweep {
         let drawn =
             self.drawn.iter().map(|text| DrawnAxis::parse(text)).collect::<Result<_, _>>()?;
         let plan = Plan { grid, drawn, samples: self.samples, seed: self.seed };
-        let cases = plan.cases();
-        if MOST_CASES < cases {
-            let more = if cases == u64::MAX { " or more" } else { "" };
+        let (all, range) = (plan.cases(), self.cases(&plan));
+        let cases = range.end - range.start;
+        if all == u64::MAX || MOST_CASES < cases {
+            let more = if all == u64::MAX { " or more" } else { "" };
             bail!(
-                "{cases}{more} cases, expected at most {MOST_CASES}\n                 hint: fewer values of each key, or `--draw` with `--samples`"
+                "{cases}{more} cases, expected at most {MOST_CASES}\n                 hint: fewer values of each key, `--draw` with `--samples`, or parts of it with `--shard`"
             );
+        }
+        if let Some(Shard { of, .. }) = self.shard
+            && all < of
+        {
+            bail!("`--shard`: {of} parts of {all} cases, expected a case for each at least");
         }
         Ok(plan)
     }
 
-    fn is_parquet(&self) -> anyhow::Result<bool> {
-        match self.output.extension().and_then(|extension| extension.to_str()) {
-            Some("csv") => Ok(false),
-            Some("parquet") => Ok(true),
-            _ => bail!("{}: expected a name in .csv or .parquet", self.output.display()),
-        }
+    /// The cases asked for, of all.
+    fn cases(&self, plan: &Plan) -> Range<u64> {
+        self.shard.map_or(0..plan.cases(), |shard| shard.cases(plan.cases()))
+    }
+
+    /// Where the results go.
+    fn target(&self, plan: &Plan, fingerprint: u64) -> anyhow::Result<(PathBuf, Format)> {
+        let Some(shard) = self.shard else {
+            return Ok((self.output.clone(), Format::of(&self.output)?));
+        };
+        make_folder(&self.output)?;
+        let part = PartName { shard, cases: plan.cases(), fingerprint };
+        Ok((self.output.join(part.to_string()), Format::Parquet))
     }
 }
 
@@ -130,12 +138,13 @@ fn curves(model: &Model) -> Vec<&MeasuredCurve> {
 fn run_missing(
     file: &MachineFile,
     plan: &Plan,
+    cases: Range<u64>,
     options: &Options,
     journal: Journal,
 ) -> anyhow::Result<Vec<Row>> {
-    let missing: Vec<u64> = (0..plan.cases()).filter(|case| !journal.has(*case)).collect();
-    let bar = progress::bar(plan.cases(), "cases");
-    bar.set_position(plan.cases() - missing.len() as u64);
+    let bar = progress::bar(cases.end - cases.start, "cases");
+    let missing: Vec<u64> = cases.filter(|case| !journal.has(*case)).collect();
+    bar.set_position(journal.rows.len() as u64);
     let journal = Mutex::new(journal);
     parallel(&missing, |index| {
         let case = plan.case(*index);
@@ -168,4 +177,11 @@ fn table(plan: &Plan, rows: &[Row]) -> Table {
         values: rows.iter().map(|row| row.cells[place]).collect(),
     });
     Table::new(std::iter::once(number).chain(columns).collect())
+}
+
+/// FNV-1a over the bytes.
+fn fingerprint(text: &str) -> u64 {
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
 }
