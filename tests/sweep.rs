@@ -99,7 +99,7 @@ fn part(folder: &Path, number: usize) -> Command {
 
 fn merge(folder: &Path, output: &Path) -> std::process::Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_helixlock"));
-    command.arg("merge").arg(folder).arg("-o").arg(output).output().unwrap()
+    command.arg("merge").arg(folder).arg("-o").arg(output).output().expect("the command starts")
 }
 
 /// Workers side by side, one of them killed and begun anew by the Makefile of the example: the same

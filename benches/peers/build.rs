@@ -40,30 +40,22 @@ impl Peer {
     }
 }
 
-/// The device as others read it.
-pub(crate) struct Source<'a> {
-    pub(crate) verilog: &'a Path,
-}
-
-impl Source<'_> {
-    /// The program text with the device's inputs and registers filled in.
-    pub(crate) fn filled(
-        &self,
-        text: &str,
-        input: impl Fn(&str) -> String,
-        state: impl Fn(&str) -> String,
-    ) -> String {
-        let mut pins = String::new();
-        for (index, (name, _)) in inputs().iter().enumerate() {
-            // Writing into a string does not fail.
-            let _ = writeln!(pins, "        case {index}: {} = value; break;", input(name));
-        }
-        let mut words = String::new();
-        for path in registers() {
-            let _ = writeln!(words, "    print({});", state(&path));
-        }
-        text.replace("@PINS@", &pins).replace("@STATE@", &words)
+/// The program text with the device's inputs and registers filled in.
+pub(crate) fn filled(
+    text: &str,
+    input: impl Fn(&str) -> String,
+    state: impl Fn(&str) -> String,
+) -> String {
+    let mut pins = String::new();
+    for (index, (name, _)) in inputs().iter().enumerate() {
+        // Writing into a string does not fail.
+        let _ = writeln!(pins, "        case {index}: {} = value; break;", input(name));
     }
+    let mut words = String::new();
+    for path in registers() {
+        let _ = writeln!(words, "    print({});", state(&path));
+    }
+    text.replace("@PINS@", &pins).replace("@STATE@", &words)
 }
 
 /// Where a peer is compiled, and with which flags.
@@ -76,17 +68,16 @@ pub(crate) struct Trial {
 pub(crate) fn all(folder: &Path) -> anyhow::Result<Vec<Peer>> {
     let verilog = folder.join("device.v");
     write(&verilog, &emitted()?)?;
-    let source = Source { verilog: &verilog };
     let mut peers = Vec::new();
     for tool in tools::verilators()? {
         peers.extend(twice(folder, &tool.name, &|trial| {
-            verilator::compiled(&tool, &source, trial)
+            verilator::compiled(&tool, &verilog, trial)
         })?);
     }
     for tool in tools::yosyses()? {
-        peers.extend(twice(folder, &tool.name, &|trial| cxxrtl::compiled(&tool, &source, trial))?);
+        peers.extend(twice(folder, &tool.name, &|trial| cxxrtl::compiled(&tool, &verilog, trial))?);
     }
-    peers.push(icarus::icarus(folder, &source)?);
+    peers.push(icarus::icarus(folder, &verilog)?);
     Ok(peers)
 }
 

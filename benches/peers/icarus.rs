@@ -4,10 +4,10 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::process::Command;
 
-use crate::build::{Peer, Source, inputs, registers, tool, write};
+use crate::build::{Peer, inputs, registers, tool, write};
 
 /// Compiles the device for `vvp`.
-pub(crate) fn icarus(folder: &Path, source: &Source<'_>) -> anyhow::Result<Peer> {
+pub(crate) fn icarus(folder: &Path, verilog: &Path) -> anyhow::Result<Peer> {
     let bench = folder.join("icarus.v");
     let values: Vec<String> = registers().iter().map(|path| format!("device.{path}")).collect();
     let mut ports = String::new();
@@ -30,7 +30,7 @@ pub(crate) fn icarus(folder: &Path, source: &Source<'_>) -> anyhow::Result<Peer>
         Command::new("iverilog")
             .args(["-g2005-sv", "-s", "bench", "-o"])
             .args([&binary, &bench])
-            .arg(source.verilog),
+            .arg(verilog),
     )?;
     let runner = folder.join("icarus.sh");
     write(&runner, include_str!("icarus.sh"))?;

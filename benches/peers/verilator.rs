@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::build::{Source, Trial, tool, write};
+use crate::build::{Trial, filled, tool, write};
 use crate::tools::Tool;
 
 /// Compiles the device with those flags of the compiler.
@@ -11,13 +11,13 @@ use crate::tools::Tool;
 /// The makefile of Verilator puts its own `-Os` behind `-CFLAGS`: its variables have to be set.
 pub(crate) fn compiled(
     verilator: &Tool,
-    source: &Source<'_>,
+    verilog: &Path,
     Trial { folder, flags }: &Trial,
 ) -> anyhow::Result<PathBuf> {
     let main = folder.join("main.cpp");
     let state = |path: &str| format!("top.rootp->device__DOT__{}", path.replace('.', "__DOT__"));
     let text = include_str!("verilator.cpp");
-    write(&main, &source.filled(text, |input| format!("top.{input}"), state))?;
+    write(&main, &filled(text, |input| format!("top.{input}"), state))?;
     tool(
         Command::new(&verilator.command)
             .env("VERILATOR_ROOT", &verilator.folder)
@@ -25,7 +25,7 @@ pub(crate) fn compiled(
             .args(["--x-assign", "fast", "--x-initial", "fast", "--top-module", "device"])
             .args(["-MAKEFLAGS", "OPT_FAST=-O3 OPT_SLOW=-O3 OPT_GLOBAL=-O3"])
             .args(["-CFLAGS", flags, "-LDFLAGS", flags, "-o", "peer", "--Mdir"])
-            .args([folder, &main, source.verilog]),
+            .args([folder, &main, verilog]),
     )?;
     Ok(Path::new(folder).join("peer"))
 }
