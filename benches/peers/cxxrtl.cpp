@@ -21,10 +21,22 @@ static void set(unsigned pin, uint64_t value) {
 @PINS@    }
 }
 
+// How a design describes itself has changed between versions: the newer way where there is one.
+template <class Design>
+static auto describe(Design& design, cxxrtl::debug_items& items, int)
+    -> decltype(design.debug_info(&items, nullptr, std::string())) {
+    design.debug_info(&items, nullptr, std::string());
+}
+
+template <class Design>
+static void describe(Design& design, cxxrtl::debug_items& items, long) {
+    design.debug_info(items);
+}
+
 static void print(uint64_t word) { std::printf("%lx ", word); }
 
 static uint64_t word(cxxrtl::debug_items& items, const char* path) {
-    return *items.at(path).curr;
+    return *items[path].curr;
 }
 
 int main(int, char** arguments) {
@@ -50,6 +62,6 @@ int main(int, char** arguments) {
     run_until(clocks);
     std::printf("end %.9f ", double(std::clock() - before) / CLOCKS_PER_SEC);
     cxxrtl::debug_items items;
-    top.debug_info(items);
+    describe(top, items, 0);
 @STATE@    std::printf("\n");
 }

@@ -12,20 +12,19 @@ pub(crate) fn compiled(
     verilog: &Path,
     Trial { folder, flags }: &Trial,
 ) -> anyhow::Result<PathBuf> {
-    let device = folder.join("cxxrtl_device.cc");
-    let script = format!(
-        "read_verilog {}; hierarchy -top device; proc; flatten; write_cxxrtl -O6 {}",
-        verilog.display(),
-        device.display()
-    );
-    tool(Command::new(&yosys.command).args(["-q", "-p", &script]))?;
+    // By name alone: a Yosys in a sandbox sees no other folder than the one it runs in.
+    std::fs::copy(verilog, folder.join("device.v"))?;
+    let script = "read_verilog device.v; hierarchy -top device; proc; flatten; \
+                  write_cxxrtl -O6 cxxrtl_device.cc";
+    tool(Command::new(&yosys.command).current_dir(folder).args(["-q", "-p", script]))?;
     let main = folder.join("main.cpp");
     let state = |path: &str| format!("word(items, \"{}\")", path.replace('.', " "));
     let input = |name: &str| format!("top.p_{}.data[0]", name.replace('_', "__"));
     write(&main, &filled(include_str!("cxxrtl.cpp"), input, state))?;
     let binary = folder.join("peer");
+    let headers = yosys.folder.as_deref().unwrap_or(Path::new("/usr/share/yosys/include"));
     let mut compiler = Command::new("g++");
-    compiler.args(flags.split(' ')).arg("-std=c++14").arg("-I").arg(&yosys.folder);
+    compiler.args(flags.split(' ')).arg("-std=c++14").arg("-I").arg(headers);
     tool(compiler.arg("-o").args([&binary, &main]))?;
     Ok(binary)
 }

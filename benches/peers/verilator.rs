@@ -20,7 +20,7 @@ pub(crate) fn compiled(
     write(&main, &filled(text, |input| format!("top.{input}"), state))?;
     tool(
         Command::new(&verilator.command)
-            .env("VERILATOR_ROOT", &verilator.folder)
+            .envs(verilator.folder.iter().map(|folder| ("VERILATOR_ROOT", folder)))
             .args(["--cc", "--exe", "--build", "-O3", "--flatten", "--noassert", "-Wno-fatal"])
             .args(["--x-assign", "fast", "--x-initial", "fast", "--top-module", "device"])
             .args(["-MAKEFLAGS", "OPT_FAST=-O3 OPT_SLOW=-O3 OPT_GLOBAL=-O3"])
