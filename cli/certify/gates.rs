@@ -70,12 +70,7 @@ pub(crate) fn print_whole(whole: &WholeGates, out: &mut impl Write) -> anyhow::R
         1e9 * open.largest_at_ends_s,
         1e9 * whole.bound_at_ends_s
     )?;
-    writeln!(
-        out,
-        "other decisions     {}, the laser's edge at most {:.1} ns from a coincidence",
-        open.other_decisions,
-        1e9 * open.other_decision_s
-    )?;
+    super::text::print_other_decisions(open, out)?;
     writeln!(
         out,
         "loop closed         {} comparisons and {} steps; tables at most {} steps apart, bound {}",

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use helixlock_sim::{Certificate, FLIP_FLOP};
+use helixlock_sim::{Certificate, FLIP_FLOP, OpenLoop};
 
 /// The bound, and each run against it.
 pub(crate) fn print(certificate: &Certificate, out: &mut impl Write) -> anyhow::Result<()> {
@@ -22,16 +22,22 @@ pub(crate) fn print(certificate: &Certificate, out: &mut impl Write) -> anyhow::
         nm(open.largest_s),
         1e9 * open.rms_s
     )?;
-    writeln!(
-        out,
-        "other decisions     {}, the laser's edge at most {:.1} ns from a coincidence",
-        open.other_decisions,
-        1e9 * open.other_decision_s
-    )?;
+    print_other_decisions(open, out)?;
     writeln!(out, "coincident edges    {} within a clock", open.coincidences)?;
     writeln!(out, "short clock pulses  {} in the old flip-flop, none taken", open.runts)?;
     print_provoked(certificate, out)?;
     print_closed(certificate, out)
+}
+
+/// How often the two devices of a run took another direction, and how near to a coincidence.
+pub(crate) fn print_other_decisions(run: &OpenLoop, out: &mut impl Write) -> anyhow::Result<()> {
+    writeln!(
+        out,
+        "other decisions     {}, the laser's edge at most {:.1} ns from a coincidence",
+        run.other_decisions,
+        1e9 * run.other_decision_s
+    )?;
+    Ok(())
 }
 
 fn print_provoked(certificate: &Certificate, out: &mut impl Write) -> anyhow::Result<()> {
@@ -52,12 +58,7 @@ fn print_provoked(certificate: &Certificate, out: &mut impl Write) -> anyhow::Re
             1e9 * run.largest_s,
             if place == "ends" { at_ends.as_str() } else { "" }
         )?;
-        writeln!(
-            out,
-            "other decisions     {}, the laser's edge at most {:.1} ns from a coincidence",
-            run.other_decisions,
-            1e9 * run.other_decision_s
-        )?;
+        print_other_decisions(run, out)?;
     }
     Ok(())
 }

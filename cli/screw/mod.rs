@@ -14,7 +14,7 @@ use clap::{Args, ValueEnum};
 use helixlock_metrology::Error;
 use helixlock_metrology::screw::{
     Characteristic, Curve, Estimate, ToleranceTable, Weighting, built_in_table, evaluate_travel,
-    fit_mean_line, grade, helical_characteristics, pitch_characteristics, without_reading_noise,
+    grade, helical_characteristics, pitch_characteristics, without_reading_noise,
 };
 
 use self::evaluation::Evaluation;
@@ -152,14 +152,17 @@ impl Screw {
             By::Travel => Weighting::Travel,
         };
         let variation = evaluate_travel(&curve, self.lead, self.compensation, weighting)?;
-        let characteristics = self.characteristics(&curve, weighting)?;
+        let characteristics = match self.standard {
+            Standard::Iso3408 => variation.characteristics.to_vec(),
+            Standard::Jbt2886 => self.of_jbt2886(&curve),
+        };
         let estimates = self.estimates(&curve, weighting, &characteristics);
         let grading = grade(table, &characteristics, curve.length_mm(), &estimates);
         Ok(Evaluation {
             path: self.data.clone(),
             standard: table.standard.clone(),
             lead_mm: self.lead,
-            mean_line: fit_mean_line(&curve, weighting),
+            mean_line: variation.mean_line,
             samples_per_turn: variation.samples_per_turn,
             intervals_in_300_mm: variation.intervals_in_300_mm,
             gaps: variation.gaps,
@@ -172,22 +175,10 @@ impl Screw {
         })
     }
 
-    /// What the standard asks for.
-    fn characteristics(
-        &self,
-        curve: &Curve,
-        weighting: Weighting,
-    ) -> Result<Vec<Characteristic>, Error> {
-        Ok(match self.standard {
-            Standard::Iso3408 => evaluate_travel(curve, self.lead, self.compensation, weighting)?
-                .characteristics
-                .to_vec(),
-            Standard::Jbt2886 => {
-                let mut all = helical_characteristics(curve, self.lead).to_vec();
-                all.extend(pitch_characteristics(curve, self.lead));
-                all
-            }
-        })
+    fn of_jbt2886(&self, curve: &Curve) -> Vec<Characteristic> {
+        let mut all = helical_characteristics(curve, self.lead).to_vec();
+        all.extend(pitch_characteristics(curve, self.lead));
+        all
     }
 
     /// What is known of each characteristic: nothing, unless its uncertainty or the noise is.
@@ -198,9 +189,14 @@ impl Screw {
         characteristics: &[Characteristic],
     ) -> Vec<Option<Estimate>> {
         if let Some(noise_um) = self.reading_noise {
-            // The lead, all that can be refused, was accepted before.
-            let evaluate =
-                |curve: &Curve| self.characteristics(curve, weighting).unwrap_or_default();
+            let evaluate = |curve: &Curve| match self.standard {
+                // The lead, all that can be refused, was accepted before.
+                Standard::Iso3408 => {
+                    evaluate_travel(curve, self.lead, self.compensation, weighting)
+                        .map_or_else(|_| Vec::new(), |found| found.characteristics.to_vec())
+                }
+                Standard::Jbt2886 => self.of_jbt2886(curve),
+            };
             return without_reading_noise(curve, noise_um, self.seed, &evaluate);
         }
         let estimate = |one: &Characteristic| {

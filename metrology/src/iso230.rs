@@ -4,7 +4,7 @@
 //! (actual less target position, µm). Usable on its own: it knows no scale and no compensation.
 
 use crate::Error;
-use crate::number::number;
+use crate::number::{mean, number};
 
 /// Approaches of one target.
 #[derive(Clone, Debug, PartialEq)]
@@ -145,10 +145,6 @@ fn vdi3441(targets: &[TargetResult]) -> Option<Vdi3441> {
         reversal_um: largest_and_mean(&reversals),
         scatter_um: largest_and_mean(&scatters),
     })
-}
-
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / number(values.len())
 }
 
 fn largest_s(means: &[(f64, f64)]) -> f64 {

@@ -11,7 +11,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, Normal};
 
 use super::{Characteristic, Curve};
-use crate::number::number;
+use crate::number::{mean, number};
 
 /// What is known of the size of a characteristic.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,10 +87,6 @@ fn extrapolated(measured: f64, once: &[f64], twice: f64, thrice: f64) -> Estimat
 fn sizes(characteristics: &[Characteristic]) -> Vec<Option<f64>> {
     let size = |one: &Characteristic| one.reached.as_ref().ok().map(|found| found.value_um.abs());
     characteristics.iter().map(size).collect()
-}
-
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / number(values.len())
 }
 
 /// Standard deviation.

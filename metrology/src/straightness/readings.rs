@@ -4,7 +4,7 @@ use super::chauvenet::is_outlier;
 use super::separated::without_line;
 use super::spacing::Spacing;
 use crate::Error;
-use crate::number::number;
+use crate::number::{mean, number};
 
 /// One run along the stroke.
 #[derive(Clone, Debug, PartialEq)]
@@ -252,10 +252,6 @@ fn sigma(z: &[Vec<f64>], mean_um: &[f64]) -> Option<f64> {
 fn mean_of(z: &[Vec<f64>], sample: usize) -> (f64, usize) {
     let known: Vec<f64> = z.iter().map(|run| run[sample]).filter(|v| v.is_finite()).collect();
     (mean(&known), known.len())
-}
-
-pub(super) fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / number(values.len())
 }
 
 #[cfg(test)]

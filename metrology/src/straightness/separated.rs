@@ -62,7 +62,7 @@ impl Separated {
         let workpiece_um = (0..samples).map(|sample| touched_um(sample, 0)).collect();
         let motion = (0..samples).map(|sample| carriage(combined, sample, &touched_um));
         let (carriage_um, tilt_urad): (Vec<f64>, Vec<f64>) = motion.unzip();
-        let mean_tilt = super::readings::mean(&tilt_urad);
+        let mean_tilt = crate::number::mean(&tilt_urad);
         Self {
             position_mm: positions.collect(),
             workpiece_um: without_line(workpiece_um),
@@ -105,7 +105,7 @@ fn carriage(
 
 /// Values at even places, their least-squares line removed.
 pub(super) fn without_line(mut values: Vec<f64>) -> Vec<f64> {
-    let mean = super::readings::mean(&values);
+    let mean = crate::number::mean(&values);
     let centre = number(values.len() - 1) / 2.0;
     let (mut squares, mut products) = (0.0, 0.0);
     for (index, value) in values.iter().enumerate() {
