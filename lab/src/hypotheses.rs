@@ -5,6 +5,7 @@ mod calibration;
 mod candidates;
 mod grid;
 mod jumps;
+mod looks;
 mod nameless;
 mod probes;
 mod repeatability;

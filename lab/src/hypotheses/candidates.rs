@@ -2,11 +2,12 @@
 
 use helixlock_plant::{CATALOGUE, Entry, Formula, Parameter, Role, Search, Term};
 
+use super::looks::Looks;
 use super::unfolding::unfolded;
 use crate::model::{Component, Problem, Stage};
 use crate::numerics::{count, median, spread};
 use crate::policy::evidence::{ANOTHER_MATERIAL, LOOSELY_KNOWN, MARGIN};
-use crate::policy::extent::{FREQUENCIES, LONGEST, NARROWEST, OVERTONES, SLOWEST_WAVES};
+use crate::policy::extent::{FREQUENCIES, LONGEST, NARROWEST, OVERTONES, SHORTEST, SLOWEST_WAVES};
 use crate::spectrum::{Scan, gear_orders, strongest_first};
 
 /// An effect that may be missing.
@@ -18,8 +19,12 @@ pub(crate) struct Candidate {
     pub(crate) grid: Vec<Vec<f64>>,
     /// Per nonlinear parameter: distance of grid values, 0 when only grid values count.
     pub(crate) steps: Vec<f64>,
-    /// Independent places the grid looks at: what a maximum over it must pay.
-    pub(crate) looks: f64,
+    /// Lengths of the grid's axes, the last one running fastest; none for a list.
+    pub(crate) lengths: Vec<usize>,
+    /// Which of them are continuous.
+    pub(crate) continuous: Vec<usize>,
+    /// What is looked at beside what the grid's continuous axes turn by.
+    pub(crate) looks: Looks,
 }
 
 /// Grid values of a plain parameter.
@@ -68,7 +73,7 @@ fn with_overtones(mut candidate: Candidate, problem: &Problem, found: &[Componen
         .flat_map(|order| (2..=OVERTONES).map(move |times| f64::from(times) * order))
         .filter(|order| !orders.contains(order));
     candidate.grid.extend(overtones.map(|order| vec![order]));
-    candidate.looks = count(candidate.grid.len());
+    candidate.looks = Looks::at_places(count(candidate.grid.len()));
     candidate
 }
 
@@ -83,7 +88,7 @@ fn freed(candidate: &Candidate) -> Option<Candidate> {
         .find(|what| matches!(what.role, Role::Known { stderr } if LOOSELY_KNOWN <= stderr))?;
     what.role = Role::Linear;
     what.range = ANOTHER_MATERIAL;
-    let looks = candidate.looks * libm::exp(0.5 * MARGIN);
+    let looks = candidate.looks.clone().times(libm::exp(0.5 * MARGIN));
     Some(Candidate { term, looks, ..candidate.clone() })
 }
 
@@ -115,26 +120,51 @@ pub(crate) fn candidate(stage: &Stage<'_>, term: Term) -> Option<Candidate> {
             }
         })
         .collect();
-    let grid = product(&thinned(axes));
-    let mut looks = count(grid.len());
-    if term.parameters.iter().any(|what| what.search == Search::Time) {
-        // Beside the grid, every sudden change is looked at.
-        let gaps = between_samples(&stage.problem.record.time_s).len();
-        looks *= (count(gaps) / count(INSTANTS)).max(1.0);
-    }
-    if term.parameters.iter().any(Parameter::is_frequency) {
-        let times = row_times(stage.problem);
-        looks *= time_scan(stage, &times, 0.0, f64::INFINITY).looks() / count(FREQUENCIES);
-    }
-    let candidate = Candidate { term, grid, steps, looks };
+    let axes = thinned(axes);
+    let continuous = continuous(&term);
+    let looks = looks(stage, &term, &axes);
+    let lengths = axes.iter().map(Vec::len).collect();
+    let candidate = Candidate { term, grid: product(&axes), steps, lengths, continuous, looks };
     stage.problem.design(&candidate.at(0)).is_ok().then_some(candidate)
+}
+
+/// Axes of a grid along which an effect varies continuously.
+fn continuous(term: &Term) -> Vec<usize> {
+    let nonlinear = term.parameters.iter().filter(|what| what.is_nonlinear()).enumerate();
+    let varying = |what: &Parameter| {
+        let spread = [Search::Linear, Search::Logarithmic, Search::Position].contains(&what.search);
+        spread && !what.is_frequency()
+    };
+    nonlinear.filter(|(_, what)| varying(what)).map(|(axis, _)| axis).collect()
+}
+
+/// What is looked at along axes whose columns need not be known: listed values, and all frequencies,
+/// along which a wave turns by `2π·σ(t)` a hertz.
+fn looks(stage: &Stage<'_>, term: &Term, axes: &[Vec<f64>]) -> Looks {
+    let nonlinear = term.parameters.iter().filter(|what| what.is_nonlinear());
+    nonlinear.zip(axes).fold(Looks::at_places(1.0), |looks, (what, axis)| match what.search {
+        _ if what.is_frequency() => {
+            let times = row_times(stage.problem);
+            looks.along(time_scan(stage, &times, 0.0, f64::INFINITY).arc())
+        }
+        Search::Time | Search::Linear | Search::Logarithmic | Search::Position => looks,
+        Search::Whole | Search::GearOrder | Search::Fixed => looks.times(count(axis.len())),
+    })
 }
 
 /// A user's own effect is looked for near the values the user gave.
 fn near_its_values(term: Term) -> Candidate {
     let values = term.nonlinear();
     let steps = values.iter().map(|value| if *value == 0.0 { 0.01 } else { 0.01 * value.abs() });
-    Candidate { steps: steps.collect(), grid: vec![values], looks: 1.0, term }
+    let (steps, looks) = (steps.collect(), Looks::at_places(1.0));
+    Candidate {
+        steps,
+        grid: vec![values],
+        lengths: Vec::new(),
+        continuous: Vec::new(),
+        looks,
+        term,
+    }
 }
 
 impl Candidate {
@@ -174,12 +204,12 @@ fn evenly(low: f64, high: f64, points: usize) -> Vec<f64> {
     (0..points).map(|i| low + (high - low) * (count(i) + 0.5) / count(points)).collect()
 }
 
-/// Values that the record can tell apart: times from an interval on, widths from a small part of
-/// the travel on, neither much longer than the record.
+/// Values that the record can tell apart: times from a part of an interval on, widths from a small
+/// part of the travel on, neither much longer than the record.
 fn logarithmic(problem: &Problem, parameter: &Parameter) -> Vec<f64> {
     let (mut low, mut high) = (*parameter.range.start(), *parameter.range.end());
     let told = match parameter.unit.suffix().as_str() {
-        "s" => Some((interval_s(problem), spread(&problem.record.time_s))),
+        "s" => Some((interval_s(problem) / SHORTEST, spread(&problem.record.time_s))),
         "mm" => {
             let travel_mm = spread(&problem.record.position_mm);
             Some((travel_mm / NARROWEST, travel_mm))

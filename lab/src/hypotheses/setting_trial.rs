@@ -2,6 +2,7 @@
 
 use helixlock_plant::{Entry, Term};
 
+use super::looks::Looks;
 use super::settings::alternatives;
 use super::trial::{Trial, gain_at};
 use crate::model::{Columns, Component, Stage};
@@ -37,7 +38,7 @@ pub(crate) fn setting_trials(stage: &Stage<'_>) -> Option<Trial> {
         .map(Component::new)
         .filter_map(|component| {
             let gain = gain_at(stage, &component)?.gain;
-            let looks = tried * NORMAL_WIDTH * stderr / PHYSICAL_UM_PER_M;
+            let looks = Looks::at_places(tried * NORMAL_WIDTH * stderr / PHYSICAL_UM_PER_M);
             Some(Trial { component, gain, looks, coefficients: Vec::new() })
         })
         .max_by(|a, b| a.gain.total_cmp(&b.gain))

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use super::candidates::{Candidate, INSTANTS, around, between_samples};
 use super::grid::{on_grid, usable};
+use super::looks::{Looks, angle, arc};
 use crate::model::{Columns, Component, Gain, Stage};
 use crate::numerics::simplex::minimise;
 use crate::numerics::{count, simplex, spread};
@@ -19,8 +20,8 @@ pub(crate) struct Trial {
     pub(crate) component: Component,
     /// Whitened square it takes away.
     pub(crate) gain: f64,
-    /// Independent places that were looked at.
-    pub(crate) looks: f64,
+    /// Where it was looked for.
+    pub(crate) looks: Looks,
     /// Coefficients of the columns in use.
     pub(crate) coefficients: Vec<f64>,
 }
@@ -66,11 +67,44 @@ pub(crate) fn try_candidate(stage: &Stage<'_>, candidate: &Candidate) -> Option<
     let refined = starts.into_iter().map(|point| refined(stage, candidate, &grid[point]));
     let term = refined.max_by(|a, b| a.1.total_cmp(&b.1))?.0;
     let component = reduced(stage, Component::new(term));
-    let (component, looks) = placed(stage, component, candidate.looks, &same_everywhere(&on_grid));
+    let looks = looks(stage, candidate, &on_grid, &gains);
+    let (component, looks) = placed(stage, component, looks, &same_everywhere(&on_grid));
     let (component, choices) = counted(stage, component)?;
     let best = gain_at(stage, &component)?;
     let coefficients = best.fit.coefficients;
-    Some(Trial { component, gain: best.gain, looks: looks * choices, coefficients })
+    Some(Trial { component, gain: best.gain, looks: looks.times(choices), coefficients })
+}
+
+/// Where a candidate is looked for, with what its curve turns by through the best of its grid.
+fn looks(
+    stage: &Stage<'_>,
+    candidate: &Candidate,
+    on_grid: &[Option<Columns>],
+    gains: &[f64],
+) -> Looks {
+    let best = (0..on_grid.len()).max_by(|&a, &b| gains[a].total_cmp(&gains[b])).unwrap_or(0);
+    let along = |&axis: &usize| arc(stage, on_grid, (&candidate.lengths, axis), best);
+    let looks = candidate.continuous.iter().map(along).fold(candidate.looks.clone(), Looks::along);
+    let Some(axis) = time_axis(candidate) else { return looks };
+    let instants = between_samples(&stage.problem.record.time_s);
+    let places = candidate.grid.iter().step_by(EVERY);
+    let turn = |place: &Vec<f64>| {
+        let next = instants.get(instants.partition_point(|gap| *gap <= place[axis]))?;
+        let mut later = place.clone();
+        later[axis] = *next;
+        let span = |place: &[f64]| Some(stage.span(&columns_at(stage, candidate, place)?));
+        Some(angle(&span(place)?, &span(&later)?))
+    };
+    looks.at_instants(count(instants.len()), places.filter_map(turn).collect())
+}
+
+/// Grid points an instant at which it is worked out what a curve turns by to the next one.
+const EVERY: usize = 4;
+
+/// Which nonlinear value of a candidate is an instant, if one is.
+fn time_axis(candidate: &Candidate) -> Option<usize> {
+    let terms = candidate.term.nonlinear_indices();
+    terms.iter().position(|&index| candidate.term.parameters[index].search == Search::Time)
 }
 
 /// Instants of the most sudden changes, for effects of one moment.
@@ -78,9 +112,7 @@ pub(crate) fn try_candidate(stage: &Stage<'_>, candidate: &Candidate) -> Option<
 /// Slow noise takes back a step that is tried a few samples too early or too late, so that it
 /// shows at its own instant only, which a grid may miss.
 fn sudden_places(stage: &Stage<'_>, candidate: &Candidate) -> Vec<Vec<f64>> {
-    let terms = candidate.term.nonlinear_indices();
-    let of_time = |&index: &usize| candidate.term.parameters[index].search == Search::Time;
-    let (Some(axis), Some(first)) = (terms.iter().position(of_time), candidate.grid.first()) else {
+    let (Some(axis), Some(first)) = (time_axis(candidate), candidate.grid.first()) else {
         return Vec::new();
     };
     let (rows, time_s) = (&stage.problem.rows, &stage.problem.record.time_s);
@@ -291,22 +323,25 @@ fn same_everywhere(on_grid: &[Option<Columns>]) -> Vec<bool> {
 fn placed(
     stage: &Stage<'_>,
     component: Component,
-    looks: f64,
+    looks: Looks,
     same_everywhere: &[bool],
-) -> (Component, f64) {
+) -> (Component, Looks) {
     let kept = component.kept.iter().zip(same_everywhere).map(|(kept, same)| *kept && *same);
     let placeless = Component { kept: kept.collect(), ..component.clone() };
-    if looks <= 1.0 || placeless.width() == 0 || placeless.kept.len() != component.kept.len() {
+    if placeless.width() == 0 || placeless.kept.len() != component.kept.len() {
         return (component, looks);
     }
+    let gain = |component: &Component| gain_at(stage, component).map_or(0.0, |gain| gain.gain);
     let price = stage.problem.price_of_a_number();
-    let score = |component: &Component| {
-        gain_at(stage, component)
-            .map_or(f64::NEG_INFINITY, |gain| gain.gain - price * count(component.width()))
-    };
+    let score = |component: &Component, gain: f64| gain - price * count(component.width());
+    let (with_place, without) = (gain(&component), gain(&placeless));
+    let places = looks.for_gain(with_place);
+    if places <= 1.0 {
+        return (component, looks);
+    }
     let placed_wins = placeless.width() < component.width()
-        && score(&placeless) < score(&component) - 2.0 * libm::log(looks);
-    if placed_wins { (component, looks) } else { (placeless, 1.0) }
+        && score(&placeless, without) < score(&component, with_place) - 2.0 * libm::log(places);
+    if placed_wins { (component, looks) } else { (placeless, Looks::at_places(1.0)) }
 }
 
 fn without(component: &Component, atom: &[usize]) -> Component {

@@ -53,6 +53,21 @@ impl<'a> Stage<'a> {
         self.gain_of(columns, self.whitener.whiten_all(&columns.views()))
     }
 
+    /// Orthonormal whitened vectors of a candidate's columns, or of its fixed part if it has none,
+    /// free of what the model can explain.
+    #[must_use]
+    pub(crate) fn span(&self, columns: &Columns) -> Vec<Vec<f64>> {
+        let fixed = columns.fixed.iter().filter(|_| columns.raw.is_empty());
+        let views: Vec<&[f64]> =
+            columns.views().into_iter().chain(fixed.map(Vec::as_slice)).collect();
+        let mut white = self.whitener.whiten_all(&views);
+        for column in &mut white {
+            column.resize(self.target.len(), 0.0);
+            project(&self.basis, column);
+        }
+        orthonormal(white)
+    }
+
     /// True when what a fit leaves is no more than the stage's noise: only then are its standard
     /// errors a measure.
     #[must_use]

@@ -33,23 +33,25 @@ const ROOM: f64 = 0.5;
 
 /// Fits the noise of one sensor to its residual.
 ///
-/// `warm` is the noise of a similar residual: its parts are only adjusted. Without it, white
-/// first, then one and two slow parts; each must pay for its two parameters by the Bayesian
-/// information criterion. `layout` holds rows of this sensor only (as sensor 0).
+/// `warm` is the noise of a similar residual: its parts are only adjusted. Without it, a slow part
+/// is always looked for: noise that is called white because its slow part is faint makes every slow
+/// curve look better than it is. A second one must pay for its two parameters by the Bayesian
+/// information criterion, and is looked for where the first one does. `layout` holds rows of this
+/// sensor only (as sensor 0).
 #[must_use]
 pub(crate) fn fit_noise(layout: &Layout, residual: &[f64], warm: Option<&Noise>) -> NoiseFit {
     if let Some(warm) = warm.filter(|warm| !warm.slow.is_empty()) {
         return adjusted(layout, residual, warm);
     }
-    let mut best = profile(layout, residual, &Noise::white());
-    let price = 2.0 * libm::log(count(layout.len()).max(2.0));
+    let white = profile(layout, residual, &Noise::white());
+    let price = libm::log(count(layout.len()).max(2.0));
     let span = longest_block(layout).max(2.0);
     let one = one_part(layout, residual, span);
-    if best.log_likelihood + 0.5 * price < one.log_likelihood {
-        let two = two_parts(layout, residual, &one.noise, span);
-        best = if one.log_likelihood + 0.5 * price < two.log_likelihood { two } else { one };
+    if one.log_likelihood <= white.log_likelihood + price {
+        return best_of([white, one].into_iter());
     }
-    best
+    let two = two_parts(layout, residual, &one.noise, span);
+    if one.log_likelihood + price < two.log_likelihood { two } else { one }
 }
 
 fn adjusted(layout: &Layout, residual: &[f64], warm: &Noise) -> NoiseFit {

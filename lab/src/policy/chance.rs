@@ -1,10 +1,18 @@
 //! What is beyond chance, and how a chance is found.
 
-/// A chance smaller than this is structure, and an effect must have a smaller one to be named.
+/// A chance smaller than this is structure.
 ///
-/// Chosen: one record of noise in ten thousand is given a name. Doubled: one in five thousand, and a
-/// wave needs a gain of 17.0 instead of 18.4.
+/// Chosen: one record of noise in ten thousand is called unexplained by a probe. Doubled: one in
+/// five thousand, and a wave needs a gain of 17.0 instead of 18.4.
 pub(crate) const SIGNIFICANCE: f64 = 1e-4;
+
+/// An effect must have a smaller chance than this to be named, all effects and places that were
+/// tried counted.
+///
+/// Chosen: one record of noise in a thousand is given a name. The chance is calibrated, see the
+/// guide, and at a tenth of it, the same as for a probe, half of the effects of eight standard
+/// errors were refused. Doubled: one in five hundred.
+pub(crate) const NAMED: f64 = 1e-3;
 
 /// Chance below which a line is listed for a reader. No verdict rests on a list, so it may be ten
 /// times as open as [`SIGNIFICANCE`].

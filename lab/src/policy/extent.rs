@@ -102,6 +102,11 @@ pub(crate) const SUDDEN_CHANGES: usize = 16;
 /// Derived: five samples of a file of a thousand. Doubled: a hundredth.
 pub(crate) const NARROWEST: f64 = 200.0;
 
+/// Part of the interval of samples that is the shortest time constant looked for.
+///
+/// Derived: a lag delays a wave of ten samples by a hundredth of it there. Doubled: a twentieth.
+pub(crate) const SHORTEST: f64 = 10.0;
+
 /// Longest time constant or width looked for, against the record: beyond it anything is a slope.
 ///
 /// Chosen. Doubled: slopes are fitted by more effects.

@@ -9,7 +9,7 @@ use crate::model::{Columns, Component, Judged, Problem, Stage, State, helps_unse
 use crate::noise::swift_rms;
 use crate::numerics::least_squares::covariance_rows;
 use crate::numerics::{chi_squared_tail, count};
-use crate::policy::chance::{SIGNIFICANCE, STANDARD_ERRORS};
+use crate::policy::chance::{NAMED, STANDARD_ERRORS};
 use crate::policy::evidence::{MOST_OF_A_NAME, TIME_LOCK};
 use crate::policy::size::SHARE_OF_NOISE;
 
@@ -37,7 +37,7 @@ fn too_small(problem: &Problem, judged: &Judged, size_um: f64) -> Option<Refusal
     let p_value = judged.p_value;
     let least_um = SHARE_OF_NOISE * swift_rms(&problem.layout, &judged.fit.left);
     let hunting_um = least_above_hunting(problem);
-    if SIGNIFICANCE <= p_value {
+    if NAMED <= p_value {
         return Some(Refusal::Chance { p_value });
     }
     if size_um <= least_um || size_um.is_nan() {
@@ -78,7 +78,7 @@ fn rests_on_one_sample(problem: &Problem, now: &State, judged: &Judged) -> Optio
     let freedom = count(judged.component.width().max(1));
     let other_samples = |gain| chi_squared_tail(gain, freedom) * judged.looks;
     let chance = chance_with_tails(problem, [&now.fit, &judged.fit], other_samples);
-    (SIGNIFICANCE < chance).then_some(Refusal::OneSample { chance })
+    (NAMED < chance).then_some(Refusal::OneSample { chance })
 }
 
 /// True unless an effect that is there once would be added a second time.

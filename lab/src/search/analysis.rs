@@ -214,15 +214,16 @@ fn judge(problem: &Problem, now: &State, trial: &Trial, tried: f64) -> Option<Ju
     let gain = 2.0 * (fit.log_likelihood - now.fit.log_likelihood);
     let freedom = trial.freedom();
     let price = problem.price_of_a_number();
+    let looks = trial.looks.for_gain(gain);
     Some(Judged {
         component: trial.component.clone(),
         gain,
         evidence: gain
             - freedom * price
-            - 2.0 * libm::log(trial.looks)
+            - 2.0 * libm::log(looks)
             - likeness::price(&trial.component, &now.components),
-        looks: trial.looks,
-        p_value: (chi_squared_tail(gain, freedom) * trial.looks.max(1.0) * tried).min(1.0),
+        looks,
+        p_value: (chi_squared_tail(gain, freedom) * looks.max(1.0) * tried).min(1.0),
         rms_um: rms(&problem.layout, &fit.left),
         holdout_rms_um: holdout_rms(problem, &columns, &fit.noises),
         fit,

@@ -69,11 +69,17 @@ fn confused(problem: &Problem, state: &State, index: usize, tried: &[Judged]) ->
             behind < MARGIN
                 || (behind < CLEAR_MARGIN
                     && judged.looks < COINCIDENCE * own.looks
-                    && !component.term.nature().is_setting()
+                    && !is_exact(component)
                     && INFLATION < inflation(problem, judged, &whitener, &shape))
         })
         .map(|judged| judged.component.term.name.clone())
         .collect()
+}
+
+/// True for a number of the file, and for a count: that it fits exactly is evidence of its own, and
+/// no free size gives way to another.
+fn is_exact(component: &Component) -> bool {
+    component.term.nature().is_setting() || component.whole.iter().any(Option::is_some)
 }
 
 /// Variance inflation of a pattern by another effect's fitted pattern: `1/(1 − R²)`.
