@@ -5,7 +5,6 @@ mod calibration;
 mod candidates;
 mod grid;
 mod jumps;
-mod looks;
 mod nameless;
 mod probes;
 mod repeatability;

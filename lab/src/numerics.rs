@@ -1,12 +1,13 @@
 //! Mathematics that knows nothing of machines: series of numbers in, numbers out.
 //!
-//! Least squares, two minimisers, Fourier sums at uneven places and what those places resolve, and
-//! the plain figures of a series.
+//! Least squares, two minimisers, Fourier sums at uneven places and what those places resolve,
+//! the plain figures of a series, and the price of looking at many places.
 
 mod chi_squared;
 pub(crate) mod fourier;
 mod golden_section;
 pub(crate) mod least_squares;
+mod looks;
 pub(crate) mod quasi_newton;
 mod sampling;
 pub(crate) mod simplex;
@@ -14,5 +15,6 @@ mod summary;
 
 pub(crate) use chi_squared::chi_squared_tail;
 pub(crate) use golden_section::golden_maximum;
+pub(crate) use looks::Looks;
 pub(crate) use sampling::{highest_frequency, usual_rate};
 pub(crate) use summary::{count, median, rms_about_means, spread};

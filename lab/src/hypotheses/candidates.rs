@@ -2,10 +2,9 @@
 
 use helixlock_plant::{CATALOGUE, Entry, Formula, Parameter, Role, Search, Term};
 
-use super::looks::Looks;
 use super::unfolding::unfolded;
 use crate::model::{Component, Problem, Stage};
-use crate::numerics::{count, median, spread};
+use crate::numerics::{Looks, count, median, spread};
 use crate::policy::evidence::{ANOTHER_MATERIAL, LOOSELY_KNOWN, MARGIN};
 use crate::policy::extent::{FREQUENCIES, LONGEST, NARROWEST, OVERTONES, SHORTEST, SLOWEST_WAVES};
 use crate::spectrum::{Scan, gear_orders, strongest_first};
@@ -19,11 +18,9 @@ pub(crate) struct Candidate {
     pub(crate) grid: Vec<Vec<f64>>,
     /// Per nonlinear parameter: distance of grid values, 0 when only grid values count.
     pub(crate) steps: Vec<f64>,
-    /// Lengths of the grid's axes, the last one running fastest; none for a list.
-    pub(crate) lengths: Vec<usize>,
-    /// Which of them are continuous.
-    pub(crate) continuous: Vec<usize>,
-    /// What is looked at beside what the grid's continuous axes turn by.
+    /// Which of them vary continuously, and over which values.
+    pub(crate) continuous: Vec<(usize, Vec<f64>)>,
+    /// What is looked at beside what the curve turns by along these.
     pub(crate) looks: Looks,
 }
 
@@ -121,21 +118,23 @@ pub(crate) fn candidate(stage: &Stage<'_>, term: Term) -> Option<Candidate> {
         })
         .collect();
     let axes = thinned(axes);
-    let continuous = continuous(&term);
+    let continuous = continuous(stage, &term, &axes);
     let looks = looks(stage, &term, &axes);
-    let lengths = axes.iter().map(Vec::len).collect();
-    let candidate = Candidate { term, grid: product(&axes), steps, lengths, continuous, looks };
+    let candidate = Candidate { term, grid: product(&axes), steps, continuous, looks };
     stage.problem.design(&candidate.at(0)).is_ok().then_some(candidate)
 }
 
-/// Axes of a grid along which an effect varies continuously.
-fn continuous(term: &Term) -> Vec<usize> {
-    let nonlinear = term.parameters.iter().filter(|what| what.is_nonlinear()).enumerate();
-    let varying = |what: &Parameter| {
-        let spread = [Search::Linear, Search::Logarithmic, Search::Position].contains(&what.search);
-        spread && !what.is_frequency()
+/// Axes along which the curve of an effect turns, with their values; of an instant, all gaps between
+/// samples are looked at.
+fn continuous(stage: &Stage<'_>, term: &Term, axes: &[Vec<f64>]) -> Vec<(usize, Vec<f64>)> {
+    let nonlinear = term.parameters.iter().filter(|what| what.is_nonlinear());
+    let varying = |(axis, what): (usize, &Parameter)| match what.search {
+        _ if what.is_frequency() => None,
+        Search::Time => Some((axis, between_samples(&stage.problem.record.time_s))),
+        Search::Linear | Search::Logarithmic | Search::Position => Some((axis, axes[axis].clone())),
+        Search::Whole | Search::GearOrder | Search::Fixed => None,
     };
-    nonlinear.filter(|(_, what)| varying(what)).map(|(axis, _)| axis).collect()
+    nonlinear.enumerate().filter_map(varying).collect()
 }
 
 /// What is looked at along axes whose columns need not be known: listed values, and all frequencies,
@@ -157,14 +156,7 @@ fn near_its_values(term: Term) -> Candidate {
     let values = term.nonlinear();
     let steps = values.iter().map(|value| if *value == 0.0 { 0.01 } else { 0.01 * value.abs() });
     let (steps, looks) = (steps.collect(), Looks::at_places(1.0));
-    Candidate {
-        steps,
-        grid: vec![values],
-        lengths: Vec::new(),
-        continuous: Vec::new(),
-        looks,
-        term,
-    }
+    Candidate { steps, grid: vec![values], continuous: Vec::new(), looks, term }
 }
 
 impl Candidate {

@@ -9,7 +9,7 @@ use helixlock_plant::Entry;
 use rayon::prelude::*;
 
 use crate::model::{Columns, Gain, Problem, Stage};
-use crate::numerics::{count, spread};
+use crate::numerics::{Looks, count, spread};
 use crate::policy::evidence::NO_SINE_PRICE;
 use crate::policy::extent::TURNS;
 
@@ -20,13 +20,9 @@ pub(crate) struct Nameless {
     /// What it stands along.
     pub(crate) along: String,
     /// Values of its nonlinear numbers worth trying.
-    grid: Vec<Vec<f64>>,
-    /// How many of each.
-    points: Vec<usize>,
+    axes: Vec<Vec<f64>>,
     /// True when it comes back with every turn of a shaft.
     turns: bool,
-    /// Distance of grid values, number by number.
-    steps: Vec<f64>,
     /// Lowest value and spread of the coordinate, when its first number is a place on it.
     place: Option<[f64; 2]>,
     coordinate: Vec<f64>,
@@ -49,6 +45,10 @@ pub(crate) struct Placed<'a> {
     pub(crate) coefficients: Vec<f64>,
     /// Whitened square that it takes away.
     pub(crate) gain: f64,
+    /// Its nonlinear numbers.
+    values: Vec<f64>,
+    /// Where it enters.
+    entry: Entry,
     /// Its place, mm or s, when it has one.
     pub(crate) at: Option<f64>,
 }
@@ -64,45 +64,27 @@ const ROUNDS: i32 = 4;
 const FINER: f64 = 2.5;
 
 impl Nameless {
-    /// Independent numbers that are tried: what the best of them must pay.
-    pub(crate) fn looks(&self) -> f64 {
-        count(self.grid.len())
-    }
-
-    /// Its nonlinear numbers.
-    pub(crate) fn numbers(&self) -> f64 {
-        count(self.points.len())
-    }
-
-    /// What its numbers cost as evidence when a size costs so much: as much as one, and at least
-    /// the places they were looked for at.
-    pub(crate) fn price(&self, of_a_size: f64) -> f64 {
-        let sizes = (self.formula)(self, &self.grid[0]).len();
-        let of_places = |points: &usize| of_a_size.max(2.0 * libm::log(count(*points)));
-        let rare = if self.turns { NO_SINE_PRICE } else { 0.0 };
-        rare + count(sizes) * of_a_size + self.points.iter().map(of_places).sum::<f64>()
+    /// Places of its grid.
+    pub(crate) fn places(&self) -> usize {
+        self.axes.iter().map(Vec::len).product()
     }
 
     /// The best of it on what a stage's model leaves; `None` when it takes nothing away.
     pub(crate) fn best(&self, stage: &Stage<'_>, entry: Entry) -> Option<Placed<'_>> {
-        let (mut best, mut placed) = self.best_of(stage, entry, &self.grid)?;
-        for round in 0..ROUNDS * i32::from(!self.steps.is_empty()) {
+        let mut placed = self.best_of(stage, entry, &product(&self.axes))?;
+        let steps: Vec<f64> = self.axes.iter().map(|axis| axis[1] - axis[0]).collect();
+        for round in 0..ROUNDS * i32::from(!steps.is_empty()) {
             let share = FINER.powi(-round);
-            let steps: Vec<f64> = self.steps.iter().map(|step| share * step).collect();
-            let near = self.best_of(stage, entry, &around(&best, &steps));
-            if let Some(near) = near.filter(|near| placed.gain < near.1.gain) {
-                (best, placed) = near;
+            let steps: Vec<f64> = steps.iter().map(|step| share * step).collect();
+            let near = self.best_of(stage, entry, &around(&placed.values, &steps));
+            if let Some(near) = near.filter(|near| placed.gain < near.gain) {
+                placed = near;
             }
         }
         (0.0 < placed.gain).then_some(placed)
     }
 
-    fn best_of(
-        &self,
-        stage: &Stage<'_>,
-        entry: Entry,
-        grid: &[Vec<f64>],
-    ) -> Option<(Vec<f64>, Placed<'_>)> {
+    fn best_of(&self, stage: &Stage<'_>, entry: Entry, grid: &[Vec<f64>]) -> Option<Placed<'_>> {
         let of = move |some: &'_ [Vec<f64>]| -> Option<((Vec<f64>, Columns), Gain)> {
             let columns: Vec<Columns> =
                 some.iter().map(|values| self.columns(stage.problem, entry, values)).collect();
@@ -114,8 +96,7 @@ impl Nameless {
         let ((values, columns), gain) = best.max_by(|a, b| a.1.gain.total_cmp(&b.1.gain))?;
         let at = self.place.map(|[low, range]| low + range * values[0]);
         let coefficients = gain.fit.coefficients;
-        let placed = Placed { shape: self, columns, coefficients, gain: gain.gain, at };
-        Some((values, placed))
+        Some(Placed { shape: self, columns, coefficients, gain: gain.gain, values, entry, at })
     }
 
     fn columns(&self, problem: &Problem, entry: Entry, values: &[f64]) -> Columns {
@@ -159,6 +140,26 @@ impl Nameless {
     }
 }
 
+impl Placed<'_> {
+    /// Where it was looked for: what its curve turns by along each of its numbers through the best.
+    pub(crate) fn looks(&self, stage: &Stage<'_>) -> Looks {
+        let axes = self.shape.axes.iter().enumerate();
+        axes.fold(Looks::at_places(1.0), |looks, (place, axis)| {
+            looks.over(axis, |value| {
+                let mut values = self.values.clone();
+                values[place] = value;
+                stage.span(&self.shape.columns(stage.problem, self.entry, &values))
+            })
+        })
+    }
+
+    /// What it costs as evidence beside its looks when a size costs so much.
+    pub(crate) fn price(&self, of_a_size: f64) -> f64 {
+        let rare = if self.shape.turns { NO_SINE_PRICE } else { 0.0 };
+        rare + count(self.columns.raw.len()) * of_a_size
+    }
+}
+
 /// Points around some values, two on either side in each direction.
 fn around(values: &[f64], steps: &[f64]) -> Vec<Vec<f64>> {
     let axes: Vec<Vec<f64>> = values
@@ -191,10 +192,8 @@ pub(crate) fn nameless(problem: &Problem) -> Vec<Nameless> {
     let along = |along: &str, coordinate: &[f64]| Nameless {
         shape: "",
         along: along.to_owned(),
-        grid: vec![Vec::new()],
-        points: Vec::new(),
+        axes: Vec::new(),
         turns: false,
-        steps: Vec::new(),
         place: None,
         coordinate: coordinate.to_vec(),
         travel: from_zero_to_one(&record.position_mm),
@@ -224,14 +223,11 @@ pub(crate) fn nameless(problem: &Problem) -> Vec<Nameless> {
 
 /// The same with a formula and a grid.
 fn with(of: &Nameless, shape: &'static str, axes: &[Vec<f64>], formula: Formula) -> Nameless {
-    let step = |axis: &Vec<f64>| axis[1] - axis[0];
     Nameless {
         shape,
         along: of.along.clone(),
-        grid: product(axes),
-        points: axes.iter().map(Vec::len).collect(),
+        axes: axes.to_vec(),
         turns: of.turns,
-        steps: axes.iter().map(step).collect(),
         place: of.place,
         coordinate: of.coordinate.clone(),
         travel: of.travel.clone(),

@@ -2,11 +2,10 @@
 
 use helixlock_plant::{Entry, Term};
 
-use super::looks::Looks;
 use super::settings::alternatives;
 use super::trial::{Trial, gain_at};
 use crate::model::{Columns, Component, Stage};
-use crate::numerics::count;
+use crate::numerics::{Looks, count};
 use crate::policy::chance::EXACT_STANDARD_ERRORS;
 use crate::policy::evidence::{EXACT_SLOPE, NORMAL_WIDTH, PHYSICAL_UM_PER_M};
 

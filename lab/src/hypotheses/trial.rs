@@ -5,10 +5,9 @@ use rayon::prelude::*;
 
 use super::candidates::{Candidate, INSTANTS, around, between_samples};
 use super::grid::{on_grid, usable};
-use super::looks::{Looks, angle, arc};
 use crate::model::{Columns, Component, Gain, Stage};
 use crate::numerics::simplex::minimise;
-use crate::numerics::{count, simplex, spread};
+use crate::numerics::{Looks, count, simplex, spread};
 use crate::policy::chance::EXACT_STANDARD_ERRORS;
 use crate::policy::evidence::{LARGEST_STEP_UM, WHOLE};
 use crate::policy::extent::SUDDEN_CHANGES;
@@ -66,8 +65,8 @@ pub(crate) fn try_candidate(stage: &Stage<'_>, candidate: &Candidate) -> Option<
     let starts = starts(&grid, &gains);
     let refined = starts.into_iter().map(|point| refined(stage, candidate, &grid[point]));
     let term = refined.max_by(|a, b| a.1.total_cmp(&b.1))?.0;
+    let looks = looks(stage, candidate, &term.nonlinear());
     let component = reduced(stage, Component::new(term));
-    let looks = looks(stage, candidate, &on_grid, &gains);
     let (component, looks) = placed(stage, component, looks, &same_everywhere(&on_grid));
     let (component, choices) = counted(stage, component)?;
     let best = gain_at(stage, &component)?;
@@ -75,31 +74,18 @@ pub(crate) fn try_candidate(stage: &Stage<'_>, candidate: &Candidate) -> Option<
     Some(Trial { component, gain: best.gain, looks: looks.times(choices), coefficients })
 }
 
-/// Where a candidate is looked for, with what its curve turns by through the best of its grid.
-fn looks(
-    stage: &Stage<'_>,
-    candidate: &Candidate,
-    on_grid: &[Option<Columns>],
-    gains: &[f64],
-) -> Looks {
-    let best = (0..on_grid.len()).max_by(|&a, &b| gains[a].total_cmp(&gains[b])).unwrap_or(0);
-    let along = |&axis: &usize| arc(stage, on_grid, (&candidate.lengths, axis), best);
-    let looks = candidate.continuous.iter().map(along).fold(candidate.looks.clone(), Looks::along);
-    let Some(axis) = time_axis(candidate) else { return looks };
-    let instants = between_samples(&stage.problem.record.time_s);
-    let places = candidate.grid.iter().step_by(EVERY);
-    let turn = |place: &Vec<f64>| {
-        let next = instants.get(instants.partition_point(|gap| *gap <= place[axis]))?;
-        let mut later = place.clone();
-        later[axis] = *next;
-        let span = |place: &[f64]| Some(stage.span(&columns_at(stage, candidate, place)?));
-        Some(angle(&span(place)?, &span(&later)?))
+/// Where a candidate is looked for, with what its curve turns by through its best place.
+fn looks(stage: &Stage<'_>, candidate: &Candidate, best: &[f64]) -> Looks {
+    let along = |looks: Looks, (axis, values): &(usize, Vec<f64>)| {
+        looks.over(values, |value| {
+            let mut place = best.to_vec();
+            place[*axis] = value;
+            let columns = columns_at(stage, candidate, &place);
+            columns.map_or_else(Vec::new, |columns| stage.span(&columns))
+        })
     };
-    looks.at_instants(count(instants.len()), places.filter_map(turn).collect())
+    candidate.continuous.iter().fold(candidate.looks.clone(), along)
 }
-
-/// Grid points an instant at which it is worked out what a curve turns by to the next one.
-const EVERY: usize = 4;
 
 /// Which nonlinear value of a candidate is an instant, if one is.
 fn time_axis(candidate: &Candidate) -> Option<usize> {

@@ -13,7 +13,7 @@ use super::rivals::Rivals;
 use crate::hypotheses::{Nameless, Placed, Structure, chance_with_tails, is_left, nameless};
 use crate::model::{Columns, Component, Fit, Problem, Stage, State, noises_of, settle, with_noise};
 use crate::noise::rms;
-use crate::numerics::{chi_squared_tail, count};
+use crate::numerics::{Looks, chi_squared_tail, count};
 use crate::policy::chance::SIGNIFICANCE;
 use crate::policy::evidence::MARGIN;
 
@@ -21,7 +21,7 @@ use crate::policy::evidence::MARGIN;
 const SHORTLIST: usize = 2;
 
 /// Places from which on a shape is looked for beside the effects only, for the time it takes.
-const MOST_LOOKS: f64 = 400.0;
+const MOST_PLACES: usize = 400;
 
 /// The shape without a name that explains more than some effects of a model, or what they leave.
 #[must_use]
@@ -106,6 +106,7 @@ struct Court<'a> {
 /// A shape with its fit, and its evidence against the effects in whose place it stands.
 struct Claim<'a> {
     placed: Placed<'a>,
+    looks: Looks,
     fit: Fit,
     ahead: f64,
 }
@@ -133,20 +134,23 @@ impl Court<'_> {
     /// which slow noise hides nothing.
     fn best(&self, group: &[usize], base: &Columns) -> Option<Claim<'_>> {
         let noises = [self.state.fit.noises.clone(), plain_noises(self.problem, &self.state.fit)];
+        let nothing = self.without_shape(base);
         let mut claims: Vec<Claim<'_>> = Vec::new();
         for noises in noises {
             let stage = Stage::new(self.problem, base, &noises);
-            claims.extend(self.shortlist(&stage, group).into_iter().map(|placed| {
+            claims.extend(self.shortlist(&stage, group).into_iter().map(|(placed, looks)| {
                 let fit = self.fitted(base, &placed, &stage);
-                let ahead = self.ahead(group, &placed, &fit);
-                Claim { placed, fit, ahead }
+                let gain = 2.0 * (fit.log_likelihood - nothing);
+                let price = self.price(&placed, &looks, gain);
+                let ahead = self.ahead(group, &fit) - price;
+                Claim { placed, looks, fit, ahead }
             }));
         }
         claims.into_iter().max_by(|a, b| a.ahead.total_cmp(&b.ahead))
     }
 
     /// The shapes that take the most away under a stage's noise.
-    fn shortlist(&self, stage: &Stage<'_>, group: &[usize]) -> Vec<Placed<'_>> {
+    fn shortlist(&self, stage: &Stage<'_>, group: &[usize]) -> Vec<(Placed<'_>, Looks)> {
         let mut entries: Vec<Entry> =
             group.iter().map(|&index| self.state.components[index].term.entry).collect();
         if group.is_empty() || self.problem.sensors.len() == 1 {
@@ -157,18 +161,39 @@ impl Court<'_> {
         entries.dedup();
         let tried = entries.iter().flat_map(|&entry| {
             let shapes =
-                self.shapes.iter().filter(|one| group.is_empty() || one.looks() < MOST_LOOKS);
+                self.shapes.iter().filter(|one| group.is_empty() || one.places() < MOST_PLACES);
             shapes.filter_map(move |shape| shape.best(stage, entry))
         });
         let mut tried: Vec<Placed<'_>> = tried.collect();
-        let worth = |placed: &Placed<'_>| placed.gain - self.price(placed);
-        tried.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
-        tried.truncate(SHORTLIST);
-        tried
+        let of_a_size = self.problem.price_of_a_number();
+        let at_most = |placed: &Placed<'_>| placed.gain - placed.price(of_a_size);
+        tried.sort_by(|a, b| at_most(b).total_cmp(&at_most(a)));
+        // Looks take away more, and are worked out for those only that may be among the best.
+        let mut best: Vec<(f64, Placed<'_>, Looks)> = Vec::new();
+        for placed in tried {
+            if best.get(SHORTLIST - 1).is_some_and(|last| at_most(&placed) < last.0) {
+                break;
+            }
+            let looks = placed.looks(stage);
+            let worth = placed.gain - self.price(&placed, &looks, placed.gain);
+            best.push((worth, placed, looks));
+            best.sort_by(|a, b| b.0.total_cmp(&a.0));
+            best.truncate(SHORTLIST);
+        }
+        best.into_iter().map(|(_, placed, looks)| (placed, looks)).collect()
     }
 
-    fn price(&self, placed: &Placed<'_>) -> f64 {
-        placed.shape.price(self.problem.price_of_a_number())
+    /// What a shape pays for a gain: its sizes, and the places it was looked for at.
+    fn price(&self, placed: &Placed<'_>, looks: &Looks, gain: f64) -> f64 {
+        placed.price(self.problem.price_of_a_number()) + 2.0 * libm::log(looks.for_gain(gain))
+    }
+
+    /// Log likelihood of the effects beside which a shape stands, alone.
+    fn without_shape(&self, base: &Columns) -> f64 {
+        let problem = self.problem;
+        let near = settle(problem, base, &self.state.fit.noises);
+        let anew = settle(problem, base, &noises_of(problem, &near.left));
+        near.log_likelihood.max(anew.log_likelihood)
     }
 
     /// The model with a shape, under the likelier of two noises: that of the model adjusted, and
@@ -182,21 +207,20 @@ impl Court<'_> {
         if near.log_likelihood < anew.log_likelihood { anew } else { near }
     }
 
-    /// Evidence by which a shape is ahead of the effects in whose place it stands.
-    fn ahead(&self, group: &[usize], placed: &Placed<'_>, fit: &Fit) -> f64 {
+    /// Evidence by which a fit is ahead of the effects in whose place a shape stands, its price apart.
+    fn ahead(&self, group: &[usize], fit: &Fit) -> f64 {
         // The shape's noise may suit the effects, too.
         let own = settle(self.problem, &self.state.columns, &fit.noises).log_likelihood;
         let own = own.max(self.state.fit.log_likelihood);
         let saved: f64 = group.iter().map(|&index| self.prices[index]).sum();
-        2.0 * (fit.log_likelihood - own) + saved - self.price(placed)
+        2.0 * (fit.log_likelihood - own) + saved
     }
 
     /// Chance of what a shape takes away beside all effects in noise, which may have tails.
-    fn chance(&self, placed: &Placed<'_>, fit: &Fit) -> f64 {
-        let looks = placed.shape.looks() * count(self.shapes.len());
-        // Between the places looked at, every number goes on to where it gains most.
-        let freedom = count(placed.columns.raw.len()) + placed.shape.numbers();
-        let of_gain = |gain| looks * chi_squared_tail(gain, freedom);
+    fn chance(&self, Claim { placed, looks, fit, .. }: &Claim<'_>) -> f64 {
+        let shapes = count(self.shapes.len());
+        let freedom = count(placed.columns.raw.len());
+        let of_gain = |gain| shapes * looks.for_gain(gain) * chi_squared_tail(gain, freedom);
         let gain = 2.0 * (fit.log_likelihood - self.state.fit.log_likelihood);
         let chance = of_gain(gain);
         if SIGNIFICANCE <= chance {
@@ -210,7 +234,7 @@ impl Court<'_> {
         let placed = &claim.placed;
         let nothing = vec![0.0; self.problem.rows.len()];
         let shown = placed.columns.left(&nothing, &placed.coefficients);
-        let p_value = self.chance(placed, &claim.fit);
+        let p_value = self.chance(claim);
         let shape = placed.shape.shape.to_owned();
         let told = structure(placed, shape, rms(&self.problem.layout, &shown), p_value);
         is_left(self.problem, &self.state.fit, &told).then_some(told)
