@@ -3,6 +3,7 @@
 
 mod calibration;
 mod candidates;
+mod flaws;
 mod grid;
 mod jumps;
 mod nameless;
@@ -16,11 +17,10 @@ mod trial;
 mod unfolding;
 
 pub(crate) use candidates::{candidate, candidates, turn_scan};
+pub(crate) use flaws::{above_hunting, least_above_hunting};
 pub(crate) use nameless::{Nameless, Placed, nameless};
 pub use probes::Structure;
-pub(crate) use probes::{
-    above_hunting, all_structures, is_left, least_above_hunting, matters, structures,
-};
+pub(crate) use probes::{all_structures, is_left, matters, structures};
 pub(crate) use setting_trial::setting_trials;
 pub(crate) use slow_noise::taken_for_noise;
 pub(crate) use tails::chance_with_tails;

@@ -4,6 +4,7 @@
 //! noise fitted anew on both sides, says whether something is left, and its shape says what.
 
 use super::calibration;
+use super::flaws::above_flaws;
 use super::jumps::jumps;
 use super::repeatability::repeatability;
 use super::slow_noise::taken_for_noise;
@@ -16,9 +17,7 @@ use crate::policy::extent::{
     BUMP_ORDER, COLUMNS_OF_PASSES, CURVE_OF_A_PASS, CURVE_ORDER, HARMONICS, ROWS_A_COLUMN, TURNS,
     WAVE_ORDER,
 };
-use crate::policy::size::{
-    FAR_ABOVE, LOOP_JUMP, SHARE_OF_ERROR, SHARE_OF_NOISE, SLOW_SHARE_OF_HUNTING,
-};
+use crate::policy::size::{FAR_ABOVE, LOOP_JUMP, SHARE_OF_NOISE};
 use crate::spectrum::{Line, LineSearch};
 
 /// What is left, in the words of a person.
@@ -59,21 +58,6 @@ pub(crate) fn matters(size_um: f64, noise_um: f64, p_value: f64) -> bool {
     p_value < SIGNIFICANCE && SHARE_OF_NOISE * noise_um < size_um
 }
 
-/// True for something larger than what a hunting loop, whose steps are not known, may show.
-///
-/// A swing of ±u from comparison to comparison is a sawtooth of what the loop follows: u/√3 in
-/// all, as a line at any frequency, and u/√12 of it slow.
-#[must_use]
-pub(crate) fn above_hunting(problem: &Problem, size_um: f64) -> bool {
-    least_above_hunting(problem) <= size_um
-}
-
-/// The least of that, µm.
-#[must_use]
-pub(crate) fn least_above_hunting(problem: &Problem) -> f64 {
-    problem.hunting_um / f64::sqrt(12.0)
-}
-
 /// Everything a fit leaves that is not noise, clearest first.
 #[must_use]
 pub(crate) fn structures(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
@@ -82,7 +66,7 @@ pub(crate) fn structures(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<S
     let taken = taken_for_noise(problem, fit, &found);
     found.retain(|structure| matters(structure.rms_um, noise_um, structure.p_value));
     found.extend(taken);
-    found.retain(|structure| above_flaws(problem, structure));
+    found.retain(|structure| above_flaws(problem, fit, structure));
     found
 }
 
@@ -91,13 +75,7 @@ pub(crate) fn structures(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<S
 #[must_use]
 pub(crate) fn is_left(problem: &Problem, fit: &Fit, structure: &Structure) -> bool {
     matters(structure.rms_um, rms(&problem.layout, &fit.left), structure.p_value)
-        && above_flaws(problem, structure)
-}
-
-fn above_flaws(problem: &Problem, structure: &Structure) -> bool {
-    let exact = SHARE_OF_ERROR * rms(&problem.layout, &problem.residual());
-    // What is no effect may be any of a loop's lines.
-    exact < structure.rms_um && above_hunting(problem, SLOW_SHARE_OF_HUNTING * structure.rms_um)
+        && above_flaws(problem, fit, structure)
 }
 
 /// Everything that was looked for, found or not, clearest first.

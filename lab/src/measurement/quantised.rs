@@ -8,6 +8,7 @@
 use helixlock_plant::{Bridging, LOGGED_COLUMNS, LoggedColumn};
 
 use super::Measurement;
+use crate::numerics::count;
 use crate::policy::reading::{CHANGES_A_LEAP, FEWEST_VALUES, OFF_THE_LATTICE};
 
 impl Measurement {
@@ -23,12 +24,16 @@ impl Measurement {
             };
             let mut smooth = values.clone();
             let mut start = 0;
+            let mut doubts: Vec<f64> = Vec::new();
             for end in 1..=values.len() {
                 if end == values.len() || breaks(end) {
-                    bridge(&self.time_s[start..end], &mut smooth[start..end], step);
+                    doubts.extend(bridge(&self.time_s[start..end], &mut smooth[start..end], step));
                     start = end;
                 }
             }
+            let square: f64 = doubts.iter().map(|doubt| doubt * doubt).sum();
+            let off_by = (square / count(doubts.len().max(1))).sqrt();
+            self.off_by.insert((*name).to_owned(), off_by);
             self.notes.push(format!(
                 "column `{name}` is rounded to steps of {step:.3}: between them it is interpolated"
             ));
@@ -59,24 +64,29 @@ fn lattice(values: &[f64]) -> Option<f64> {
     stair.then_some(step)
 }
 
-/// Replaces a staircase by a curve through its crossings, within half a step of it.
-fn bridge(time: &[f64], values: &mut [f64], step: f64) {
+/// Replaces a staircase by a curve through its crossings, within half a step of it; standard
+/// deviations of that curve at the crossings, which are anywhere between two samples.
+fn bridge(time: &[f64], values: &mut [f64], step: f64) -> Vec<f64> {
     let mut crossings: Vec<[f64; 2]> = Vec::new();
+    let mut gaps: Vec<f64> = Vec::new();
     for row in 1..values.len() {
         let at = 0.5 * (time[row - 1] + time[row]);
         let apart = crossings.last().is_none_or(|last| last[0] < at);
         if apart && 0.5 * step < (values[row] - values[row - 1]).abs() {
             crossings.push([at, 0.5 * (values[row - 1] + values[row])]);
+            gaps.push(time[row] - time[row - 1]);
         }
     }
     if crossings.len() < 2 {
-        return;
+        return Vec::new();
     }
     let slopes = slopes(&crossings);
     for (at, value) in time.iter().zip(values) {
         let half = 0.5 * step;
         *value = curve(&crossings, &slopes, *at).clamp(*value - half, *value + half);
     }
+    // A uniform law of that width.
+    gaps.iter().zip(&slopes).map(|(gap, slope)| (gap * slope).abs() / f64::sqrt(12.0)).collect()
 }
 
 /// Slope at every crossing, that of the parabola through it and its neighbours.
@@ -116,7 +126,6 @@ fn curve(points: &[[f64; 2]], slopes: &[f64], at: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::count;
 
     fn rms(a: &[f64], b: &[f64]) -> f64 {
         let square: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
@@ -133,7 +142,8 @@ mod tests {
         let step = lattice(&rounded).expect("a staircase");
         assert!((step - 0.1).abs() < 1e-9, "{step}");
         let mut bridged = rounded.clone();
-        bridge(&time, &mut bridged, step);
+        let doubts = bridge(&time, &mut bridged, step);
+        assert!(doubts.iter().all(|doubt| (1e-4..1e-2).contains(doubt)), "{doubts:?}");
         assert!((rms(&rounded, &truth) * 12.0_f64.sqrt() / step - 1.0).abs() < 0.2);
         assert!(rms(&bridged, &truth) < 0.1 * rms(&rounded, &truth), "{}", rms(&bridged, &truth));
         assert!(bridged.iter().zip(&rounded).all(|(a, b)| (a - b).abs() < 0.5 * step + 1e-12));

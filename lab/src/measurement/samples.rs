@@ -80,6 +80,9 @@ pub struct Measurement {
     pub deviations: Option<Vec<f64>>,
     /// Logged covariates, known and unknown; gaps are bridged from their neighbours.
     pub covariates: BTreeMap<String, Vec<f64>>,
+    /// Of covariates that were rounded to steps: standard deviation of what they may be off by where
+    /// they passed from one step to the next, in their unit.
+    pub off_by: BTreeMap<String, f64>,
     /// True when time was measured, not worked out from travel and speed.
     pub timed: bool,
     /// What a user should know about how the file was read.
@@ -301,6 +304,7 @@ fn assemble(
         observations,
         deviations,
         covariates,
+        off_by: BTreeMap::new(),
         timed: coordinates.timed,
         notes,
     }

@@ -1,0 +1,61 @@
+//! How much of a structure flaws may make: of the formulas, of rounded logs, of a loop that hunts.
+
+use super::probes::Structure;
+use crate::model::{Fit, Problem};
+use crate::noise::rms;
+use crate::numerics::count;
+use crate::numerics::least_squares::dot;
+use crate::policy::chance::STANDARD_ERRORS;
+use crate::policy::size::{SHARE_OF_ERROR, SLOW_SHARE_OF_HUNTING};
+
+/// True for something larger than what a hunting loop, whose steps are not known, may show.
+///
+/// A swing of ±u from comparison to comparison is a sawtooth of what the loop follows: u/√3 in
+/// all, as a line at any frequency, and u/√12 of it slow.
+#[must_use]
+pub(crate) fn above_hunting(problem: &Problem, size_um: f64) -> bool {
+    least_above_hunting(problem) <= size_um
+}
+
+/// The least of that, µm.
+#[must_use]
+pub(crate) fn least_above_hunting(problem: &Problem) -> f64 {
+    problem.hunting_um / f64::sqrt(12.0)
+}
+
+/// True for structure larger than flaws of the formulas, of rounded logs and of a loop may make.
+#[must_use]
+pub(super) fn above_flaws(problem: &Problem, fit: &Fit, structure: &Structure) -> bool {
+    let exact = SHARE_OF_ERROR * rms(&problem.layout, &problem.residual());
+    let exact = exact.max(STANDARD_ERRORS * of_rounded_logs(problem, fit));
+    // What is no effect may be any of a loop's lines.
+    exact < structure.rms_um && above_hunting(problem, SLOW_SHARE_OF_HUNTING * structure.rms_um)
+}
+
+/// What fitted effects show too much or too little because logs were rounded, µm: as much as their
+/// curve changes with each log, as far as it follows it.
+fn of_rounded_logs(problem: &Problem, fit: &Fit) -> f64 {
+    let residual = problem.residual();
+    let shown: Vec<f64> = residual.iter().zip(&fit.left).map(|(all, left)| all - left).collect();
+    let shown = about_means(problem, &shown);
+    let by_log = problem.measurement.off_by.iter().filter_map(|(name, off_by)| {
+        let values = problem.measurement.covariates.get(name)?;
+        let column: Vec<f64> = problem.rows.iter().map(|row| values[row.sample]).collect();
+        let column = about_means(problem, &column);
+        let (square, common) = (dot(&column, &column), dot(&column, &shown));
+        let all = square * dot(&shown, &shown);
+        (0.0 < all).then(|| off_by * common.abs() / square * common * common / all)
+    });
+    by_log.map(|um| um * um).sum::<f64>().sqrt()
+}
+
+/// Values of rows about the mean of their pass.
+fn about_means(problem: &Problem, values: &[f64]) -> Vec<f64> {
+    let mut about = values.to_vec();
+    for block in &problem.layout.blocks {
+        let part = &mut about[block.rows.clone()];
+        let mean = part.iter().sum::<f64>() / count(part.len().max(1));
+        part.iter_mut().for_each(|value| *value -= mean);
+    }
+    about
+}
