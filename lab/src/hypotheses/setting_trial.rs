@@ -38,7 +38,8 @@ pub(crate) fn setting_trials(stage: &Stage<'_>) -> Option<Trial> {
         .filter_map(|component| {
             let gain = gain_at(stage, &component)?.gain;
             let looks = Looks::at_places(tried * NORMAL_WIDTH * stderr / PHYSICAL_UM_PER_M);
-            Some(Trial { component, gain, looks, coefficients: Vec::new() })
+            let coefficients = Vec::new();
+            Some(Trial { component, gain, looks: Some(looks), choices: 1.0, coefficients })
         })
         .max_by(|a, b| a.gain.total_cmp(&b.gain))
 }

@@ -19,8 +19,10 @@ pub(crate) struct Trial {
     pub(crate) component: Component,
     /// Whitened square it takes away.
     pub(crate) gain: f64,
-    /// Where it was looked for.
-    pub(crate) looks: Looks,
+    /// Where it was looked for, if that has been worked out.
+    pub(crate) looks: Option<Looks>,
+    /// Whole numbers that were open, against the freedom of one coefficient.
+    pub(crate) choices: f64,
     /// Coefficients of the columns in use.
     pub(crate) coefficients: Vec<f64>,
 }
@@ -30,6 +32,20 @@ impl Trial {
     #[must_use]
     pub(crate) fn freedom(&self) -> f64 {
         count(self.component.width().max(1))
+    }
+
+    /// It with where its candidate was looked for, which takes time that only the best are worth.
+    #[must_use]
+    pub(crate) fn with_looks(mut self, stage: &Stage<'_>, candidate: &Candidate) -> Self {
+        let place = self.component.term.nonlinear();
+        self.looks.get_or_insert_with(|| looks(stage, candidate, &place));
+        self
+    }
+
+    /// At how many independent places a gain was looked for.
+    #[must_use]
+    pub(crate) fn places(&self, gain: f64) -> f64 {
+        self.choices * self.looks.as_ref().map_or(1.0, |looks| looks.for_gain(gain))
     }
 }
 
@@ -65,13 +81,12 @@ pub(crate) fn try_candidate(stage: &Stage<'_>, candidate: &Candidate) -> Option<
     let starts = starts(&grid, &gains);
     let refined = starts.into_iter().map(|point| refined(stage, candidate, &grid[point]));
     let term = refined.max_by(|a, b| a.1.total_cmp(&b.1))?.0;
-    let looks = looks(stage, candidate, &term.nonlinear());
     let component = reduced(stage, Component::new(term));
-    let (component, looks) = placed(stage, component, looks, &same_everywhere(&on_grid));
+    let (component, looks) = placed(stage, candidate, component, &same_everywhere(&on_grid));
     let (component, choices) = counted(stage, component)?;
     let best = gain_at(stage, &component)?;
     let coefficients = best.fit.coefficients;
-    Some(Trial { component, gain: best.gain, looks: looks.times(choices), coefficients })
+    Some(Trial { component, gain: best.gain, looks, choices, coefficients })
 }
 
 /// Where a candidate is looked for, with what its curve turns by through its best place.
@@ -304,30 +319,32 @@ fn same_everywhere(on_grid: &[Option<Columns>]) -> Vec<bool> {
     (0..first.raw.len()).map(same).collect()
 }
 
-/// An effect with the looks it must pay for: none are for columns that have no place, and those
-/// that have one must pay for the looks as well to stay beside them.
+/// An effect with the looks it must pay for, where they are known: none are for columns that have no
+/// place, and those that have one must pay for the looks as well to stay beside them.
 fn placed(
     stage: &Stage<'_>,
+    candidate: &Candidate,
     component: Component,
-    looks: Looks,
     same_everywhere: &[bool],
-) -> (Component, Looks) {
+) -> (Component, Option<Looks>) {
     let kept = component.kept.iter().zip(same_everywhere).map(|(kept, same)| *kept && *same);
     let placeless = Component { kept: kept.collect(), ..component.clone() };
     if placeless.width() == 0 || placeless.kept.len() != component.kept.len() {
-        return (component, looks);
+        return (component, None);
     }
+    let looks = looks(stage, candidate, &component.term.nonlinear());
     let gain = |component: &Component| gain_at(stage, component).map_or(0.0, |gain| gain.gain);
     let price = stage.problem.price_of_a_number();
     let score = |component: &Component, gain: f64| gain - price * count(component.width());
     let (with_place, without) = (gain(&component), gain(&placeless));
     let places = looks.for_gain(with_place);
     if places <= 1.0 {
-        return (component, looks);
+        return (component, Some(looks));
     }
     let placed_wins = placeless.width() < component.width()
         && score(&placeless, without) < score(&component, with_place) - 2.0 * libm::log(places);
-    if placed_wins { (component, looks) } else { (placeless, Looks::at_places(1.0)) }
+    let one_place = Looks::at_places(1.0);
+    if placed_wins { (component, Some(looks)) } else { (placeless, Some(one_place)) }
 }
 
 fn without(component: &Component, atom: &[usize]) -> Component {

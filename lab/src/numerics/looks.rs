@@ -64,6 +64,9 @@ const HALVINGS: u32 = 4;
 /// Growth of a length by a halving up to which a curve is smooth; one that jumps grows by √2.
 const SMOOTH: f64 = 1.15;
 
+/// An angle up to which smooth or not is all the same, for either law then says as much, rad.
+const SMALL: f64 = 0.2;
+
 /// An angle that is none: between equal curves rounding leaves a few 1e-8, rad.
 const NONE: f64 = 1e-6;
 
@@ -127,6 +130,10 @@ fn measure(
     halvings: u32,
     axis: &mut Axis,
 ) {
+    if whole < SMALL {
+        axis.arc += whole;
+        return;
+    }
     let middle = 0.5 * (from.0 + to.0);
     let between = (middle, span(middle));
     let halves = [angle(&from.1, &between.1), angle(&between.1, &to.1)];

@@ -9,7 +9,7 @@ use super::acceptance::refusal;
 use super::likeness;
 use super::pruning::{Dropped, pruned};
 use super::refusal::Refusal;
-use crate::hypotheses::{Trial, candidates, setting_trials, try_candidate};
+use crate::hypotheses::{Candidate, Trial, candidates, setting_trials, try_candidate};
 use crate::model::{
     Columns, Component, Fit, Judged, Problem, Stage, State, holdout_rms, noises_of, settle_beside,
     with_noise,
@@ -160,34 +160,36 @@ pub(crate) fn tried(problem: &Problem, now: &State) -> Vec<Judged> {
     all
 }
 
-/// Every candidate at its best under a stage's noise, largest gain first.
-fn trials(stage: &Stage<'_>, now: &State) -> Vec<Trial> {
+/// The strongest trials under a stage's noise and all that come near them, largest gain first, and
+/// how many there were.
+fn trials(stage: &Stage<'_>, now: &State) -> (Vec<Trial>, usize) {
     let all = candidates(stage, &now.components);
-    let mut trials: Vec<Trial> =
-        all.par_iter().filter_map(|candidate| try_candidate(stage, candidate)).collect();
-    trials.extend(setting_trials(stage));
-    trials.sort_by(|a, b| b.gain.total_cmp(&a.gain));
-    trials
+    let of = |candidate| Some((Some(candidate), try_candidate(stage, candidate)?));
+    let mut trials: Vec<(Option<&Candidate>, Trial)> = all.par_iter().filter_map(of).collect();
+    trials.extend(setting_trials(stage).map(|trial| (None, trial)));
+    trials.sort_by(|a, b| b.1.gain.total_cmp(&a.1.gain));
+    let tried = trials.len();
+    let best = trials.first().map_or(0.0, |(_, trial)| trial.gain);
+    let near = |place: usize, trial: &Trial| place < SHORTLIST || NEAR_THE_BEST * best < trial.gain;
+    let strongest = trials.into_iter().enumerate().filter(|(place, (_, one))| near(*place, one));
+    let strongest: Vec<(Option<&Candidate>, Trial)> = strongest.map(|(_, one)| one).collect();
+    let with_looks = |(candidate, trial): (Option<&Candidate>, Trial)| match candidate {
+        Some(candidate) => trial.with_looks(stage, candidate),
+        None => trial,
+    };
+    (strongest.into_par_iter().map(with_looks).collect(), tried)
 }
 
-/// The strongest trials of each list and all that come near them, their noise fitted anew.
-fn judged_shortlist(problem: &Problem, now: &State, lists: &[Vec<Trial>]) -> Vec<Judged> {
+/// Trials with their noise fitted anew, the best of each name.
+fn judged_shortlist(problem: &Problem, now: &State, lists: &[(Vec<Trial>, usize)]) -> Vec<Judged> {
     let mut chosen: BTreeMap<String, Vec<&Trial>> = BTreeMap::new();
-    let mut tried = 1.0_f64;
-    for list in lists {
-        let best = list.first().map_or(0.0, |trial| trial.gain);
-        let near =
-            |place: usize, trial: &Trial| place < SHORTLIST || NEAR_THE_BEST * best < trial.gain;
-        for (place, trial) in list.iter().enumerate() {
-            if near(place, trial) {
-                let known = chosen.entry(trial.component.term.name.clone()).or_default();
-                if !known.iter().any(|other| trial.leaves_as_much_as(other)) {
-                    known.push(trial);
-                }
-            }
+    for trial in lists.iter().flat_map(|(trials, _)| trials) {
+        let known = chosen.entry(trial.component.term.name.clone()).or_default();
+        if !known.iter().any(|other| trial.leaves_as_much_as(other)) {
+            known.push(trial);
         }
-        tried = tried.max(count(list.len()));
     }
+    let tried = count(lists.iter().map(|(_, tried)| *tried).max().unwrap_or(1).max(1));
     let flat: Vec<&Trial> = chosen.into_values().flatten().collect();
     let judged: Vec<Judged> =
         flat.into_par_iter().filter_map(|trial| judge(problem, now, trial, tried)).collect();
@@ -214,7 +216,7 @@ fn judge(problem: &Problem, now: &State, trial: &Trial, tried: f64) -> Option<Ju
     let gain = 2.0 * (fit.log_likelihood - now.fit.log_likelihood);
     let freedom = trial.freedom();
     let price = problem.price_of_a_number();
-    let looks = trial.looks.for_gain(gain);
+    let looks = trial.places(gain);
     Some(Judged {
         component: trial.component.clone(),
         gain,
