@@ -105,6 +105,26 @@ fn what_comes_back_at_a_distance_of_its_own_is_no_noise() {
     }
 }
 
+/// Two passes that turn back inside. Where the reversal is smooth, play and a narrow bump at the turn
+/// follow it.
+#[test]
+fn play_that_is_taken_up_over_a_way_is_told_and_not_named() {
+    let mut noise = noise(4, 1.0);
+    let rows = (0..1200_u32).map(|row| {
+        let (pass, nth) = (row / 600, f64::from(row % 600));
+        let way = 1.2 * (nth - 300.0);
+        let (direction, position_mm) =
+            if way < 0.0 { (1.0, 360.0 + way) } else { (-1.0, 360.0 - way) };
+        let gone = if way < 0.0 { 0.0 } else { libm::exp(-way / 9.0) };
+        let time_s = 2000.0 * f64::from(pass) + 2.0 * nth;
+        let error_um = 0.5 * direction * (1.0 - 2.0 * gone) + noise();
+        [f64::from(pass + 1), time_s, position_mm, direction, error_um]
+    });
+    let diagnosis = diagnose(&Passes::of_rows(rows).problem());
+    let told = shows(&diagnosis, "way since the reversal", "taken up after a turn");
+    assert!(told, "{:?}", diagnosis.residual);
+}
+
 /// Forward, back and forward at one speed, and 50 s between two passes.
 fn at_one_speed(error_um: &dyn Fn(f64) -> f64) -> Passes {
     let mut noise = noise(3, 1.0);

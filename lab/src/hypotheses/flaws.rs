@@ -55,7 +55,9 @@ fn about_means(problem: &Problem, values: &[f64]) -> Vec<f64> {
     for block in &problem.layout.blocks {
         let part = &mut about[block.rows.clone()];
         let mean = part.iter().sum::<f64>() / count(part.len().max(1));
-        part.iter_mut().for_each(|value| *value -= mean);
+        for value in part {
+            *value -= mean;
+        }
     }
     about
 }

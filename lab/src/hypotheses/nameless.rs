@@ -26,7 +26,7 @@ pub(crate) struct Nameless {
     /// Lowest value and spread of the coordinate, when its first number is a place on it.
     place: Option<[f64; 2]>,
     coordinate: Vec<f64>,
-    /// Travel from 0 to 1, and time in s.
+    /// Travel from 0 to 1, or the direction, and time in s.
     travel: Vec<f64>,
     time_s: Vec<f64>,
     formula: Formula,
@@ -133,7 +133,7 @@ impl Nameless {
         self.coordinate.iter().map(switch).collect()
     }
 
-    /// A curve, and the same times the travel with the slope that goes with it.
+    /// The travel, or direction, and a curve times that.
     fn by_travel(&self, curve: &[f64]) -> Vec<Vec<f64>> {
         let product = self.travel.iter().zip(curve).map(|(x, value)| x * value).collect();
         vec![self.travel.clone(), product]
@@ -210,6 +210,10 @@ pub(crate) fn nameless(problem: &Problem) -> Vec<Nameless> {
     if problem.measurement.timed && 0.0 < spread(&record.time_s) {
         all.extend(in_time(&along("time", &from_zero_to_one(&record.time_s)), problem));
     }
+    all.extend(since_a_reversal(
+        &along("way since the reversal", &record.since_reversal_mm),
+        problem,
+    ));
     for (name, turns) in shafts(problem) {
         all.extend(each_turn(&Nameless { turns: true, ..along(name, &turns) }));
     }
@@ -313,6 +317,21 @@ fn in_time(of: &Nameless, problem: &Problem) -> Vec<Nameless> {
             vec![this.over(|u| u / v[0] * libm::exp(1.0 - u / v[0]))]
         }),
     ]
+}
+
+/// Play that is not taken up at once, where passes turn back inside.
+fn since_a_reversal(of: &Nameless, problem: &Problem) -> Option<Nameless> {
+    let ways = of.coordinate.iter().copied().filter(|way| way.is_finite());
+    let longest = ways.fold(0.0, f64::max);
+    // Natural logarithms of a way against the longest: from a two-hundredth to half of it.
+    let over = [evenly(-5.3, -0.7, 12).iter().map(|l| l + libm::log(longest)).collect()];
+    let way =
+        Nameless { travel: problem.record.direction.clone(), ..with(of, "", &[], of.formula) };
+    (0.0 < longest).then(|| {
+        with(&way, "taken up after a turn", &over, |this, v| {
+            this.by_travel(&this.over(|way| libm::exp(-way / libm::exp(v[0]))))
+        })
+    })
 }
 
 /// Turns of the spindle and of the machine's screw, where the samples resolve them.
