@@ -8,8 +8,7 @@ mod order_spectrum;
 mod thinning;
 
 pub use amplitude_spectrum::amplitude_spectrum;
-pub(crate) use lines::lines;
-pub(crate) use lines::{LineSearch, gear_orders};
+pub(crate) use lines::{LineSearch, gear_orders, lines, wave};
 pub use lines::{NamedLine, lines_left};
 pub use order_spectrum::Line;
 pub(crate) use order_spectrum::{Scan, strongest_first};

@@ -10,15 +10,15 @@ use super::repeatability::repeatability;
 use super::slow_noise::taken_for_noise;
 use super::tails::chance_with_tails;
 use crate::model::{Columns, Fit, Problem, Row, Stage, settle};
-use crate::noise::rms;
+use crate::noise::{rms, swift_rms};
 use crate::numerics::{chi_squared_tail, count, spread};
 use crate::policy::chance::{MANY_COLUMNS, PROBES, SIGNIFICANCE};
 use crate::policy::extent::{
-    BUMP_ORDER, COLUMNS_OF_PASSES, CURVE_OF_A_PASS, CURVE_ORDER, HARMONICS, ROWS_A_COLUMN, TURNS,
-    WAVE_ORDER,
+    BUMP_ORDER, COLUMNS_OF_PASSES, CURVE_OF_A_PASS, CURVE_ORDER, HARMONICS, LISTED_LINES,
+    ROWS_A_COLUMN, TURNS, WAVE_ORDER,
 };
 use crate::policy::size::{FAR_ABOVE, LOOP_JUMP, SHARE_OF_NOISE};
-use crate::spectrum::{Line, LineSearch};
+use crate::spectrum::{Line, LineSearch, wave};
 
 /// What is left, in the words of a person.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,19 +52,19 @@ fn probes(problem: &Problem) -> f64 {
     PROBES + count(problem.measurement.covariates.len())
 }
 
-/// True for something beyond chance and large enough to change a figure.
+/// True for something beyond chance and large enough to change a figure: as much against the swift
+/// part of what a fit leaves as an effect must have to be taken, since slow noise covers no wave.
 #[must_use]
-pub(crate) fn matters(size_um: f64, noise_um: f64, p_value: f64) -> bool {
-    p_value < SIGNIFICANCE && SHARE_OF_NOISE * noise_um < size_um
+pub(crate) fn matters(problem: &Problem, fit: &Fit, size_um: f64, p_value: f64) -> bool {
+    p_value < SIGNIFICANCE && SHARE_OF_NOISE * swift_rms(&problem.layout, &fit.left) < size_um
 }
 
 /// Everything a fit leaves that is not noise, clearest first.
 #[must_use]
 pub(crate) fn structures(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
-    let noise_um = rms(&problem.layout, &fit.left);
     let mut found = all_structures(problem, model, fit);
     let taken = taken_for_noise(problem, fit, &found);
-    found.retain(|structure| matters(structure.rms_um, noise_um, structure.p_value));
+    found.retain(|structure| matters(problem, fit, structure.rms_um, structure.p_value));
     found.extend(taken);
     found.retain(|structure| above_flaws(problem, fit, structure));
     found
@@ -74,7 +74,7 @@ pub(crate) fn structures(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<S
 /// loop may make.
 #[must_use]
 pub(crate) fn is_left(problem: &Problem, fit: &Fit, structure: &Structure) -> bool {
-    matters(structure.rms_um, rms(&problem.layout, &fit.left), structure.p_value)
+    matters(problem, fit, structure.rms_um, structure.p_value)
         && above_flaws(problem, fit, structure)
 }
 
@@ -85,7 +85,7 @@ pub(crate) fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> V
     all.extend(cyclic_shapes(problem, model, fit));
     all.extend(repeats(problem, fit));
     all.extend(jumping(problem, fit));
-    all.extend(lines(problem, fit));
+    all.extend(lines(problem, model, fit));
     all.extend(step(problem, model, fit));
     all.extend(covariates(problem, model, fit));
     all.sort_by(|a, b| a.p_value.total_cmp(&b.p_value).then(b.rms_um.total_cmp(&a.rms_um)));
@@ -117,7 +117,7 @@ fn probe(problem: &Problem, model: &Columns, fit: &Fit, raw: &[Vec<f64>]) -> (f6
     let after = rms(&problem.layout, &wider.left);
     let size = (before * before - after * after).max(0.0).sqrt();
     let mut p_value = (probes(problem) * chi_squared_tail(gain, width)).min(1.0);
-    if MANY_COLUMNS <= raw.len() && matters(size, before, p_value) {
+    if MANY_COLUMNS <= raw.len() && matters(problem, fit, size, p_value) {
         p_value = (probes(problem) * calibration::chance(problem, model, fit, raw, gain)).min(1.0);
     }
     (size, p_value)
@@ -260,25 +260,52 @@ fn chebyshev(values: &[f64], order: usize) -> Vec<Vec<f64>> {
 }
 
 /// Lines over the spindle angle and over time, sensor by sensor.
-fn lines(problem: &Problem, fit: &Fit) -> Vec<Structure> {
+fn lines(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
     let mut found = Vec::new();
-    for (sensor, _) in problem.sensors.iter().enumerate() {
+    for sensor in 0..problem.sensors.len() {
         for (along, coordinate, highest) in cyclic(problem) {
-            let search = LineSearch { problem, fit, sensor, coordinate: &coordinate, highest };
-            let Some(line) = search.strongest() else { continue };
-            let shape = format!("sinusoid of amplitude {:.3}", line.amplitude);
-            found.push(Structure {
-                along: along.to_owned(),
-                shape,
-                rms_um: line.amplitude / std::f64::consts::SQRT_2,
-                p_value: (probes(problem) * line.p_value).min(1.0),
-                at: Some(line.frequency),
-                at_stderr: Some(line.frequency_stderr),
-                line: Some(line),
-            });
+            let of = |fit: &Fit| {
+                let search = LineSearch { problem, fit, sensor, coordinate: &coordinate, highest };
+                Some(of_line(problem, along, search.strongest()?))
+            };
+            let taken_out = |order| wave(problem, sensor, &coordinate, order);
+            found.extend(clearest_that_matters(problem, (model, fit), &of, &taken_out));
         }
     }
     found
+}
+
+/// The strongest line that is large enough to matter, or the strongest one where none is: a fine
+/// line that is clear in low noise stands before no large one in slow noise.
+fn clearest_that_matters(
+    problem: &Problem,
+    (model, fit): (&Columns, &Fit),
+    strongest: &impl Fn(&Fit) -> Option<Structure>,
+    taken_out: &impl Fn(f64) -> Columns,
+) -> Option<Structure> {
+    let first = strongest(fit)?;
+    let (mut columns, mut now, mut line) = (model.clone(), fit.clone(), first.clone());
+    for _ in 1..LISTED_LINES {
+        if SIGNIFICANCE <= line.p_value || matters(problem, fit, line.rms_um, line.p_value) {
+            break;
+        }
+        columns = columns.and(&taken_out(line.at?));
+        now = settle(problem, &columns, &now.noises);
+        line = strongest(&now)?;
+    }
+    Some(if matters(problem, fit, line.rms_um, line.p_value) { line } else { first })
+}
+
+fn of_line(problem: &Problem, along: &str, line: Line) -> Structure {
+    Structure {
+        along: along.to_owned(),
+        shape: format!("sinusoid of amplitude {:.3}", line.amplitude),
+        rms_um: line.amplitude / std::f64::consts::SQRT_2,
+        p_value: (probes(problem) * line.p_value).min(1.0),
+        at: Some(line.frequency),
+        at_stderr: Some(line.frequency_stderr),
+        line: Some(line),
+    }
 }
 
 /// Name, values and highest frequency of every coordinate that lines are looked for in.
@@ -308,7 +335,7 @@ fn step(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
         let raw = stacked(problem, &[above(values, place)]);
         let (rms_um, p_value) = probe(problem, model, fit, &raw);
         let mut p_value = (p_value * count(places.len())).min(1.0);
-        if matters(rms_um, rms(&problem.layout, &fit.left), p_value) {
+        if matters(problem, fit, rms_um, p_value) {
             p_value = p_value.max(step_with_tails(problem, model, fit, raw, places.len()));
         }
         found.push(Structure {

@@ -71,7 +71,7 @@ fn superfluous(problem: &Problem, state: &State, fewer: &State, index: usize) ->
     if gain < width * problem.price_of_a_number() {
         return Some(format!("superfluous beside the others: evidence {gain:.1} only"));
     }
-    if !matters(size, after, chance) || !above_hunting(problem, size) {
+    if !matters(problem, &state.fit, size, chance) || !above_hunting(problem, size) {
         return Some(format!(
             "superfluous: {size:.4} {unit} of {after:.4} {unit} noise, p {chance:.1e}"
         ));

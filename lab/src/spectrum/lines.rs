@@ -118,7 +118,9 @@ pub(crate) fn lines(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<NamedL
     all
 }
 
-fn wave(problem: &Problem, sensor: usize, turns: &[f64], order: f64) -> Columns {
+/// A wave of any size and phase over a coordinate, for one sensor.
+#[must_use]
+pub(crate) fn wave(problem: &Problem, sensor: usize, turns: &[f64], order: f64) -> Columns {
     let of = |phase: f64| {
         let value = |row: &Row| {
             let angle = std::f64::consts::TAU * order * turns[row.sample] + phase;
