@@ -1,15 +1,17 @@
 //! Likenesses that physics knows beforehand, whatever the evidence says of them.
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use helixlock_plant::prediction::gain;
 use helixlock_plant::{CATALOGUE, Context, Entry, Role, Search, Smoothness, Term};
 
 use crate::model::{Component, Problem, State, pattern};
-use crate::noise::Whitener;
+use crate::noise::{Block, Whitener};
 use crate::numerics::least_squares::dot;
 use crate::numerics::{count, highest_frequency, least_squares, spread};
 use crate::policy::evidence::{HIGH_HARMONIC_PRICE, SHAPE, VISITS, WAVE, WAVES_A_PASS};
+use crate::policy::extent::ROWS_A_COLUMN;
 use crate::policy::reading::REVERSAL_REACH;
 use crate::policy::size::ANOTHER_SPEED;
 
@@ -117,8 +119,10 @@ pub(crate) fn lets_motion_through(problem: &Problem, component: &Component) -> b
     component.term.nonlinear().iter().all(|width_um| *width_um < moved_um)
 }
 
-/// True unless a wave is seen over so small a part of itself that it is a piece of a parabola over
-/// the travel and the time: that is any drift.
+/// True unless a wave shows so small a part of itself each time the table moves one way that it is
+/// a piece of a parabola there: that is any drift, or what differs from one way to the next.
+///
+/// Of a wave faster than the samples it is what they show that counts.
 #[must_use]
 pub(crate) fn turns_enough(problem: &Problem, component: &Component, used: &[f64]) -> bool {
     if component.term.parameters.iter().all(|what| what.role != Role::Amplitude) {
@@ -126,20 +130,51 @@ pub(crate) fn turns_enough(problem: &Problem, component: &Component, used: &[f64
     }
     let Some(shown) = component.shown_um(problem, used) else { return false };
     let shape = about_passes(problem, shown);
-    let curve = |of: &dyn Fn(usize) -> f64| {
-        let values = problem.rows.iter().map(|row| of(row.sample)).collect();
-        about_passes(problem, values)
+    let beyond = |rows: Range<usize>| beyond_a_parabola(problem, &shape[rows.clone()], rows);
+    let left: f64 = legs(problem).into_iter().map(beyond).sum();
+    WAVE * dot(&shape, &shape) < left
+}
+
+/// Rows of each sensor from one turn of the table, or pass, to the next.
+fn legs(problem: &Problem) -> Vec<Range<usize>> {
+    let direction = |row: usize| problem.record.direction[problem.rows[row].sample];
+    let blocks = problem.layout.blocks.iter();
+    let of_block = |block: &Block| {
+        let mut legs: Vec<Range<usize>> = Vec::new();
+        for row in block.rows.clone() {
+            match legs.last_mut() {
+                Some(leg) if same(direction(leg.start), direction(row)) => leg.end = row + 1,
+                _ => legs.push(row..row + 1),
+            }
+        }
+        legs
     };
+    blocks.flat_map(of_block).collect()
+}
+
+/// True for one direction.
+fn same(one: f64, other: f64) -> bool {
+    0.0 < one * other
+}
+
+/// Square of what a parabola over the travel and the time leaves of some rows' values; of rows so
+/// few that it would follow anything, all of it.
+fn beyond_a_parabola(problem: &Problem, values: &[f64], rows: Range<usize>) -> f64 {
+    if values.len() < 2 * ROWS_A_COLUMN {
+        return dot(values, values);
+    }
+    let samples = || problem.rows[rows.clone()].iter().map(|row| row.sample);
     let (angle, time) = (&problem.record.spindle_rad, &problem.record.time_s);
-    let parabola = [
-        curve(&|row| angle[row]),
-        curve(&|row| angle[row] * angle[row]),
-        curve(&|row| time[row]),
-        curve(&|row| time[row] * time[row]),
-    ];
-    let views: Vec<&[f64]> = parabola.iter().map(Vec::as_slice).collect();
-    let fit = least_squares::fit(&views, &shape);
-    WAVE * dot(&shape, &shape) < fit.residual_square
+    let axes = [angle, time].map(|axis| {
+        let values: Vec<f64> = samples().map(|sample| axis[sample]).collect();
+        let mean = values.iter().sum::<f64>() / count(values.len());
+        values.into_iter().map(|value| value - mean).collect::<Vec<f64>>()
+    });
+    let squares = axes.each_ref().map(|axis| axis.iter().map(|v| v * v).collect::<Vec<f64>>());
+    let level = vec![1.0; values.len()];
+    let columns = [&level, &axes[0], &axes[1], &squares[0], &squares[1]];
+    let views: Vec<&[f64]> = columns.map(Vec::as_slice).to_vec();
+    least_squares::fit(&views, values).residual_square
 }
 
 /// True unless a frequency in time was found where no clock tells it from an order: times that were

@@ -4,7 +4,7 @@
 //! log likelihood ratio. A scan by Fourier sums finds the peaks, a fit settles each, and the
 //! strongest is taken out before the next is looked for (CLEAN with exact fits).
 
-use crate::noise::{Layout, Noise, Whitener};
+use crate::noise::{Layout, Noise, SlowPart, Whitener};
 use crate::numerics::least_squares::dot;
 use crate::numerics::{count, fourier, golden_maximum, least_squares, spread, usual_rate};
 
@@ -262,13 +262,15 @@ impl Scan<'_> {
         let blocks = self.layout.blocks.iter().filter(|block| 1 < block.rows.len());
         blocks
             .map(|block| {
-                let (first, last) = (block.rows.start, block.rows.end - 1);
-                let clock = self.layout.clock[last] - self.layout.clock[first];
+                let clock = &self.layout.clock[block.rows.clone()];
                 let turns = spread(&self.turns[block.rows.clone()]);
+                let cycles_an_interval =
+                    turns / (clock[clock.len() - 1] - clock[0]).max(f64::MIN_POSITIVE);
+                let gap = usual_least_gap(clock);
                 Stretch {
-                    density: Density::of(&self.noises[block.sensor]),
+                    density: Density::of(&self.noises[block.sensor], gap),
                     rows: count(block.rows.len()),
-                    cycles_a_sample: turns / clock.max(f64::MIN_POSITIVE),
+                    cycles_a_gap: cycles_an_interval * gap,
                 }
             })
             .collect()
@@ -279,13 +281,13 @@ impl Scan<'_> {
 struct Stretch {
     density: Density,
     rows: f64,
-    cycles_a_sample: f64,
+    cycles_a_gap: f64,
 }
 
 impl Stretch {
     /// Information a sinusoid of frequency `f` gets here: half the samples over the noise density.
     fn information(&self, frequency: f64) -> f64 {
-        0.5 * self.rows / self.density.at(frequency * self.cycles_a_sample)
+        0.5 * self.rows / self.density.at(frequency * self.cycles_a_gap)
     }
 }
 
@@ -306,20 +308,34 @@ pub(crate) fn strongest_first(mut points: Vec<Point>) -> impl Iterator<Item = Po
     points.into_iter().chain(rest.flatten())
 }
 
-/// Power density of evenly sampled noise.
+/// Share of the gaps between samples that are no longer than what a sampling goes by: of samples of
+/// which some are lost it is one comparison, though the usual gap may be several.
+const SHORT_GAPS: usize = 10;
+
+/// What the gaps of a block are whole multiples of, or may be, in usual intervals.
+fn usual_least_gap(clock: &[f64]) -> f64 {
+    let mut gaps: Vec<f64> =
+        clock.windows(2).map(|pair| pair[1] - pair[0]).filter(|gap| 0.0 < *gap).collect();
+    gaps.sort_by(f64::total_cmp);
+    gaps.get(gaps.len() / SHORT_GAPS).copied().unwrap_or(1.0)
+}
+
+/// Power density of noise at samples some of which are missing from an even row: slow noise comes
+/// back where a wave turns once from one place of that row to the next, not sooner.
 struct Density {
     white: f64,
-    /// Variance of each slow part, and what an interval leaves of it.
+    /// Variance of each slow part in a usual interval, and what a gap leaves of it.
     slow: Vec<(f64, f64)>,
 }
 
 impl Density {
-    fn of(noise: &Noise) -> Self {
-        let slow = noise.slow.iter().map(|part| (part.variance, libm::exp(-1.0 / part.length)));
-        Self { white: noise.white, slow: slow.collect() }
+    /// `gap` is the distance of the row's places, in usual intervals.
+    fn of(noise: &Noise, gap: f64) -> Self {
+        let part = |part: &SlowPart| (gap * part.variance, libm::exp(-gap / part.length));
+        Self { white: noise.white, slow: noise.slow.iter().map(part).collect() }
     }
 
-    /// At a frequency in cycles a sample; that of white noise is its variance.
+    /// At a frequency in cycles a gap; that of white noise is its variance.
     fn at(&self, cycles: f64) -> f64 {
         if self.slow.is_empty() {
             return self.white;
