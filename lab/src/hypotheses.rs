@@ -16,6 +16,7 @@ mod tails;
 mod trial;
 mod unfolding;
 
+pub(crate) use calibration::chance as chance_in_noise;
 pub(crate) use candidates::{Candidate, candidate, candidates, turn_scan};
 pub(crate) use flaws::{above_hunting, least_above_hunting};
 pub(crate) use nameless::{Nameless, Placed, nameless};

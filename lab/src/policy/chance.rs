@@ -39,6 +39,13 @@ pub(crate) const PROBES: f64 = 12.0;
 /// Doubled: that curve, and a shape of eight columns that repeats each turn, would again.
 pub(crate) const MANY_COLUMNS: usize = 6;
 
+/// Samples that a record must be worth for χ² to be believed of an effect of few columns.
+///
+/// Derived: two columns reach a chance of 1e-4 by χ² oftener than so by Fisher's law with a hundred
+/// degrees of freedom, which knows that the noise was estimated, 2.2 times. Doubled: 1.5 times, at
+/// the cost of drawn noise in more records.
+pub(crate) const FEW_SAMPLES: f64 = 100.0;
+
 /// Draws of noise whose mean and variance say which scaled χ² a gain follows.
 ///
 /// Chosen: a standard deviation of 16 is good to 18 %. Doubled: to 13 %, at twice the time.

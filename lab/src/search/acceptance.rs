@@ -4,12 +4,14 @@ use helixlock_plant::{Parameter, Role, Search};
 
 use super::likeness;
 use super::refusal::Refusal;
-use crate::hypotheses::{chance_with_tails, gain_at, least_above_hunting, turn_scan};
+use crate::hypotheses::{
+    chance_in_noise, chance_with_tails, gain_at, least_above_hunting, turn_scan,
+};
 use crate::model::{Columns, Component, Judged, Problem, Stage, State, helps_unseen, holdout_rms};
-use crate::noise::swift_rms;
+use crate::noise::{effective_samples, swift_rms};
 use crate::numerics::least_squares::covariance_rows;
 use crate::numerics::{chi_squared_tail, count};
-use crate::policy::chance::{NAMED, STANDARD_ERRORS};
+use crate::policy::chance::{FEW_SAMPLES, NAMED, STANDARD_ERRORS};
 use crate::policy::evidence::{MOST_OF_A_NAME, TIME_LOCK};
 use crate::policy::size::SHARE_OF_NOISE;
 
@@ -30,6 +32,7 @@ pub(crate) fn refusal(problem: &Problem, now: &State, judged: &Judged) -> Option
         .or_else(|| (!repeats(judged, now)).then_some(Refusal::Again))
         .or_else(|| turns_as_well(problem, now, judged))
         .or_else(|| rests_on_one_sample(problem, now, judged))
+        .or_else(|| follows_slow_noise(problem, now, judged))
 }
 
 /// Refused as chance, or as too small to change a figure.
@@ -79,6 +82,24 @@ fn rests_on_one_sample(problem: &Problem, now: &State, judged: &Judged) -> Optio
     let other_samples = |gain| chi_squared_tail(gain, freedom) * judged.looks;
     let chance = chance_with_tails(problem, [&now.fit, &judged.fit], other_samples);
     (NAMED < chance).then_some(Refusal::OneSample { chance })
+}
+
+/// Refused when drawn noise, as slow as what is left without an effect, is followed as well by its
+/// columns: of a record that is worth few samples χ² promises too much.
+fn follows_slow_noise(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
+    let sensors = 0..problem.sensors.len();
+    let worth = sensors.map(|sensor| {
+        let (layout, _) = problem.of_sensor(sensor);
+        effective_samples(&layout, &now.fit.noises[sensor])
+    });
+    let columns = Columns::of(problem, std::slice::from_ref(&judged.component)).ok()?;
+    if columns.raw.is_empty() || FEW_SAMPLES <= worth.fold(f64::INFINITY, f64::min) {
+        return None;
+    }
+    let plain = chi_squared_tail(judged.gain, count(columns.raw.len()));
+    let drawn = chance_in_noise(problem, &now.columns, &now.fit, &columns.raw, judged.gain);
+    let p_value = (judged.p_value * drawn / plain.max(f64::MIN_POSITIVE)).min(1.0);
+    (NAMED <= p_value).then_some(Refusal::Chance { p_value })
 }
 
 /// True unless an effect that is there once would be added a second time.
