@@ -15,6 +15,7 @@ mod slow_noise;
 mod tails;
 mod trial;
 mod unfolding;
+mod waves;
 
 pub(crate) use calibration::chance as chance_in_noise;
 pub(crate) use candidates::{Candidate, candidate, candidates, turn_scan};

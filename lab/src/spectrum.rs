@@ -3,6 +3,7 @@
 //! Also how far a problem may be thinned without losing its fastest line.
 
 mod amplitude_spectrum;
+mod bands;
 mod lines;
 mod order_spectrum;
 mod thinning;

@@ -9,16 +9,17 @@ use super::jumps::jumps;
 use super::repeatability::repeatability;
 use super::slow_noise::taken_for_noise;
 use super::tails::chance_with_tails;
+use super::waves;
 use crate::model::{Columns, Fit, Problem, Row, Stage, settle};
 use crate::noise::{rms, swift_rms};
 use crate::numerics::{chi_squared_tail, count, spread};
 use crate::policy::chance::{MANY_COLUMNS, PROBES, SIGNIFICANCE};
 use crate::policy::extent::{
-    BUMP_ORDER, COLUMNS_OF_PASSES, CURVE_OF_A_PASS, CURVE_ORDER, HARMONICS, LISTED_LINES,
-    ROWS_A_COLUMN, TURNS, WAVE_ORDER,
+    BUMP_ORDER, COLUMNS_OF_PASSES, CURVE_OF_A_PASS, CURVE_ORDER, HARMONICS, ROWS_A_COLUMN, TURNS,
+    WAVE_ORDER,
 };
 use crate::policy::size::{FAR_ABOVE, LOOP_JUMP, SHARE_OF_NOISE};
-use crate::spectrum::{Line, LineSearch, wave};
+use crate::spectrum::Line;
 
 /// What is left, in the words of a person.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,14 +42,14 @@ pub struct Structure {
 
 impl Structure {
     /// Structure along a coordinate that stands at no particular place of it.
-    fn without_place(along: &str, shape: &str, rms_um: f64, p_value: f64) -> Self {
+    pub(super) fn without_place(along: &str, shape: &str, rms_um: f64, p_value: f64) -> Self {
         let (along, shape) = (along.to_owned(), shape.to_owned());
         Self { along, shape, rms_um, p_value, at: None, at_stderr: None, line: None }
     }
 }
 
 /// Number of probes, for they are counted together: every logged column is one more.
-fn probes(problem: &Problem) -> f64 {
+pub(super) fn probes(problem: &Problem) -> f64 {
     PROBES + count(problem.measurement.covariates.len())
 }
 
@@ -85,7 +86,8 @@ pub(crate) fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> V
     all.extend(cyclic_shapes(problem, model, fit));
     all.extend(repeats(problem, fit));
     all.extend(jumping(problem, fit));
-    all.extend(lines(problem, model, fit));
+    all.extend(waves::lines(problem, model, fit));
+    all.extend(waves::bands(problem, fit));
     all.extend(step(problem, model, fit));
     all.extend(covariates(problem, model, fit));
     all.sort_by(|a, b| a.p_value.total_cmp(&b.p_value).then(b.rms_um.total_cmp(&a.rms_um)));
@@ -257,64 +259,6 @@ fn chebyshev(values: &[f64], order: usize) -> Vec<Vec<f64>> {
     }
     all.remove(0);
     all
-}
-
-/// Lines over the spindle angle and over time, sensor by sensor.
-fn lines(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
-    let mut found = Vec::new();
-    for sensor in 0..problem.sensors.len() {
-        for (along, coordinate, highest) in cyclic(problem) {
-            let of = |fit: &Fit| {
-                let search = LineSearch { problem, fit, sensor, coordinate: &coordinate, highest };
-                Some(of_line(problem, along, search.strongest()?))
-            };
-            let taken_out = |order| wave(problem, sensor, &coordinate, order);
-            found.extend(clearest_that_matters(problem, (model, fit), &of, &taken_out));
-        }
-    }
-    found
-}
-
-/// The strongest line that is large enough to matter, or the strongest one where none is: a fine
-/// line that is clear in low noise stands before no large one in slow noise.
-fn clearest_that_matters(
-    problem: &Problem,
-    (model, fit): (&Columns, &Fit),
-    strongest: &impl Fn(&Fit) -> Option<Structure>,
-    taken_out: &impl Fn(f64) -> Columns,
-) -> Option<Structure> {
-    let first = strongest(fit)?;
-    let (mut columns, mut now, mut line) = (model.clone(), fit.clone(), first.clone());
-    for _ in 1..LISTED_LINES {
-        if SIGNIFICANCE <= line.p_value || matters(problem, fit, line.rms_um, line.p_value) {
-            break;
-        }
-        columns = columns.and(&taken_out(line.at?));
-        now = settle(problem, &columns, &now.noises);
-        line = strongest(&now)?;
-    }
-    Some(if matters(problem, fit, line.rms_um, line.p_value) { line } else { first })
-}
-
-fn of_line(problem: &Problem, along: &str, line: Line) -> Structure {
-    Structure {
-        along: along.to_owned(),
-        shape: format!("sinusoid of amplitude {:.3}", line.amplitude),
-        rms_um: line.amplitude / std::f64::consts::SQRT_2,
-        p_value: (probes(problem) * line.p_value).min(1.0),
-        at: Some(line.frequency),
-        at_stderr: Some(line.frequency_stderr),
-        line: Some(line),
-    }
-}
-
-/// Name, values and highest frequency of every coordinate that lines are looked for in.
-fn cyclic(problem: &Problem) -> Vec<(&'static str, Vec<f64>, f64)> {
-    let mut axes = vec![("spindle order", problem.record.turns().collect(), problem.highest_order)];
-    if 1 < problem.record.passes().len() && problem.measurement.timed {
-        axes.push(("frequency in time", problem.record.time_s.clone(), problem.highest_hz));
-    }
-    axes
 }
 
 /// The best step over the travel, at the same place in every pass, and over time.

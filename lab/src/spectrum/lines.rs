@@ -2,6 +2,7 @@
 
 use helixlock_plant::Machine;
 
+use super::bands::{self, Band};
 use super::order_spectrum::{Line, Scan};
 use crate::model::{Columns, Fit, Problem, Row, State, settle};
 use crate::noise::Whitener;
@@ -54,6 +55,12 @@ impl LineSearch<'_> {
     #[must_use]
     pub(crate) fn strongest(&self) -> Option<Line> {
         self.with_scan(|scan, white| scan.strongest(white))
+    }
+
+    /// The clearest band of frequencies that is no line.
+    #[must_use]
+    pub(crate) fn band(&self) -> Option<Band> {
+        self.with_scan(|scan, white| bands::clearest(scan, white))
     }
 
     /// Hands a scan and the whitened residual of this sensor to a function.
