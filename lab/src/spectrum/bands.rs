@@ -6,12 +6,16 @@
 //! of freedom, and `w` cells side by side one with `2w`.
 
 use super::order_spectrum::{Point, Scan};
-use crate::numerics::{chi_squared_tail, count};
+use crate::numerics::least_squares::dot;
+use crate::numerics::{chi_squared_tail, count, least_squares};
 
 /// Cells of the narrowest and the widest band. A narrower one is a line; in a wider one the errors
 /// of the noise's own spectrum outweigh chance, whose share is √(1/w).
 const NARROWEST: usize = 4;
 const WIDEST: usize = 32;
+
+/// Bands that are fitted: a scan takes waves that hardly change between samples for strong ones.
+const FITTED: usize = 12;
 
 /// A band that holds more than noise.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,31 +31,47 @@ pub(crate) struct Band {
 }
 
 /// The clearest band of a whitened residual, of those that lie apart from its slow end.
+///
+/// A scan finds the likeliest; what waves at every cell of a band take away together is fitted.
 #[must_use]
 pub(crate) fn clearest(scan: &Scan<'_>, white: &[f64]) -> Option<Band> {
-    let cell = scan.resolution();
-    let cells: Vec<Point> = every_cell(scan.spectrum(white), cell);
+    let cells = every_cell(scan.spectrum(white), scan.resolution());
     let widths = std::iter::successors(Some(NARROWEST), |width| Some(2 * width));
     let widths = widths.take_while(|width| *width <= WIDEST);
     // Half a width apart, from a width away from the slow end on.
     let places = |width: usize| (width..(cells.len() + 1).saturating_sub(width)).step_by(width / 2);
-    let bands: Vec<&[Point]> = widths
-        .flat_map(|width| places(width).map(move |from| (from, width)))
-        .map(|(from, width)| &cells[from..from + width])
-        .collect();
-    let chance = |band: &[Point]| {
-        let gain = band.iter().map(|point| point.gain).sum();
-        chi_squared_tail(gain, 2.0 * count(band.len()))
-    };
-    let tried = bands.iter().map(|band| (chance(band), *band));
-    let (single, band) = tried.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let bands = widths.flat_map(|width| places(width).map(move |from| from..from + width));
+    let bands: Vec<&[Point]> = bands.map(|band| &cells[band]).collect();
+    let mut by_scan: Vec<(f64, &[Point])> =
+        bands.iter().map(|band| (scanned(band), *band)).collect();
+    by_scan.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let likeliest = by_scan.iter().take(FITTED).map(|(_, band)| fitted(scan, white, band));
+    let best = likeliest.min_by(|a, b| a.p_value.total_cmp(&b.p_value))?;
+    Some(Band { p_value: (best.p_value * count(bands.len())).min(1.0), ..best })
+}
+
+/// Chance of a band by the scan.
+fn scanned(band: &[Point]) -> f64 {
+    let gain = band.iter().map(|point| point.gain).sum();
+    chi_squared_tail(gain, 2.0 * count(band.len()))
+}
+
+/// A band with what its waves take away together, and the chance of that at one place.
+fn fitted(scan: &Scan<'_>, white: &[f64], band: &[Point]) -> Band {
+    let waves: Vec<Vec<f64>> = band.iter().flat_map(|point| scan.wave(point.frequency)).collect();
+    let views: Vec<&[f64]> = waves.iter().map(Vec::as_slice).collect();
+    let fit = least_squares::fit(&views, white);
+    let gain = dot(white, white) - fit.residual_square;
+    let freedom = count(fit.rank);
+    let square: f64 = fit.coefficients.iter().map(|size| 0.5 * size * size).sum();
+    let beyond_noise = 1.0 - freedom / gain.max(f64::MIN_POSITIVE);
     let (first, last) = (band[0].frequency, band[band.len() - 1].frequency);
-    Some(Band {
+    Band {
         frequency: 0.5 * (first + last),
-        width: last - first + cell,
-        rms: band.iter().map(beyond_noise).sum::<f64>().max(0.0).sqrt(),
-        p_value: (single * count(bands.len())).min(1.0),
-    })
+        width: last - first + scan.resolution(),
+        rms: (square * beyond_noise).max(0.0).sqrt(),
+        p_value: chi_squared_tail(gain, freedom),
+    }
 }
 
 /// One point of a scan a cell.
@@ -65,9 +85,4 @@ fn every_cell(points: Vec<Point>, cell: f64) -> Vec<Point> {
         }
     }
     cells
-}
-
-/// Mean square of a wave beyond that of noise, whose gain is 2.
-fn beyond_noise(point: &Point) -> f64 {
-    0.5 * point.amplitude * point.amplitude * (1.0 - 2.0 / point.gain.max(f64::MIN_POSITIVE))
 }

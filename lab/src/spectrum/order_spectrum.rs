@@ -199,7 +199,8 @@ impl Scan<'_> {
     }
 
     /// Whitened sine and cosine.
-    fn wave(&self, frequency: f64) -> [Vec<f64>; 2] {
+    #[must_use]
+    pub(crate) fn wave(&self, frequency: f64) -> [Vec<f64>; 2] {
         let pairs = self.turns.iter().map(|u| libm::sincos(std::f64::consts::TAU * frequency * u));
         let (sine, cosine): (Vec<f64>, Vec<f64>) = pairs.unzip();
         let white = self.whitener.whiten_all(&[&sine, &cosine]);
