@@ -65,7 +65,7 @@ const HALVINGS: u32 = 4;
 const SMOOTH: f64 = 1.15;
 
 /// An angle up to which smooth or not is all the same, for either law then says as much, rad.
-const SMALL: f64 = 0.2;
+const SMALL: f64 = 0.1;
 
 /// An angle that is none: between equal curves rounding leaves a few 1e-8, rad.
 const NONE: f64 = 1e-6;

@@ -6,6 +6,7 @@
 //! of freedom, and `w` cells side by side one with `2w`.
 
 use super::order_spectrum::{Point, Scan};
+use crate::noise::rms;
 use crate::numerics::least_squares::dot;
 use crate::numerics::{chi_squared_tail, count, least_squares};
 
@@ -63,13 +64,13 @@ fn fitted(scan: &Scan<'_>, white: &[f64], band: &[Point]) -> Band {
     let fit = least_squares::fit(&views, white);
     let gain = dot(white, white) - fit.residual_square;
     let freedom = count(fit.rank);
-    let square: f64 = fit.coefficients.iter().map(|size| 0.5 * size * size).sum();
-    let beyond_noise = 1.0 - freedom / gain.max(f64::MIN_POSITIVE);
+    let shown = scan.shown(band.iter().map(|point| point.frequency), &fit.coefficients);
+    let beyond_noise = (1.0 - freedom / gain.max(f64::MIN_POSITIVE)).max(0.0);
     let (first, last) = (band[0].frequency, band[band.len() - 1].frequency);
     Band {
         frequency: 0.5 * (first + last),
         width: last - first + scan.resolution(),
-        rms: (square * beyond_noise).max(0.0).sqrt(),
+        rms: rms(scan.layout, &shown) * beyond_noise.sqrt(),
         p_value: chi_squared_tail(gain, freedom),
     }
 }

@@ -207,6 +207,19 @@ impl Scan<'_> {
         <[Vec<f64>; 2]>::try_from(white).unwrap_or_default()
     }
 
+    /// What waves show at every row: a sine and a cosine of each frequency in its turn.
+    #[must_use]
+    pub(crate) fn shown(&self, frequencies: impl Iterator<Item = f64>, sizes: &[f64]) -> Vec<f64> {
+        let mut shown = vec![0.0; self.turns.len()];
+        for (frequency, sizes) in frequencies.zip(sizes.chunks_exact(2)) {
+            for (value, u) in shown.iter_mut().zip(self.turns) {
+                let (sine, cosine) = libm::sincos(std::f64::consts::TAU * frequency * u);
+                *value += sizes[0] * sine + sizes[1] * cosine;
+            }
+        }
+        shown
+    }
+
     /// Amplitude, phase and all standard errors of the sinusoid at a settled frequency.
     #[must_use]
     pub(crate) fn line(&self, white: &[f64], frequency: f64) -> Line {
