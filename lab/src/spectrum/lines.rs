@@ -60,7 +60,7 @@ impl LineSearch<'_> {
     /// The clearest band of frequencies that is no line.
     #[must_use]
     pub(crate) fn band(&self) -> Option<Band> {
-        self.with_scan(|scan, white| bands::clearest(scan, white))
+        self.with_scan(bands::clearest)
     }
 
     /// Hands a scan and the whitened residual of this sensor to a function.
