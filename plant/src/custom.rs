@@ -1,11 +1,16 @@
 //! An effect of the user: an expression over the columns, with named parameters.
 
+mod bound;
+mod memory;
 mod operators;
 
 use exmex::{Express, FlatEx};
 
-use crate::{Basis, Card, Columns, Effect, EffectError, Entry, Instant, Nature, Parameter, Role};
-use operators::{Numbers, Operators};
+use crate::{Basis, Card, Columns, EffectError, Entry, Instant, Nature, Parameter, Role};
+use bound::{Bound, Remembering, Source};
+use memory::{Call, Kind, placeholder, taken_out};
+pub use memory::{lag, relay};
+use operators::{Numbers, Operators, is_taken};
 
 type Expression = FlatEx<f64, Operators, Numbers>;
 
@@ -16,7 +21,7 @@ pub(crate) const CARD: Card = Card {
     kind: "custom",
     entry: Entry::Motion,
     summary: "an expression of the user over the columns, with named parameters",
-    formula: "as written: + - * / ^, functions, pi, parameters, and columns such as time_s, position_mm, angle_rev, speed_rpm, direction, or any logged one",
+    formula: "as written: + - * / ^, functions, pi, parameters, and columns such as time_s, position_mm, angle_rev, speed_rpm, direction, pass, since_reversal_mm, or any logged one; lag(column, s) and relay(column, middle, width) remember the samples before",
     example: "formula = 'a*sin(2*pi*time_s/period)', entry = 'motion', parameters = { a = 1.5, period = 12.0 }",
     parameters: &[],
     parts: &[],
@@ -40,6 +45,8 @@ const ALWAYS_THERE: &[(&str, Reading)] = &[
     ("speed_rpm", |now| now.speed_rpm),
     ("direction", |now| now.direction),
     ("travelled_mm", |now| now.travelled_mm),
+    ("since_reversal_mm", |now| now.since_reversal_mm),
+    ("pass", |now| f64::from(u32::try_from(now.pass).unwrap_or(u32::MAX))),
     ("error_um", |now| now.error_um),
 ];
 
@@ -49,6 +56,22 @@ enum Variable {
     Parameter(usize),
     AlwaysThere(usize),
     Column(String),
+    /// The value of a memory, by its place among them.
+    Remembered(usize),
+}
+
+/// A memory of the formula.
+#[derive(Clone, Debug)]
+struct Memory {
+    kind: Kind,
+    of: Variable,
+    arguments: Vec<Argument>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Argument {
+    Parameter(usize),
+    Number(f64),
 }
 
 /// Longest formula, bytes: some three hundred operands.
@@ -57,13 +80,17 @@ const LONGEST_FORMULA: usize = 2000;
 /// A formula of the user, in µm (arcsec on a rotary chain).
 ///
 /// Operators are `+ - * / ^`, functions `abs sign sqrt exp ln log10 sin cos tan asin acos atan
-/// sinh cosh tanh floor ceil round`, constants `pi` and `π`, angles in radians.
+/// sinh cosh tanh floor ceil round step ramp fract`, constants `pi` and `π`, angles in radians.
+/// `step` is 1 above 0, `ramp` what is above 0, `fract` what is beyond the next whole number below.
+/// `lag(column, s)` is a column as something of that time constant follows it, `relay(column,
+/// middle, width)` 1 while a switch with hysteresis is on.
 #[derive(Clone, Debug)]
 pub struct Custom {
     name: String,
     formula: String,
     expression: Expression,
     variables: Vec<Variable>,
+    memories: Vec<Memory>,
     roles: Vec<Role>,
 }
 
@@ -92,18 +119,30 @@ impl Custom {
                 ),
             });
         }
+        if let Some(taken) = parameters.iter().find(|name| is_taken(name)) {
+            return Err(refuse(format!("`{taken}` is a function, and no name of a parameter")));
+        }
+        let (text, calls) =
+            taken_out(formula).map_err(|usage| refuse(format!("a memory is written `{usage}`")))?;
         let expression =
-            Expression::parse(formula).map_err(|error| refuse(error.msg().to_lowercase()))?;
-        let variables: Vec<_> =
-            expression.var_names().iter().map(|word| variable(word, parameters)).collect();
+            Expression::parse(&text).map_err(|error| refuse(error.msg().to_lowercase()))?;
+        let memories: Vec<Memory> = calls
+            .iter()
+            .map(|call| read_memory(call, parameters).map_err(&refuse))
+            .collect::<Result<_, _>>()?;
+        let of_word = |word: &String| {
+            let remembered = (0..memories.len()).find(|index| placeholder(*index) == *word);
+            remembered.map_or_else(|| variable(word, parameters), Variable::Remembered)
+        };
+        let variables: Vec<_> = expression.var_names().iter().map(of_word).collect();
+        let roles = vec![Role::Nonlinear; parameters.len()];
+        let (name, formula) = (name.into(), formula.into());
+        let mut custom = Self { name, formula, expression, variables, memories, roles };
         for (index, parameter) in parameters.iter().enumerate() {
-            if !variables.contains(&Variable::Parameter(index)) {
+            if !custom.variables.contains(&Variable::Parameter(index)) && !custom.is_kept(index) {
                 return Err(refuse(format!("the parameter `{parameter}` does not occur in it")));
             }
         }
-        let roles = vec![Role::Nonlinear; parameters.len()];
-        let mut custom =
-            Self { name: name.into(), formula: formula.into(), expression, variables, roles };
         custom.find_linear();
         Ok(custom)
     }
@@ -117,11 +156,18 @@ impl Custom {
     /// Logged columns it reads.
     #[must_use]
     pub fn needs(&self) -> Vec<&str> {
-        let columns = self.variables.iter().filter_map(|variable| match variable {
+        let of_memories = self.memories.iter().map(|memory| &memory.of);
+        let columns = self.variables.iter().chain(of_memories).filter_map(|one| match one {
             Variable::Column(name) => Some(name.as_str()),
             _ => None,
         });
         columns.collect()
+    }
+
+    /// True when a memory is set by a parameter.
+    fn is_kept(&self, parameter: usize) -> bool {
+        let mut arguments = self.memories.iter().flat_map(|memory| &memory.arguments);
+        arguments.any(|argument| *argument == Argument::Parameter(parameter))
     }
 
     /// The parameters with their roles.
@@ -169,15 +215,25 @@ impl Custom {
         values: Vec<f64>,
         minus: Option<Vec<f64>>,
     ) -> Result<Bound, EffectError> {
-        let sources = self.variables.iter().map(|variable| match variable {
+        let source = |variable: &Variable| match variable {
             Variable::Parameter(index) => Ok(Source::Parameter(*index)),
             Variable::AlwaysThere(index) => Ok(Source::AlwaysThere(*index)),
             Variable::Column(name) => columns.index(name).map(Source::Column).ok_or_else(|| {
                 EffectError::MissingColumn { effect: self.name.clone(), column: name.clone() }
             }),
+            Variable::Remembered(index) => Ok(Source::Remembered(*index)),
+        };
+        let value = |argument: &Argument| match argument {
+            Argument::Parameter(index) => values[*index],
+            Argument::Number(number) => *number,
+        };
+        let memories = self.memories.iter().map(|memory| {
+            let arguments = memory.arguments.iter().map(value).collect();
+            Ok(Remembering { kind: memory.kind, of: source(&memory.of)?, arguments })
         });
-        let sources = sources.collect::<Result<_, _>>()?;
-        Ok(Bound { expression: self.expression.clone(), sources, values, minus })
+        let memories = memories.collect::<Result<_, _>>()?;
+        let sources = self.variables.iter().map(source).collect::<Result<_, _>>()?;
+        Ok(Bound { expression: self.expression.clone(), sources, memories, values, minus })
     }
 
     /// Marks parameters the formula is linear in, taking them in order while they stay so together.
@@ -185,7 +241,7 @@ impl Custom {
         for index in 0..self.roles.len() {
             let linear: Vec<_> =
                 (0..index).filter(|other| self.roles[*other] == Role::Linear).collect();
-            if self.is_linear(index, &linear) {
+            if !self.is_kept(index) && self.is_linear(index, &linear) {
                 self.roles[index] = Role::Linear;
             }
         }
@@ -240,6 +296,26 @@ impl Custom {
     }
 }
 
+fn read_memory(call: &Call, parameters: &[String]) -> Result<Memory, String> {
+    let argument = |word: &String| {
+        let parameter = parameters.iter().position(|name| name == word).map(Argument::Parameter);
+        let number = || word.parse().ok().map(Argument::Number);
+        parameter
+            .or_else(number)
+            .ok_or_else(|| format!("`{word}` in a memory is neither a parameter nor a number"))
+    };
+    let arguments = call.arguments.iter().map(argument).collect::<Result<_, _>>()?;
+    let of = variable(&call.of, parameters);
+    if matches!(of, Variable::Parameter(_)) {
+        return Err(format!(
+            "`{}` is a parameter: a memory is written `{}`",
+            call.of,
+            call.kind.usage()
+        ));
+    }
+    Ok(Memory { kind: call.kind, of, arguments })
+}
+
 fn variable(word: &str, parameters: &[String]) -> Variable {
     if let Some(index) = parameters.iter().position(|name| name == word) {
         return Variable::Parameter(index);
@@ -248,51 +324,6 @@ fn variable(word: &str, parameters: &[String]) -> Variable {
         .iter()
         .position(|(name, _)| *name == word)
         .map_or_else(|| Variable::Column(word.into()), Variable::AlwaysThere)
-}
-
-#[derive(Clone, Copy, Debug)]
-enum Source {
-    Parameter(usize),
-    AlwaysThere(usize),
-    Column(usize),
-}
-
-/// The formula with its parameters put in, less the same with others.
-#[derive(Debug)]
-struct Bound {
-    expression: Expression,
-    sources: Vec<Source>,
-    values: Vec<f64>,
-    minus: Option<Vec<f64>>,
-}
-
-impl Bound {
-    fn evaluate(&self, now: &Instant<'_>, parameters: &[f64]) -> f64 {
-        let values: Vec<_> = self
-            .sources
-            .iter()
-            .map(|source| match source {
-                Source::Parameter(index) => parameters[*index],
-                Source::AlwaysThere(index) => (ALWAYS_THERE[*index].1)(now),
-                Source::Column(index) => now.covariates.get(*index).copied().unwrap_or(f64::NAN),
-            })
-            .collect();
-        self.expression.eval(&values).unwrap_or(f64::NAN)
-    }
-}
-
-impl Effect for Bound {
-    fn delta_um(&self, now: &Instant<'_>) -> f64 {
-        let minus = self.minus.as_ref().map_or(0.0, |values| self.evaluate(now, values));
-        self.evaluate(now, &self.values) - minus
-    }
-
-    fn feeds_back(&self) -> bool {
-        let error = ALWAYS_THERE.len() - 1;
-        self.sources
-            .iter()
-            .any(|source| matches!(source, Source::AlwaysThere(index) if *index == error))
-    }
 }
 
 #[cfg(test)]

@@ -188,6 +188,15 @@ impl Parameter {
         parameter
     }
 
+    /// A number of a formula of the user's, near a value; [`crate::Custom`] says how it enters.
+    #[must_use]
+    pub fn of_formula(name: String, value: f64) -> Self {
+        let reach = 10.0 * value.abs().max(1e-6);
+        let number = crate::units::NUMBER;
+        let what = Self::nonlinear("", number, Search::Linear, "of the user's formula");
+        Self { name: Cow::Owned(name), ..what.within(-reach..=reach) }
+    }
+
     /// With these plausible values.
     #[must_use]
     pub const fn within(mut self, range: RangeInclusive<f64>) -> Self {

@@ -27,7 +27,7 @@ mod term;
 pub mod units;
 
 pub use actuator::Actuator;
-pub use custom::Custom;
+pub use custom::{Custom, lag, relay};
 pub use dividers::Range;
 pub use effect::{Basis, Card, Context, Effect, Entry, Parameter, Role, Search, Smoothness};
 pub use effects::CATALOGUE;

@@ -82,6 +82,25 @@ impl Term {
         }
     }
 
+    /// A formula of the user with its parameters, whose roles follow from it.
+    ///
+    /// # Errors
+    ///
+    /// [`EffectError::Formula`] when it cannot be read, or leaves a parameter out.
+    pub fn custom(
+        name: &str,
+        entry: Entry,
+        formula: &str,
+        parameters: Vec<Parameter>,
+        values: Vec<f64>,
+    ) -> Result<Self, EffectError> {
+        let names: Vec<_> = parameters.iter().map(|what| what.name.to_string()).collect();
+        let custom = Custom::new(name, formula, &names)?;
+        let parameters = custom.with_roles(parameters);
+        let formula = Formula::Custom(Arc::new(custom));
+        Ok(Self { name: name.into(), entry, parameters, values, formula })
+    }
+
     /// Its word after `kind =` in a machine file.
     #[must_use]
     pub fn kind(&self) -> &'static str {
@@ -89,6 +108,16 @@ impl Term {
             Formula::Card(card) => card.kind,
             Formula::Custom(_) => "custom",
             Formula::Curve(_) => "measured-curve",
+        }
+    }
+
+    /// Its formula: as the user wrote it, or as the catalogue does; of a measured curve its file.
+    #[must_use]
+    pub fn formula_text(&self) -> &str {
+        match &self.formula {
+            Formula::Card(card) => card.formula,
+            Formula::Custom(custom) => custom.formula(),
+            Formula::Curve(curve) => curve.file(),
         }
     }
 

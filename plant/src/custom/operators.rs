@@ -39,6 +39,11 @@ impl MatchLiteral for Numbers {
 
 type Function = fn(f64) -> f64;
 
+/// True for a word that is a function or a constant, and so no name of a parameter.
+pub(super) fn is_taken(word: &str) -> bool {
+    FUNCTIONS.iter().any(|(name, _)| *name == word) || matches!(word, "pi" | "π" | "lag" | "relay")
+}
+
 /// Functions of one argument.
 const FUNCTIONS: &[(&str, Function)] = &[
     ("abs", f64::abs),
@@ -59,4 +64,7 @@ const FUNCTIONS: &[(&str, Function)] = &[
     ("floor", f64::floor),
     ("ceil", f64::ceil),
     ("round", libm::round),
+    ("step", |a| if 0.0 < a { 1.0 } else { 0.0 }),
+    ("ramp", |a| if a < 0.0 { 0.0 } else { a }),
+    ("fract", |a| a - a.floor()),
 ];

@@ -1,18 +1,16 @@
 //! The `[[effect]]` tables of a machine file.
 
-use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::keys;
 use super::parts::Chain;
 use super::section::Section;
-use crate::custom::Custom;
 use crate::error::{EffectError, MachineError};
 use crate::machine::Machine;
 use crate::measured_curve::MeasuredCurve;
 use crate::nearest::one_of;
 use crate::term::{Formula, Term};
-use crate::units::{Dimension, NUMBER};
+use crate::units::Dimension;
 use crate::{CATALOGUE, Card, Columns, Context, Entry, Parameter, Search};
 
 /// The effects; complaints about them do not wait for a machine that is whole.
@@ -179,19 +177,10 @@ fn custom(section: &Section<'_>) -> Option<Term> {
         return section.refuse(section.missing("formula", example));
     }
     let (formula, (parameters, values)) = (section.text("formula")?, parameters?);
-    let names: Vec<_> = parameters.iter().map(|parameter| parameter.name.to_string()).collect();
-    let custom = match Custom::new(name, formula, &names) {
-        Ok(custom) => custom,
-        Err(reason) => return refused(section, "formula", reason),
-    };
-    let parameters = custom.with_roles(parameters);
-    Some(Term {
-        name: name.into(),
-        entry: entry?,
-        parameters,
-        values,
-        formula: Formula::Custom(Arc::new(custom)),
-    })
+    match Term::custom(name, entry?, formula, parameters, values) {
+        Ok(term) => Some(term),
+        Err(reason) => refused(section, "formula", reason),
+    }
 }
 
 fn entry(section: &Section<'_>) -> Option<Entry> {
@@ -213,12 +202,7 @@ fn custom_parameters(section: &Section<'_>) -> Option<(Vec<Parameter>, Vec<f64>)
     let table = section.section("parameters")?;
     for key in table.keys() {
         let value = table.number(key, -1e12..=1e12);
-        let reach = 10.0 * value.unwrap_or_default().abs().max(1e-6);
-        let mut parameter =
-            Parameter::nonlinear("", NUMBER, Search::Linear, "of the user's formula")
-                .within(-reach..=reach);
-        parameter.name = Cow::Owned(key.into());
-        parameters.push(parameter);
+        parameters.push(Parameter::of_formula(key.into(), value.unwrap_or_default()));
         values.push(value);
     }
     Some((parameters, values.into_iter().collect::<Option<_>>()?))
