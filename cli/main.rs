@@ -6,6 +6,7 @@ mod challenge;
 mod compare;
 mod completions;
 mod diagnose;
+mod discover;
 mod dividers;
 mod effects;
 mod faults;
@@ -42,6 +43,7 @@ enum Command {
     Compare(compare::Compare),
     Completions(completions::Completions),
     Diagnose(diagnose::Diagnose),
+    Discover(discover::Discover),
     Dividers(dividers::Dividers),
     Effects(effects::Effects),
     Faults(faults::FaultsCommand),
@@ -102,6 +104,7 @@ fn run(command: Command, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         Command::Compare(command) => command.run(out),
         Command::Completions(command) => command.run(Command::command(), out),
         Command::Diagnose(command) => command.run(out),
+        Command::Discover(command) => command.run(out),
         Command::Dividers(command) => command.run(out),
         Command::Effects(command) => command.run(out),
         Command::Faults(faults) => faults.run(out),

@@ -24,6 +24,7 @@ mod example_data;
 mod examples;
 mod faults;
 mod formal;
+mod formulas;
 mod fuzz_corpus;
 mod golden_verilog;
 mod hidden_effects;

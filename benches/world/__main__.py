@@ -1,5 +1,6 @@
 """python3 -m world generate --seed 7 -o DIR
 python3 -m world score --seeds 1..400 --binary ../target/release/helixlock [-j 2] [-o DIR] [--keep DIR]
+python3 -m world formulas --seeds 1..400 --binary ../target/release/helixlock [--keep DIR]
 python3 -m world check --seeds 1..200
 python3 -m world kinds
 """
@@ -11,6 +12,7 @@ from pathlib import Path
 
 from .build import build
 from .check import check
+from .formulas import formulas
 from .scenes import KINDS
 from .score import score, table
 from .synth import write
@@ -29,11 +31,15 @@ def main():
     many.add_argument("-o", "--output", type=Path, help="folder for cases.json and table.md")
     many.add_argument("--keep", type=Path, help="folder that keeps every case's files")
     many.add_argument("--kind", help="only kinds whose name holds this")
+    shapes = commands.add_parser("formulas", help="`discover` on shapes outside the catalogue, and on nothing hidden")
+    shapes.add_argument("--seeds", type=seeds, required=True, help="first..last")
+    shapes.add_argument("--binary", required=True)
+    shapes.add_argument("--kind", default="", help="only kinds whose name holds this")
     self_check = commands.add_parser("check", help="the generator against the documents' formulas")
     self_check.add_argument("--seeds", type=seeds, required=True, help="first..last")
     commands.add_parser("kinds", help="the kinds of scene")
     told = words.parse_args()
-    {"generate": generate, "score": run, "check": against, "kinds": kinds}[told.command](told)
+    {"generate": generate, "score": run, "check": against, "formulas": discovered, "kinds": kinds}[told.command](told)
 
 
 def seeds(text):
@@ -60,6 +66,11 @@ def run(told):
         (told.output / "cases.json").write_text(json.dumps(cases, indent=1) + "\n")
         (told.output / "table.md").write_text(table(cases))
     print(table(cases), end="")
+
+
+def discovered(told):
+    wanted = [seed for seed in told.seeds if told.kind in KINDS[seed % len(KINDS)].__name__]
+    formulas(wanted, told.binary)
 
 
 def against(told):

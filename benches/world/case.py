@@ -63,6 +63,7 @@ class Case:
     notes: str = ""
     level: float = 0.0
     thin: int = 1  # every so many rows are written
+    formula: list = field(default_factory=list)  # words of `helixlock discover` for a shape outside the catalogue
 
 
 class Court:

@@ -87,5 +87,5 @@ def truth(case):
         for one in case.planted
     ]
     return {"kind": case.kind, "expect": case.expect, "level": case.level, "rows": len(case.record) // case.thin,
-            "planted": planted, "allowed": sorted(case.allowed), "doubts": list(case.doubts),
+            "planted": planted, "allowed": sorted(case.allowed), "doubts": list(case.doubts), "formula": case.formula,
             "noise": {name: round(noise.white, 5) for name, noise in case.channels.items()}, "notes": case.notes}

@@ -1,12 +1,14 @@
 //! `helixlock add`: one more effect in a machine file, fitted to data if there are any.
 
+mod formula;
+
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, bail};
 use clap::Args;
-use helixlock_lab::{Added, add, written};
+use helixlock_lab::{Added, Measurement, add, written};
 use helixlock_plant::{MachineFile, Term};
 
 use crate::shared::angular::in_unit;
@@ -23,7 +25,17 @@ pub(crate) struct Add {
     /// Machine file
     machine: PathBuf,
     /// Name of an effect of the catalogue, or a TOML file with one `[[effect]]`, such as a custom one
-    effect: String,
+    #[arg(required_unless_present = "formula", conflicts_with = "formula")]
+    effect: Option<String>,
+    /// A formula as a `custom` effect, such as `k*ramp(position_mm - at_mm)`: words that are no columns are its parameters
+    #[arg(long, value_name = "FORMULA")]
+    formula: Option<String>,
+    /// Where the formula enters
+    #[arg(long, requires = "formula", default_value = "motion")]
+    entry: String,
+    /// What the formula is called
+    #[arg(long, requires = "formula", default_value = "formula")]
+    name: String,
     /// Measured data to fit its parameters to
     #[arg(long, value_name = "DATA")]
     fit: Option<PathBuf>,
@@ -33,8 +45,8 @@ pub(crate) struct Add {
     /// With `--refit`, leave the first N effects of the machine file as they are
     #[arg(long, value_name = "N", default_value_t = 0, requires = "refit")]
     keep: usize,
-    /// A parameter, such as `amplitude="1.5 um"`; only without `--fit`
-    #[arg(long = "set", value_name = "KEY=VALUE", conflicts_with = "fit")]
+    /// A parameter, such as `amplitude="1.5 um"`; with `--fit` only where a formula's search begins
+    #[arg(long = "set", value_name = "KEY=VALUE")]
     values: Vec<String>,
     #[command(flatten)]
     signals: Signals,
@@ -56,13 +68,19 @@ impl Add {
         let Some(data) = &self.fit else {
             let new = self.with_given_values(&file)?;
             self.write(&new, &file)?;
-            writeln!(out, "{}: {} added", self.output.display(), self.effect)?;
+            writeln!(out, "{}: {} added", self.output.display(), self.what())?;
             return Ok(ExitCode::SUCCESS);
         };
-        let term = self.term(&file)?;
+        if self.formula.is_none() && !self.values.is_empty() {
+            bail!(
+                "--set {}: found with --fit, which finds the values",
+                self.values.join(" --set ")
+            );
+        }
         let (base, beside) =
             if self.refit { stripped(&file, self.keep)? } else { (file, Vec::new()) };
         let problem = measured::problem(&base.model, data, Input::read(data)?, &self.signals)?;
+        let term = self.term(&base, &problem.measurement)?;
         let added = add(&problem, &beside, &term)
             .with_context(|| format!("{}: {} cannot be fitted", data.display(), term.name))?;
         let Some(added) = added else {
@@ -79,19 +97,36 @@ impl Add {
         Ok(ExitCode::SUCCESS)
     }
 
+    /// The effect in words.
+    fn what(&self) -> &str {
+        self.effect.as_deref().unwrap_or(&self.name)
+    }
+
     /// The effect as it stands before the fit.
-    fn term(&self, file: &MachineFile) -> anyhow::Result<Term> {
-        if let Some(card) = Term::card(&self.effect).filter(|card| !card.parameters.is_empty()) {
+    fn term(&self, file: &MachineFile, measurement: &Measurement) -> anyhow::Result<Term> {
+        if let Some(formula) = self.given() {
+            let logged = |word: &str| measurement.covariates.contains_key(word);
+            return formula.to_be_fitted(&logged);
+        }
+        if let Some(card) = Term::card(self.what()).filter(|card| !card.parameters.is_empty()) {
             return Ok(Term::candidate(card, file.model.rotary));
         }
-        own_effects(file, Path::new(&self.effect)).map(|mut terms| terms.remove(0))
+        own_effects(file, Path::new(self.what())).map(|mut terms| terms.remove(0))
+    }
+
+    fn given(&self) -> Option<formula::Given<'_>> {
+        let formula = self.formula.as_deref()?;
+        Some(formula::Given { formula, name: &self.name, entry: &self.entry, values: &self.values })
     }
 
     /// The file with the effect's table as the user gave it.
     fn with_given_values(&self, file: &MachineFile) -> anyhow::Result<MachineFile> {
-        let effect = Path::new(&self.effect);
-        let (text, path) = if Term::card(&self.effect).is_some() {
-            let mut text = format!("[[effect]]\nkind = \"{}\"\n", self.effect);
+        if let Some(formula) = self.given() {
+            return Ok(file.with_effect(&formula.as_given()?)?);
+        }
+        let effect = Path::new(self.what());
+        let (text, path) = if Term::card(self.what()).is_some() {
+            let mut text = format!("[[effect]]\nkind = \"{}\"\n", self.what());
             for pair in &self.values {
                 let Some((key, value)) = pair.split_once('=') else {
                     bail!("--set {pair}: found no `=`, expected KEY=VALUE");
@@ -116,7 +151,7 @@ impl Add {
             inputs.remove(0);
         }
         inputs.extend(self.fit.clone());
-        inputs.push(PathBuf::from(&self.effect));
+        inputs.extend(self.effect.as_ref().map(PathBuf::from));
         output::write_content(&self.output, inputs, new.text())
     }
 }
@@ -150,6 +185,9 @@ fn print(out: &mut impl Write, added: &Added, unit: &str) -> anyhow::Result<()> 
         "held out:  {:.4} → {:.4} {unit} rms",
         added.holdout_rms_um[0], added.holdout_rms_um[1]
     )?;
+    if added.evidence < 0.0 {
+        writeln!(out, "note:      noise would give as much (evidence {:.1})", added.evidence)?;
+    }
     for effect in &added.effects {
         diagnosis_text::print_effect(out, effect)?;
     }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use helixlock_lab::{Challenge, Figure, Hidden, Score, Share};
+use helixlock_lab::{Challenge, Experimented, Figure, Hidden, Outcome, Score, Share};
 use helixlock_plant::{Parameter, Term};
 
 use crate::shared::keys::keys;
@@ -34,6 +34,17 @@ keys! {
         mean_rms_before_um: f64 = score.mean_rms_um()[0],
         mean_holdout_rms_um: f64 = score.mean_rms_um()[1],
         seeds_to_look_at: &'a [u64] = &score.wrong,
+    }
+
+    ExperimentedJson<'a>(one: &'a Experimented, seed: u64) {
+        seed: u64 = seed,
+        hidden: &'a str = &one.hidden,
+        verdict_before: &'static str = one.before.0.word(),
+        right_before: bool = one.before.1 == Outcome::Right,
+        advised: Option<&'a str> = one.advised.as_ref().map(|(action, _)| action.as_str()),
+        expected_evidence: Option<f64> = one.advised.as_ref().map(|(_, evidence)| *evidence),
+        verdict_after: Option<&'static str> = one.after.map(|after| after.0.word()),
+        right_after: Option<bool> = one.after.map(|after| after.1 == Outcome::Right),
     }
 
     OutcomeJson(words: (&'static str, &'static str), number: u64) {

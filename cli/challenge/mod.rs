@@ -8,10 +8,13 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use helixlock_lab::{Challenge as Task, Measurement, Nominal, Problem, Score, challenge, diagnose};
+use helixlock_lab::{
+    Challenge as Task, Experimented, Measurement, Nominal, Problem, Score, challenge, diagnose,
+    experiment,
+};
 use helixlock_traces::csv::write_csv;
 
-use self::json::{AnswerJson, ScoreJson};
+use self::json::{AnswerJson, ExperimentedJson, ScoreJson};
 use crate::shared::output::{Batch, print_json};
 use crate::shared::progress;
 
@@ -22,11 +25,15 @@ pub(crate) struct Challenge {
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Folder for `machine.toml`, `data.csv` and, apart from them, `answer.json`
-    #[arg(short, long, required_unless_present = "score")]
+    #[arg(short, long, required_unless_present_any = ["score", "experiment"])]
     output: Option<PathBuf>,
     /// Solve this many challenges from the seed on and print how many were named rightly
     #[arg(long, value_name = "K")]
     score: Option<u64>,
+    /// Hide this many effects in records that cannot tell them, carry out the experiment that is
+    /// advised, and print what the verdict is before and after
+    #[arg(long, value_name = "K")]
+    experiment: Option<u64>,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -47,8 +54,30 @@ impl Challenge {
                 text::print(&score, out)?;
             }
         }
+        if let Some(number) = self.experiment {
+            let tried = experiments(self.seed, number)?;
+            if self.json {
+                let tried: Vec<_> =
+                    tried.iter().map(|(seed, one)| ExperimentedJson::new(one, *seed)).collect();
+                print_json(out, &tried)?;
+            } else {
+                text::print_experiments(&tried, out)?;
+            }
+        }
         Ok(ExitCode::SUCCESS)
     }
+}
+
+/// What each seed's record says before and after the experiment that is advised.
+fn experiments(seed: u64, number: u64) -> anyhow::Result<Vec<(u64, Experimented)>> {
+    let bar = progress::bar(number, "experiments");
+    let mut tried = Vec::new();
+    for seed in seed..seed + number {
+        tried.push((seed, experiment(seed)?));
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    Ok(tried)
 }
 
 fn write(task: &Task, seed: u64, folder: &Path) -> anyhow::Result<()> {

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use helixlock_lab::Score;
+use helixlock_lab::{Experimented, Outcome, Score};
 
 /// Prints the counts and each figure with its interval and target.
 pub(crate) fn print(score: &Score, out: &mut impl Write) -> anyhow::Result<()> {
@@ -26,5 +26,24 @@ pub(crate) fn print(score: &Score, out: &mut impl Write) -> anyhow::Result<()> {
     if !score.wrong.is_empty() {
         writeln!(out, "seeds to look at: {:?}", score.wrong)?;
     }
+    Ok(())
+}
+
+/// A line a record, then how many of the confused were settled.
+pub(super) fn print_experiments(
+    tried: &[(u64, Experimented)],
+    out: &mut impl Write,
+) -> anyhow::Result<()> {
+    for (seed, one) in tried {
+        write!(out, "{seed}: {} hidden, {}", one.hidden, one.before.0.word())?;
+        if let (Some((action, evidence)), Some(after)) = (&one.advised, one.after) {
+            write!(out, "; {action} (evidence {evidence:.0} expected): {}", after.0.word())?;
+            write!(out, ", {}", if after.1 == Outcome::Right { "right" } else { "not right" })?;
+        }
+        writeln!(out)?;
+    }
+    let after: Vec<Outcome> = tried.iter().filter_map(|(_, one)| one.after).map(|a| a.1).collect();
+    let right = after.iter().filter(|outcome| **outcome == Outcome::Right).count();
+    writeln!(out, "{} confused, {right} of them right after the experiment", after.len())?;
     Ok(())
 }

@@ -21,7 +21,7 @@ pub(crate) struct Diagnose {
     #[command(flatten)]
     files: Files,
     /// TOML file with custom effects to try beside the catalogue
-    #[arg(long, value_name = "EFFECTS")]
+    #[arg(long = "with", visible_alias = "custom", value_name = "EFFECTS")]
     custom: Option<PathBuf>,
     /// Print JSON
     #[arg(long)]

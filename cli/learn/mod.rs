@@ -47,7 +47,7 @@ pub(crate) struct Learn {
     #[arg(short, long)]
     output: Option<PathBuf>,
     /// TOML file with custom effects to try beside the catalogue
-    #[arg(long, value_name = "EFFECTS")]
+    #[arg(long = "with", visible_alias = "custom", value_name = "EFFECTS")]
     custom: Option<PathBuf>,
     /// Add what was found even if something is left that no effect accounts for
     #[arg(long)]

@@ -98,6 +98,7 @@ keys! {
     ExperimentJson<'a>(advice: &'a Advice) {
         action: &'a str = &advice.action,
         between: &'a (String, String) = &advice.between,
+        evidence: f64 = advice.evidence,
         separation_um: f64 = advice.separation_um,
     }
 }

@@ -32,6 +32,9 @@ pub(crate) fn held(holds: bool) -> &'static str {
 /// A value and its standard error, both to the error's second digit: `239.8 ± 2.2`.
 pub(crate) fn with_error(value: f64, stderr: f64) -> String {
     const MOST_DECIMALS: usize = 6;
+    if 0.0 < stderr && stderr < 1e-5 {
+        return format!("{value:.4e} ± {stderr:.1e}");
+    }
     let mut decimals = 0;
     let mut shown = stderr;
     while shown < 9.95 && decimals < MOST_DECIMALS {
@@ -61,6 +64,7 @@ mod tests {
         assert_eq!(with_error(239.8231, 2.2034), "239.8 ± 2.2");
         assert_eq!(with_error(4.788_12, 0.000_117), "4.78812 ± 0.00012");
         assert_eq!(with_error(1234.5, 67.8), "1234 ± 68");
+        assert_eq!(with_error(1.234_56e-6, 7.8e-9), "1.2346e-6 ± 7.8e-9");
         assert_eq!(with_error(2.5, 0.0), "2.500000 ± 0.000000");
     }
 

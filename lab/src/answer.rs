@@ -10,7 +10,9 @@ mod learn;
 
 pub use adding::{Added, add};
 pub use compare::{Comparison, NoiseSize, PassSize, SensorResidual, SlowSize, compare};
+pub(crate) use diagnosis::effects;
 pub use diagnosis::{Diagnosis, FittedEffect, FittedParameter, Ranked, Round, Verdict, diagnose};
 pub use experiment::Advice;
+pub(crate) use experiment::{apart, carried_out};
 pub use final_check::{FinalCheck, SensorCheck, final_check};
 pub use learn::{Ledger, LedgerEntry, Spectra, fingerprint, ledger, spectra, written};

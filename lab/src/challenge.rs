@@ -1,6 +1,7 @@
 //! Machines with something hidden, to see whether the diagnosis finds it.
 
 mod error;
+mod experiment;
 mod outside;
 mod recipe;
 mod scene;
@@ -8,5 +9,6 @@ mod score;
 mod task;
 
 pub use error::ChallengeError;
+pub use experiment::{Experimented, experiment};
 pub use score::{Figure, Score, Share};
 pub use task::{Challenge, Hidden, Outcome, challenge, judge};

@@ -6,7 +6,6 @@ mod candidates;
 mod flaws;
 mod grid;
 mod jumps;
-mod nameless;
 mod probes;
 mod repeatability;
 mod setting_trial;
@@ -18,9 +17,8 @@ mod unfolding;
 mod waves;
 
 pub(crate) use calibration::chance as chance_in_noise;
-pub(crate) use candidates::{Candidate, candidate, candidates, turn_scan};
+pub(crate) use candidates::{Candidate, as_it_stands, candidate, candidates, turn_scan};
 pub(crate) use flaws::{above_hunting, least_above_hunting};
-pub(crate) use nameless::{Nameless, Placed, nameless};
 pub use probes::Structure;
 pub(crate) use probes::{all_structures, is_left, matters, structures};
 pub(crate) use setting_trial::setting_trials;

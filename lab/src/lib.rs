@@ -16,11 +16,15 @@ mod doubts;
 
 mod spectrum;
 
+mod formulas;
+
 mod hypotheses;
 
 mod search;
 
 mod answer;
+
+mod discover;
 
 mod challenge;
 
@@ -30,8 +34,10 @@ pub use answer::{
     Spectra, Verdict, add, compare, diagnose, final_check, fingerprint, ledger, spectra, written,
 };
 pub use challenge::{
-    Challenge, ChallengeError, Figure, Hidden, Outcome, Score, Share, challenge, judge,
+    Challenge, ChallengeError, Experimented, Figure, Hidden, Outcome, Score, Share, challenge,
+    experiment, judge,
 };
+pub use discover::{Discovery, FormulaParameter, Found, Proposal, RunnerUp, discover};
 pub use doubts::{Doubt, divider_doubt, doubts};
 pub use hypotheses::Structure;
 pub use measurement::{LabError, Measurement, Nominal, PulseTrains, Steps, sensor_column};

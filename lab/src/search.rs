@@ -11,7 +11,7 @@ mod refusal;
 mod rivals;
 
 pub(crate) use analysis::{Step, search};
-pub(crate) use court::{nameless_winner, waves_of_nobody};
+pub(crate) use court::{Claim, claims, nameless_winner, waves_of_nobody};
 pub(crate) use polish::polished;
 pub(crate) use pruning::pruned;
 pub(crate) use refusal::Refusal;

@@ -1,11 +1,13 @@
 //! One effect chosen by the user, fitted together with those the machine file has.
 
-use helixlock_plant::{EffectError, Term};
+use helixlock_plant::{EffectError, Formula, Term};
 
 use super::diagnosis::{FittedEffect, effects};
-use crate::hypotheses::{candidate, try_candidate};
+use crate::hypotheses::{as_it_stands, candidate, try_candidate};
 use crate::model::{Columns, Component, Problem, Stage, State, holdout_rms, noises_of};
 use crate::noise::{Noise, rms};
+use crate::numerics::count;
+use crate::policy::extent::SEARCHED_ROWS;
 
 /// What a chosen effect does to the error.
 #[derive(Debug, Clone)]
@@ -18,6 +20,8 @@ pub struct Added {
     pub holdout_rms_um: [f64; 2],
     /// Evidence for the effect: twice the log likelihood ratio.
     pub gain: f64,
+    /// The same less what its free numbers cost: below 0, noise would give as much.
+    pub evidence: f64,
 }
 
 /// Fits an effect to a problem, its nonlinear parameters found anew, all coefficients jointly.
@@ -34,6 +38,7 @@ pub fn add(problem: &Problem, beside: &[Term], term: &Term) -> Result<Option<Add
     let others: Vec<Component> = beside.iter().cloned().map(Component::new).collect();
     let columns = Columns::of(problem, &others)?;
     let base = State::of(problem, others.clone(), &before.fit.noises).unwrap_or(before);
+    let term = &begun(problem, &others, term);
     let Some(first) = found(problem, &columns, &base.fit.noises, term) else {
         return Ok(None);
     };
@@ -41,6 +46,7 @@ pub fn add(problem: &Problem, beside: &[Term], term: &Term) -> Result<Option<Add
     let once = joined(problem, &others, first);
     let again = once.as_ref().and_then(|once| found(problem, &columns, &once.fit.noises, term));
     let state = again.and_then(|again| joined(problem, &others, again)).or(once);
+    let free = count(term.parameters.len()) * problem.price_of_a_number();
     Ok(state.map(|state| Added {
         effects: effects(problem, &state),
         rms_um: [rms(&problem.layout, &base.fit.left), rms(&problem.layout, &state.fit.left)],
@@ -49,12 +55,35 @@ pub fn add(problem: &Problem, beside: &[Term], term: &Term) -> Result<Option<Add
             holdout_rms(problem, &state.columns, &state.fit.noises),
         ],
         gain: 2.0 * (state.fit.log_likelihood - base.fit.log_likelihood),
+        evidence: 2.0 * (state.fit.log_likelihood - base.fit.log_likelihood) - free,
     }))
+}
+
+/// A formula of the user's with its nonlinear numbers where they do best on means of neighbouring
+/// samples, however far from where they were said to be.
+fn begun(problem: &Problem, others: &[Component], term: &Term) -> Term {
+    if !is_own(term) || term.nonlinear().is_empty() {
+        return term.clone();
+    }
+    let small = problem.thinned(SEARCHED_ROWS);
+    let small = small.as_ref().unwrap_or(problem);
+    let best = Columns::of(small, others).ok().and_then(|columns| {
+        // Slow noise would follow whatever the formula does not.
+        let stage = Stage::new(small, &columns, &vec![Noise::white(); small.sensors.len()]);
+        let candidate = candidate(&stage, term.clone())?;
+        try_candidate(&stage, &candidate)
+    });
+    best.map_or_else(|| term.clone(), |trial| trial.component.term)
+}
+
+fn is_own(term: &Term) -> bool {
+    matches!(term.formula, Formula::Custom(_))
 }
 
 fn found(problem: &Problem, columns: &Columns, noises: &[Noise], term: &Term) -> Option<Component> {
     let stage = Stage::new(problem, columns, noises);
-    let candidate = candidate(&stage, term.clone())?;
+    let term = term.clone();
+    let candidate = if is_own(&term) { as_it_stands(term) } else { candidate(&stage, term)? };
     try_candidate(&stage, &candidate).map(|trial| trial.component)
 }
 

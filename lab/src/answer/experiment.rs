@@ -1,12 +1,20 @@
-//! What an operator could do to tell confused effects apart, scored in µm (arcsec).
+//! What an operator could do to tell confused effects apart, by the evidence that it would bring.
+//!
+//! The samples of an experiment are those of the record, as it would change them, behind the record
+//! itself. One explanation makes what is measured there, the other is fitted to it anew, under the
+//! noise that the record shows: what it cannot follow is the evidence to be expected.
 
 use helixlock_plant::Term;
 
+use crate::hypotheses::{as_it_stands, try_candidate};
 use crate::measurement::Measurement;
-use crate::model::{Component, Problem, State};
-use crate::noise::rms;
-use crate::numerics::spread;
-use crate::policy::size::{ANOTHER_SPEED, DWELL, WORTHWHILE_UM};
+use crate::model::{Columns, Component, Problem, Stage, State};
+use crate::noise::{Noise, rms};
+use crate::numerics::{count, spread};
+use crate::policy::evidence::MARGIN;
+use crate::policy::size::{
+    ANOTHER_LENGTH, ANOTHER_SPEED, DWELL, EVEN, MORE_THAN_A_REPEAT, WORTHWHILE_UM,
+};
 use crate::search::Rivals;
 
 /// An experiment with what it is expected to separate.
@@ -16,6 +24,8 @@ pub struct Advice {
     pub action: String,
     /// The two effects it separates.
     pub between: (String, String),
+    /// Evidence it is expected to bring, in units of twice the log likelihood.
+    pub evidence: f64,
     /// Root mean square by which their predictions would differ, µm (arcsec).
     pub separation_um: f64,
     /// Unit of that.
@@ -23,13 +33,16 @@ pub struct Advice {
 }
 
 /// A change of the measurement that an operator can make.
-struct Experiment {
+pub(crate) struct Experiment {
     action: &'static str,
+    /// True when the record has it, or the machine cannot do it.
     done: fn(&Measurement) -> bool,
     change: fn(&mut Measurement),
 }
 
-const EXPERIMENTS: [Experiment; 5] = [
+/// The plain one first: another must bring more than it.
+const EXPERIMENTS: [Experiment; 8] = [
+    Experiment { action: "measure the same once more", done: |_| false, change: |_| {} },
     Experiment {
         action: "measure once more at half the spindle speed",
         done: |m| {
@@ -39,7 +52,7 @@ const EXPERIMENTS: [Experiment; 5] = [
     },
     Experiment {
         action: "measure once more in the reverse direction",
-        done: |m| 0.0 < spread(&m.direction),
+        done: |m| 0.0 < spread(&m.direction) || m.rotary,
         change: reversed,
     },
     Experiment {
@@ -57,56 +70,137 @@ const EXPERIMENTS: [Experiment; 5] = [
         done: |m| DWELL * spread(&m.time_s) < pause_s(m),
         change: later,
     },
+    Experiment {
+        action: "measure half of the travel once more",
+        done: |m| m.rotary || ANOTHER_LENGTH < uneven_lengths(m),
+        change: half_the_travel,
+    },
+    Experiment {
+        action: "measure once more with targets at uneven steps",
+        done: |m| m.rotary || !is_even(m),
+        change: uneven,
+    },
 ];
 
-/// Experiments not done yet, by how far they would drive confused effects apart.
+/// What helps when no run of the same machine would tell.
+const LOG: &str = "log what could drive it beside the error: temperatures, pressures, currents";
+
+/// Experiments not done yet, by the evidence that they would bring between confused effects.
 #[must_use]
 pub(crate) fn advice(problem: &Problem, state: &State, found: &[Rivals]) -> Vec<Advice> {
     let mut all = Vec::new();
     for found in found {
         let own = &state.components[found.index];
         let (used, _) = state.coefficients(found.index);
-        let own_term = own.valued(used);
-        for rival in found.tried.iter().filter(|j| found.confused.contains(&j.component.term.name))
-        {
-            let from = rival.fit.linear.coefficients.len() - rival.component.width();
-            let rival_term = rival.component.valued(&rival.fit.linear.coefficients[from..]);
-            all.extend(pair_advice(problem, &own_term, &rival_term));
-        }
+        let rivals: Vec<Term> = found
+            .tried
+            .iter()
+            .filter(|judged| found.confused.contains(&judged.component.term.name))
+            .map(|rival| rival.component.valued(rival.coefficients().0))
+            .collect();
+        all.extend(apart(problem, &state.fit.noises, &own.valued(used), &rivals));
     }
-    all.sort_by(|a, b| b.separation_um.total_cmp(&a.separation_um));
+    all.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
     all
 }
 
-fn pair_advice(problem: &Problem, a: &Term, b: &Term) -> Vec<Advice> {
-    EXPERIMENTS
+/// Experiments between an explanation and others that do nearly as well, best first; the last of
+/// them is to log more where none would tell.
+#[must_use]
+pub(crate) fn apart(
+    problem: &Problem,
+    noises: &[Noise],
+    own: &Term,
+    rivals: &[Term],
+) -> Vec<Advice> {
+    let Some(first) = rivals.first() else { return Vec::new() };
+    let feasible = EXPERIMENTS.iter().filter(|one| !(one.done)(&problem.measurement));
+    let runs: Vec<(&Experiment, Problem)> =
+        feasible.filter_map(|one| Some((one, changed(problem, one)?))).collect();
+    let mut all: Vec<Advice> = rivals
         .iter()
-        .filter(|experiment| !(experiment.done)(&problem.measurement))
-        .filter_map(|experiment| {
-            let mut changed = problem.measurement.clone();
-            (experiment.change)(&mut changed);
-            let separation_um = separation(problem, &changed, a, b)?;
-            Some(Advice {
-                action: experiment.action.to_owned(),
-                between: (a.name.clone(), b.name.clone()),
-                separation_um,
-                unit: problem.measurement.unit(),
-            })
+        .flat_map(|rival| {
+            let run = |(one, both): &(&Experiment, Problem)| {
+                separated(problem, noises, (one, both), (own, rival))
+            };
+            worth_more(runs.iter().filter_map(run).collect())
         })
-        .filter(|advice| WORTHWHILE_UM < advice.separation_um)
-        .collect()
+        .filter(|advice| WORTHWHILE_UM < advice.separation_um && 0.0 < advice.evidence)
+        .collect();
+    all.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+    if all.first().is_none_or(|best| best.evidence < MARGIN) {
+        all.push(Advice {
+            action: LOG.to_owned(),
+            between: (own.name.clone(), first.name.clone()),
+            evidence: 0.0,
+            separation_um: 0.0,
+            unit: problem.measurement.unit(),
+        });
+    }
+    all
 }
 
-/// How far apart two fitted effects are on samples as an experiment would give them.
-fn separation(problem: &Problem, changed: &Measurement, a: &Term, b: &Term) -> Option<f64> {
-    let both = Problem::new(&problem.model, changed).ok()?;
-    let pattern = |term: &Term| {
+/// Experiments between two explanations, without those that bring no more than the first of them,
+/// the same once more.
+fn worth_more(mut advice: Vec<Advice>) -> Vec<Advice> {
+    let plain = advice.first().map_or(0.0, |first| first.evidence);
+    let mut place = 0;
+    advice.retain(|one| {
+        place += 1;
+        place == 1 || MORE_THAN_A_REPEAT * plain < one.evidence
+    });
+    advice
+}
+
+/// The record and an experiment behind it.
+fn changed(problem: &Problem, experiment: &Experiment) -> Option<Problem> {
+    let both = with_experiment(&problem.measurement, experiment);
+    Problem::new(&problem.model, &both).ok()
+}
+
+/// A measurement, and behind it the samples of an experiment.
+fn with_experiment(measurement: &Measurement, experiment: &Experiment) -> Measurement {
+    let mut new = measurement.clone();
+    let gap_s = spread(&new.time_s) / count(new.len().max(2) - 1);
+    let after_s = spread(&new.time_s) + gap_s;
+    (experiment.change)(&mut new);
+    new.time_s.iter_mut().for_each(|time| *time += after_s);
+    measurement.followed_by(&new)
+}
+
+/// A record with the samples of an advised experiment behind it; `None` for advice that is no run.
+#[must_use]
+pub(crate) fn carried_out(measurement: &Measurement, action: &str) -> Option<Measurement> {
+    let of_action = EXPERIMENTS.iter().find(|one| one.action == action)?;
+    Some(with_experiment(measurement, of_action))
+}
+
+/// What an experiment would say between two explanations.
+fn separated(
+    problem: &Problem,
+    noises: &[Noise],
+    (experiment, both): (&Experiment, &Problem),
+    (own, rival): (&Term, &Term),
+) -> Option<Advice> {
+    let shown = |term: &Term| -> Option<Vec<f64>> {
         let effect = term.effect(&both.model, &both.record.columns).ok()?;
         Some(both.column(term.entry, &helixlock_plant::Effect::deltas_um(&effect, &both.record)))
     };
-    let (a, b) = (pattern(a)?, pattern(b)?);
-    let apart: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a - b).collect();
-    Some(rms(&both.layout, &apart))
+    let (true_um, other_um) = (shown(own)?, shown(rival)?);
+    let apart: Vec<f64> = true_um.iter().zip(&other_um).map(|(a, b)| a - b).collect();
+    let mut measured = both.clone();
+    measured.observed = true_um.iter().zip(&both.predicted).map(|(a, b)| a + b).collect();
+    let stage = Stage::new(&measured, &Columns::default(), noises);
+    let all = stage.gain(&Columns::of(&measured, &[Component::new(own.clone())]).ok()?).gain;
+    let refitted = try_candidate(&stage, &as_it_stands(rival.clone()));
+    let followed = refitted.map_or(0.0, |trial| trial.gain);
+    Some(Advice {
+        action: experiment.action.to_owned(),
+        between: (own.name.clone(), rival.name.clone()),
+        evidence: all - followed,
+        separation_um: rms(&both.layout, &apart),
+        unit: problem.measurement.unit(),
+    })
 }
 
 /// The best experiment for an effect, or what its card says when none was worked out.
@@ -116,8 +210,13 @@ pub(crate) fn for_pair(advice: &[Advice], name: &str, component: &Component) -> 
     let card = Term::card(component.term.kind()).map(|card| card.separated_by);
     match (best, card) {
         (Some(best), Some(card)) => format!(
-            "{}: {} and {} would differ by {:.3} {}; also: {card}",
-            best.action, best.between.0, best.between.1, best.separation_um, best.unit
+            "{}: {} and {} would differ by {:.3} {}, evidence {:.0}; also: {card}",
+            best.action,
+            best.between.0,
+            best.between.1,
+            best.separation_um,
+            best.unit,
+            best.evidence
         ),
         (Some(best), None) => best.action.clone(),
         (None, card) => card.unwrap_or("log one more sensor").to_owned(),
@@ -150,4 +249,52 @@ fn later(measurement: &mut Measurement) {
 fn repeat_with(measurement: &mut Measurement, column: &str, value: f64) {
     let rows = measurement.len();
     measurement.covariates.insert(column.to_owned(), vec![value; rows]);
+}
+
+/// Longest travel of a pass over the shortest.
+fn uneven_lengths(measurement: &Measurement) -> f64 {
+    let passes = measurement.pass.iter().copied().max().map_or(0, |last| last + 1);
+    let lengths: Vec<f64> = (0..passes)
+        .map(|pass| {
+            let rows = measurement.pass.iter().zip(&measurement.position_mm);
+            let own: Vec<f64> = rows.filter(|(of, _)| **of == pass).map(|(_, mm)| *mm).collect();
+            spread(&own)
+        })
+        .collect();
+    let least = lengths.iter().copied().fold(f64::INFINITY, f64::min);
+    lengths.iter().copied().fold(0.0, f64::max) / least.max(f64::MIN_POSITIVE)
+}
+
+/// Distances from sample to sample along the travel.
+fn distances_mm(measurement: &Measurement) -> Vec<f64> {
+    let steps = measurement.position_mm.windows(2).zip(measurement.pass.windows(2));
+    steps.filter(|(_, pass)| pass[0] == pass[1]).map(|(mm, _)| (mm[1] - mm[0]).abs()).collect()
+}
+
+fn is_even(measurement: &Measurement) -> bool {
+    let steps = distances_mm(measurement);
+    let mean = steps.iter().sum::<f64>() / count(steps.len().max(1));
+    0.0 < mean && spread(&steps) < EVEN * mean
+}
+
+fn half_the_travel(measurement: &mut Measurement) {
+    let low = measurement.position_mm.iter().copied().fold(f64::INFINITY, f64::min);
+    let middle = low + 0.5 * spread(&measurement.position_mm);
+    let near: Vec<bool> = measurement.position_mm.iter().map(|place| *place <= middle).collect();
+    measurement.keep(&near);
+}
+
+/// Every sample moved along the travel by another part of half a distance.
+fn uneven(measurement: &mut Measurement) {
+    const GOLDEN: f64 = 0.618_033_988_749_895;
+    let steps = distances_mm(measurement);
+    let mean = steps.iter().sum::<f64>() / count(steps.len().max(1));
+    let turns_a_mm = spread(&measurement.angle_rev) / spread(&measurement.position_mm);
+    let with_angle = measurement.position_mm.iter_mut().zip(&mut measurement.angle_rev);
+    for (row, (place, angle)) in with_angle.enumerate() {
+        let part = GOLDEN * count(row);
+        let by = 0.5 * mean * (part - part.floor() - 0.5);
+        *place += by;
+        *angle += by * turns_a_mm;
+    }
 }

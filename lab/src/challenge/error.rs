@@ -2,6 +2,8 @@
 
 use helixlock_plant::{EffectError, MachineError};
 
+use crate::measurement::LabError;
+
 /// Why a challenge could not be made.
 #[derive(Debug, thiserror::Error)]
 pub enum ChallengeError {
@@ -11,4 +13,7 @@ pub enum ChallengeError {
     /// An effect does not fit the machine, which is a flaw of the program.
     #[error(transparent)]
     Effect(#[from] EffectError),
+    /// What was simulated cannot be read, which is a flaw of the program.
+    #[error(transparent)]
+    Measured(#[from] LabError),
 }

@@ -65,6 +65,12 @@ pub(super) const RECIPES: [Recipe; 13] = [
     },
 ];
 
+/// Recipes without what tells their effects: one speed, one place of the grating, two passes.
+pub(super) fn poor() -> Vec<Recipe> {
+    let told = RECIPES.iter().filter(|one| one.reindexed || one.speeds[0] < one.speeds[1]);
+    told.map(|one| Recipe { passes: 2, speeds: [1.0, 1.0], reindexed: false, ..*one }).collect()
+}
+
 /// The effect of a recipe with values drawn by chance; its size is set afterwards.
 pub(super) fn term(
     machine: &Machine,

@@ -11,6 +11,9 @@ use super::{outside, recipe, scene};
 use crate::answer::Verdict;
 use crate::numerics::rms_about_means;
 
+/// Root mean square of the noise, µm.
+pub(super) const NOISE_UM: f64 = 0.05;
+
 /// What is hidden in a challenge.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Hidden {
@@ -51,7 +54,7 @@ pub fn challenge(seed: u64) -> Result<Challenge, ChallengeError> {
     let kind = chance.random_range(0..10);
     let machine = scene::machine(&mut chance)?;
     let record = scene::record(&machine.model, recipe, &mut chance);
-    let noise_um = 0.05;
+    let noise_um = NOISE_UM;
     let mut terms = Vec::new();
     let mut hidden = Hidden::Nothing;
     let mut extra = vec![0.0; record.len()];
@@ -82,7 +85,7 @@ pub fn challenge(seed: u64) -> Result<Challenge, ChallengeError> {
 }
 
 /// An effect of a recipe at a size of three to fifteen times the noise.
-fn hidden_term(
+pub(super) fn hidden_term(
     machine: &Machine,
     record: &Record,
     recipe: &Recipe,

@@ -30,6 +30,10 @@ const PLAIN: usize = 24;
 const PLACES: usize = 48;
 /// Instants along the record.
 pub(super) const INSTANTS: usize = 96;
+/// Values of a user's own parameter on either side of the one that was given, and how far they
+/// reach, as a factor: neighbours differ by half a per cent, a quarter of a wave after fifty.
+const OWN_VALUES: usize = 280;
+const OWN_REACH: f64 = 4.0;
 /// Most grid points of an effect.
 const MOST: usize = 3000;
 
@@ -93,7 +97,7 @@ fn freed(candidate: &Candidate) -> Option<Candidate> {
 #[must_use]
 pub(crate) fn candidate(stage: &Stage<'_>, term: Term) -> Option<Candidate> {
     if matches!(term.formula, Formula::Custom(_)) {
-        return Some(near_its_values(term));
+        return Some(around_its_values(term));
     }
     let axes: Vec<Vec<f64>> = term
         .parameters
@@ -151,12 +155,39 @@ fn looks(stage: &Stage<'_>, term: &Term, axes: &[Vec<f64>]) -> Looks {
     })
 }
 
-/// A user's own effect is looked for near the values the user gave.
-fn near_its_values(term: Term) -> Candidate {
+/// An effect at the values it has, to be refined from there.
+#[must_use]
+pub(crate) fn as_it_stands(term: Term) -> Candidate {
     let values = term.nonlinear();
     let steps = values.iter().map(|value| if *value == 0.0 { 0.01 } else { 0.01 * value.abs() });
     let (steps, looks) = (steps.collect(), Looks::at_places(1.0));
     Candidate { steps, grid: vec![values], continuous: Vec::new(), looks, term }
+}
+
+/// A user's own effect is looked for around the values the user gave, one after the other from a
+/// quarter to the fourfold: a period that is a fifth too long leads to no other one.
+fn around_its_values(term: Term) -> Candidate {
+    let mut candidate = as_it_stands(term);
+    let values = candidate.grid[0].clone();
+    for place in 0..values.len() {
+        let mut axis = vec![values[place]];
+        for step in 1..=OWN_VALUES {
+            let factor = libm::exp(libm::log(OWN_REACH) * count(step) / count(OWN_VALUES));
+            let ends = match values[place] {
+                0.0 => [1.0 - factor, factor - 1.0],
+                value => [value / factor, value * factor],
+            };
+            for end in ends {
+                let mut moved = values.clone();
+                moved[place] = end;
+                candidate.grid.push(moved);
+                axis.push(end);
+            }
+        }
+        axis.sort_by(f64::total_cmp);
+        candidate.continuous.push((place, axis));
+    }
+    candidate
 }
 
 impl Candidate {

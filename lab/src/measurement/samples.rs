@@ -187,6 +187,49 @@ impl Measurement {
         self.time_s.is_empty()
     }
 
+    /// These samples and others of the same sensors and columns behind them, as further passes.
+    #[must_use]
+    pub(crate) fn followed_by(&self, more: &Self) -> Self {
+        let mut both = self.clone();
+        let passes = self.pass_names.len();
+        let last = self.pass_names.iter().copied().fold(0.0, f64::max);
+        both.time_s.extend(&more.time_s);
+        both.position_mm.extend(&more.position_mm);
+        both.angle_rev.extend(&more.angle_rev);
+        both.speed_rpm.extend(&more.speed_rpm);
+        both.direction.extend(&more.direction);
+        both.pass.extend(more.pass.iter().map(|pass| passes + pass));
+        both.pass_names.extend(more.pass_names.iter().map(|name| last + name));
+        for (sensor, values) in &mut both.observations {
+            values.extend(&more.observations[sensor]);
+        }
+        for (name, values) in &more.covariates {
+            // What is set anew was at its zero before.
+            let own = both.covariates.entry(name.clone());
+            own.or_insert_with(|| vec![0.0; self.len()]).extend(values);
+        }
+        both
+    }
+
+    /// Leaves out the samples that are not kept.
+    pub(crate) fn keep(&mut self, kept: &[bool]) {
+        let of = |values: &mut Vec<f64>| {
+            let mut kept = kept.iter();
+            values.retain(|_| kept.next().copied().unwrap_or(true));
+        };
+        let coordinates = [
+            &mut self.time_s,
+            &mut self.position_mm,
+            &mut self.angle_rev,
+            &mut self.speed_rpm,
+            &mut self.direction,
+        ];
+        coordinates.into_iter().for_each(of);
+        self.observations.values_mut().chain(self.covariates.values_mut()).for_each(of);
+        let mut rows = kept.iter();
+        self.pass.retain(|_| rows.next().copied().unwrap_or(true));
+    }
+
     /// Unit of the observations.
     #[must_use]
     pub fn unit(&self) -> &'static str {

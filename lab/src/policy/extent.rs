@@ -6,6 +6,11 @@
 /// being accepted.
 pub(crate) const MOST_ROUNDS: usize = 5;
 
+/// Most formulas that are looked for one after the other.
+///
+/// Chosen: beyond two, a sum of shapes imitates anything. Doubled: four, at twice the time.
+pub(crate) const MOST_FORMULAS: usize = 2;
+
 /// Candidates whose noise is fitted anew before one is chosen.
 ///
 /// Chosen. Doubled: twice the time of a round.

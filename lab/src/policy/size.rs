@@ -83,3 +83,18 @@ pub(crate) const ANOTHER_SPEED: f64 = 1e-3;
 /// Chosen: a drift with the record's own time constant goes on by four tenths of its rest in it.
 /// Doubled: a pause must be as long as the record.
 pub(crate) const DWELL: f64 = 0.5;
+
+/// Longest pass over the shortest from which on passes of other lengths were measured.
+///
+/// Chosen. Doubled: half of the travel is advised though two thirds were measured.
+pub(crate) const ANOTHER_LENGTH: f64 = 1.5;
+
+/// Spread of the distances of samples, against their mean, below which they are even.
+///
+/// Chosen: what is uneven resolves aliases. Doubled: unevenness of a twenty-fifth is none.
+pub(crate) const EVEN: f64 = 0.02;
+
+/// Evidence that an experiment must bring, against measuring the same once more.
+///
+/// Chosen: what is less is not worth another set-up. Doubled: half the travel is never advised.
+pub(crate) const MORE_THAN_A_REPEAT: f64 = 1.1;

@@ -10,7 +10,8 @@ use helixlock_plant::Entry;
 use super::analysis::{Step, plain_noises};
 use super::refusal::Refusal;
 use super::rivals::Rivals;
-use crate::hypotheses::{Nameless, Placed, Structure, chance_with_tails, is_left, nameless};
+use crate::formulas::{Placed, Shape, nameless};
+use crate::hypotheses::{Structure, chance_with_tails, is_left};
 use crate::model::{Columns, Component, Fit, Problem, Stage, State, noises_of, settle, with_noise};
 use crate::noise::rms;
 use crate::numerics::{Looks, chi_squared_tail, count};
@@ -20,8 +21,11 @@ use crate::policy::evidence::MARGIN;
 /// Shapes of each noise whose own noise is fitted.
 const SHORTLIST: usize = 2;
 
+/// The same when formulas are looked for, and runners-up are told.
+const CLAIMS: usize = 6;
+
 /// Places from which on a shape is looked for beside the effects only, for the time it takes.
-const MOST_PLACES: usize = 400;
+const MOST_PLACES: f64 = 400.0;
 
 /// The shape without a name that explains more than some effects of a model, or what they leave.
 #[must_use]
@@ -31,16 +35,28 @@ pub(crate) fn nameless_winner(
     found: &[Rivals],
 ) -> Option<Structure> {
     let shapes = nameless(problem);
-    let prices: Vec<f64> = (0..state.components.len())
-        .map(|index| price(problem, &state.components[index], looks(state, found, index)))
-        .collect();
-    let court = Court { problem, state, shapes: &shapes, prices };
-    let mut groups = groups(state.components.len());
-    // A setting is a number of the file that fits exactly, against any slope and any bend.
-    let setting = |index: &usize| state.components[*index].term.nature().is_setting();
-    groups.retain(|group| !group.iter().any(setting));
-    let won = groups.iter().filter_map(|group| court.in_place_of(group));
+    let court = Court::new(problem, state, found, &shapes, (SHORTLIST, MOST_PLACES));
+    let won = court.groups().into_iter().filter_map(|group| court.in_place_of(&group));
     won.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, structure)| structure)
+}
+
+/// What every shape of a list has to say for itself beside the effects of a model or in the place
+/// of some: the best of each shape and group, most evidence first.
+#[must_use]
+pub(crate) fn claims<'a>(
+    problem: &'a Problem,
+    state: &'a State,
+    found: &[Rivals],
+    shapes: &'a [Shape],
+) -> Vec<Claim<'a>> {
+    let court = Court::new(problem, state, found, shapes, (CLAIMS, f64::INFINITY));
+    let all = court.groups().into_iter().flat_map(|group| {
+        let base = court.without(&group);
+        base.map_or_else(Vec::new, |base| court.claims(&group, &base))
+    });
+    let mut claims: Vec<Claim<'a>> = all.collect();
+    claims.sort_by(|a, b| b.ahead.total_cmp(&a.ahead));
+    claims
 }
 
 /// Waves in time that are beyond chance and may not be named, for no clock tells them from an order.
@@ -98,26 +114,63 @@ fn price(problem: &Problem, component: &Component, looks: f64) -> f64 {
 struct Court<'a> {
     problem: &'a Problem,
     state: &'a State,
-    shapes: &'a [Nameless],
+    shapes: &'a [Shape],
     /// What each effect pays.
     prices: Vec<f64>,
+    /// Shapes of each noise whose own noise is fitted.
+    shortlist: usize,
+    /// Places from which on a shape is looked for beside the effects only.
+    most_places: f64,
 }
 
 /// A shape with its fit, and its evidence against the effects in whose place it stands.
-struct Claim<'a> {
-    placed: Placed<'a>,
-    looks: Looks,
-    fit: Fit,
-    ahead: f64,
+pub(crate) struct Claim<'a> {
+    /// The shape at its best.
+    pub(crate) placed: Placed<'a>,
+    /// Its joint fit with the effects that stay.
+    pub(crate) fit: Fit,
+    /// By how much it is ahead.
+    pub(crate) ahead: f64,
+    /// The effects in whose place it stands.
+    pub(crate) group: Vec<usize>,
+    /// Chance of as much in noise, or odds that those effects are right.
+    pub(crate) p_value: f64,
 }
 
-impl Court<'_> {
-    /// The shape that explains more than a group of effects in their place, and by how much.
-    fn in_place_of(&self, group: &[usize]) -> Option<(f64, Structure)> {
+impl<'a> Court<'a> {
+    fn new(
+        problem: &'a Problem,
+        state: &'a State,
+        found: &[Rivals],
+        shapes: &'a [Shape],
+        (shortlist, most_places): (usize, f64),
+    ) -> Self {
+        let prices = (0..state.components.len())
+            .map(|index| price(problem, &state.components[index], looks(state, found, index)))
+            .collect();
+        Self { problem, state, shapes, prices, shortlist, most_places }
+    }
+
+    /// Groups of effects that a shape may stand in for.
+    fn groups(&self) -> Vec<Vec<usize>> {
+        let mut groups = groups(self.state.components.len());
+        // A setting is a number of the file that fits exactly, against any slope and any bend.
+        let setting = |index: &usize| self.state.components[*index].term.nature().is_setting();
+        groups.retain(|group| !group.iter().any(setting));
+        groups
+    }
+
+    /// Columns of the effects that are in no group.
+    fn without(&self, group: &[usize]) -> Option<Columns> {
         let kept = (0..self.state.components.len()).filter(|index| !group.contains(index));
         let others: Vec<Component> =
             kept.map(|index| self.state.components[index].clone()).collect();
-        let base = Columns::of(self.problem, &others).ok()?;
+        Columns::of(self.problem, &others).ok()
+    }
+
+    /// The shape that explains more than a group of effects in their place, and by how much.
+    fn in_place_of(&self, group: &[usize]) -> Option<(f64, Structure)> {
+        let base = self.without(group)?;
         let claim = self.best(group, &base)?;
         if claim.ahead <= MARGIN {
             return None;
@@ -130,27 +183,36 @@ impl Court<'_> {
         Some((claim.ahead, structure))
     }
 
-    /// The best shape in a group's place: found under the model's noise and under white noise, in
+    /// The best shape in a group's place.
+    fn best(&self, group: &[usize], base: &Columns) -> Option<Claim<'a>> {
+        self.claims(group, base).into_iter().max_by(|a, b| a.ahead.total_cmp(&b.ahead))
+    }
+
+    /// The best shapes in a group's place: found under the model's noise and under white noise, in
     /// which slow noise hides nothing.
-    fn best(&self, group: &[usize], base: &Columns) -> Option<Claim<'_>> {
+    fn claims(&self, group: &[usize], base: &Columns) -> Vec<Claim<'a>> {
         let noises = [self.state.fit.noises.clone(), plain_noises(self.problem, &self.state.fit)];
         let nothing = self.without_shape(base);
-        let mut claims: Vec<Claim<'_>> = Vec::new();
+        let mut claims = Vec::new();
         for noises in noises {
             let stage = Stage::new(self.problem, base, &noises);
             claims.extend(self.shortlist(&stage, group).into_iter().map(|(placed, looks)| {
                 let fit = self.fitted(base, &placed, &stage);
                 let gain = 2.0 * (fit.log_likelihood - nothing);
-                let price = self.price(&placed, &looks, gain);
-                let ahead = self.ahead(group, &fit) - price;
-                Claim { placed, looks, fit, ahead }
+                let ahead = self.ahead(group, &fit) - self.price(&placed, &looks, gain);
+                let p_value = if group.is_empty() {
+                    self.chance(&placed, &looks, &fit)
+                } else {
+                    libm::exp(-0.5 * ahead).min(1.0)
+                };
+                Claim { placed, fit, ahead, group: group.to_vec(), p_value }
             }));
         }
-        claims.into_iter().max_by(|a, b| a.ahead.total_cmp(&b.ahead))
+        claims
     }
 
     /// The shapes that take the most away under a stage's noise.
-    fn shortlist(&self, stage: &Stage<'_>, group: &[usize]) -> Vec<(Placed<'_>, Looks)> {
+    fn shortlist(&self, stage: &Stage<'_>, group: &[usize]) -> Vec<(Placed<'a>, Looks)> {
         let mut entries: Vec<Entry> =
             group.iter().map(|&index| self.state.components[index].term.entry).collect();
         if group.is_empty() || self.problem.sensors.len() == 1 {
@@ -160,32 +222,34 @@ impl Court<'_> {
         entries.sort();
         entries.dedup();
         let tried = entries.iter().flat_map(|&entry| {
-            let shapes =
-                self.shapes.iter().filter(|one| group.is_empty() || one.places() < MOST_PLACES);
+            let shapes = self
+                .shapes
+                .iter()
+                .filter(|one| group.is_empty() || one.places() < self.most_places);
             shapes.filter_map(move |shape| shape.best(stage, entry))
         });
-        let mut tried: Vec<Placed<'_>> = tried.collect();
+        let mut tried: Vec<Placed<'a>> = tried.collect();
         let of_a_size = self.problem.price_of_a_number();
-        let at_most = |placed: &Placed<'_>| placed.gain - placed.price(of_a_size);
+        let at_most = |placed: &Placed<'_>| placed.gain - placed.shape.price(of_a_size);
         tried.sort_by(|a, b| at_most(b).total_cmp(&at_most(a)));
         // Looks take away more, and are worked out for those only that may be among the best.
-        let mut best: Vec<(f64, Placed<'_>, Looks)> = Vec::new();
+        let mut best: Vec<(f64, Placed<'a>, Looks)> = Vec::new();
         for placed in tried {
-            if best.get(SHORTLIST - 1).is_some_and(|last| at_most(&placed) < last.0) {
+            if best.get(self.shortlist - 1).is_some_and(|last| at_most(&placed) < last.0) {
                 break;
             }
             let looks = placed.looks(stage);
             let worth = placed.gain - self.price(&placed, &looks, placed.gain);
             best.push((worth, placed, looks));
             best.sort_by(|a, b| b.0.total_cmp(&a.0));
-            best.truncate(SHORTLIST);
+            best.truncate(self.shortlist);
         }
         best.into_iter().map(|(_, placed, looks)| (placed, looks)).collect()
     }
 
     /// What a shape pays for a gain: its sizes, and the places it was looked for at.
     fn price(&self, placed: &Placed<'_>, looks: &Looks, gain: f64) -> f64 {
-        placed.price(self.problem.price_of_a_number()) + 2.0 * libm::log(looks.for_gain(gain))
+        placed.shape.price(self.problem.price_of_a_number()) + 2.0 * libm::log(looks.for_gain(gain))
     }
 
     /// Log likelihood of the effects beside which a shape stands, alone.
@@ -217,7 +281,7 @@ impl Court<'_> {
     }
 
     /// Chance of what a shape takes away beside all effects in noise, which may have tails.
-    fn chance(&self, Claim { placed, looks, fit, .. }: &Claim<'_>) -> f64 {
+    fn chance(&self, placed: &Placed<'_>, looks: &Looks, fit: &Fit) -> f64 {
         let shapes = count(self.shapes.len());
         let freedom = count(placed.columns.raw.len());
         let of_gain = |gain| shapes * looks.for_gain(gain) * chi_squared_tail(gain, freedom);
@@ -234,9 +298,8 @@ impl Court<'_> {
         let placed = &claim.placed;
         let nothing = vec![0.0; self.problem.rows.len()];
         let shown = placed.columns.left(&nothing, &placed.coefficients);
-        let p_value = self.chance(claim);
-        let shape = placed.shape.shape.to_owned();
-        let told = structure(placed, shape, rms(&self.problem.layout, &shown), p_value);
+        let shape = placed.shape.words.to_owned();
+        let told = structure(placed, shape, rms(&self.problem.layout, &shown), claim.p_value);
         is_left(self.problem, &self.state.fit, &told).then_some(told)
     }
 
@@ -246,10 +309,10 @@ impl Court<'_> {
         let mut names: Vec<&str> = group.iter().map(name).collect();
         names.sort_unstable();
         names.dedup();
-        let shape = format!("{}, better than {}", claim.placed.shape.shape, names.join(" and "));
+        let shape = format!("{}, better than {}", claim.placed.shape.words, names.join(" and "));
         let without = settle(self.problem, base, &self.state.fit.noises).left;
         let rms_um = rms(&self.problem.layout, &without);
-        structure(&claim.placed, shape, rms_um, libm::exp(-0.5 * claim.ahead))
+        structure(&claim.placed, shape, rms_um, claim.p_value)
     }
 }
 

@@ -1,0 +1,68 @@
+//! `helixlock discover`: a formula where no name fits.
+
+mod json;
+mod text;
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Args;
+use helixlock_lab::{Discovery, Found, discover};
+use helixlock_plant::MachineFile;
+
+use self::json::DiscoveryJson;
+use crate::shared::angular::in_unit;
+use crate::shared::measured::Files;
+use crate::shared::output::{print_json, write_content};
+
+/// Propose a formula for what no effect of the catalogue explains
+#[derive(Debug, Args)]
+pub(crate) struct Discover {
+    #[command(flatten)]
+    files: Files,
+    /// New machine file with the proposed formulas, and the named effects beside them, in it
+    #[arg(short, long)]
+    output: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Discover {
+    /// Prints the proposals; exit status 1 when the input itself is doubted, or nothing was
+    /// proposed that could be written.
+    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+        let (file, problem) = self.files.read()?;
+        let discovery = discover(&problem);
+        let written = match &self.output {
+            Some(path) if !discovery.proposals.is_empty() => {
+                let new = with_proposals(&file, &discovery)?;
+                write_content(path, self.files.inputs(&file.model), new.text())?;
+                true
+            }
+            Some(_) => false,
+            None => true,
+        };
+        let measurement = &problem.measurement;
+        if self.json {
+            let unit = measurement.unit_word();
+            print_json(out, &in_unit(&DiscoveryJson::new(&discovery, unit), unit)?)?;
+        } else {
+            text::print(out, &discovery, measurement.unit())?;
+            if let Some(path) = self.output.filter(|_| !written) {
+                writeln!(out, "{}: not written, for nothing is proposed", path.display())?;
+            }
+        }
+        let doubted = discovery.found == Found::DoubtfulInput;
+        Ok(if doubted || !written { ExitCode::from(1) } else { ExitCode::SUCCESS })
+    }
+}
+
+fn with_proposals(file: &MachineFile, found: &Discovery) -> anyhow::Result<MachineFile> {
+    let mut file = helixlock_lab::written(file, &found.effects)?;
+    for proposal in &found.proposals {
+        file = file.with_effect(&proposal.term)?;
+    }
+    Ok(file)
+}

@@ -1,0 +1,91 @@
+//! Proposals in words.
+
+use std::io::Write;
+
+use helixlock_lab::{Discovery, Found, Proposal};
+
+use crate::shared::diagnosis_text::{print_doubts, print_effect};
+use crate::shared::words::{with_error, with_p};
+
+/// Verdict, formulas with their numbers, what else could stand there, what to do next.
+pub(super) fn print(out: &mut impl Write, found: &Discovery, unit: &str) -> anyhow::Result<()> {
+    writeln!(out, "verdict: {}", found.found.word())?;
+    print_doubts(out, &found.doubts)?;
+    if found.found == Found::DoubtfulInput {
+        writeln!(out, "nothing is proposed before this is settled")?;
+        return Ok(());
+    }
+    writeln!(out, "error:     {:.4} → {:.4} {unit} rms", found.rms_um[0], found.rms_um[1])?;
+    let unseen = found.holdout_rms_um;
+    writeln!(out, "held out:  {:.4} → {:.4} {unit} rms", unseen[0], unseen[1])?;
+    for proposal in &found.proposals {
+        print_proposal(out, proposal)?;
+    }
+    if !found.effects.is_empty() {
+        writeln!(out, "\nbeside it, by name:")?;
+    }
+    for effect in &found.effects {
+        print_effect(out, effect)?;
+    }
+    for left in &found.residual {
+        writeln!(
+            out,
+            "\nleft: {} along {}, {:.4} {unit} rms, {}",
+            left.shape,
+            left.along,
+            left.rms_um,
+            with_p(left.p_value)
+        )?;
+    }
+    for (place, best) in found.experiments.iter().take(3).enumerate() {
+        writeln!(
+            out,
+            "{}",
+            if place == 0 { "\nto tell it from the others:" } else { "" }.trim_end()
+        )?;
+        write!(out, "  {}", best.action)?;
+        if 0.0 < best.evidence {
+            write!(out, ": evidence {:.0} against {}", best.evidence, best.between.1)?;
+        }
+    }
+    if !found.experiments.is_empty() {
+        writeln!(out)?;
+    }
+    Ok(())
+}
+
+fn print_proposal(out: &mut impl Write, one: &Proposal) -> anyhow::Result<()> {
+    writeln!(out, "\nproposal: {} along {}", one.shape, one.along)?;
+    writeln!(out, "  δ = {}", one.formula)?;
+    for what in &one.parameters {
+        let value = match what.stderr {
+            Some(stderr) => with_error(what.value, stderr),
+            None => format!("{} (the data do not hold it)", what.value),
+        };
+        writeln!(out, "  {} = {value} {}", what.name, what.unit)?;
+    }
+    writeln!(out, "  physics of this shape: {}", one.physics)?;
+    let against = match one.instead_of.as_slice() {
+        [] => "against the model without it".to_owned(),
+        names => format!("in the place of {}", names.join(" and ")),
+    };
+    writeln!(out, "  evidence {:.0} {against}, {}", one.evidence, with_p(one.p_value))?;
+    for other in &one.runners_up {
+        let told = if other.alike { ", which the data cannot tell from it" } else { "" };
+        let place = match other.instead_of.as_slice() {
+            same if same == one.instead_of => String::new(),
+            [] => " beside all names".to_owned(),
+            names => format!(" in the place of {}", names.join(" and ")),
+        };
+        writeln!(
+            out,
+            "  or {} along {}{place}: evidence {:.0} {}{told}\n     δ = {}",
+            other.shape,
+            other.along,
+            other.behind.abs(),
+            if other.behind < 0.0 { "ahead by more numbers" } else { "behind" },
+            other.formula
+        )?;
+    }
+    Ok(())
+}

@@ -1,0 +1,172 @@
+//! What a formula says of itself: its text, its numbers, what could be behind it.
+
+use helixlock_plant::{EffectError, Entry, Term};
+
+use super::errors::errors;
+use crate::formulas::{Delta, Placed};
+use crate::model::{Problem, State};
+use crate::policy::evidence::MARGIN;
+use crate::search::Claim;
+
+/// A number of a formula.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FormulaParameter {
+    /// Its name in the formula.
+    pub name: String,
+    /// Value in its unit.
+    pub value: f64,
+    /// Standard error under the noise model; `None` when the data do not hold it.
+    pub stderr: Option<f64>,
+    /// The unit; empty for a pure number.
+    pub unit: String,
+}
+
+/// Another formula that was in the same place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunnerUp {
+    /// Its shape in words.
+    pub shape: &'static str,
+    /// What it stands along.
+    pub along: String,
+    /// The formula.
+    pub formula: String,
+    /// Named effects in whose place it stands.
+    pub instead_of: Vec<String>,
+    /// Evidence behind the proposal, in units of twice the log likelihood.
+    pub behind: f64,
+    /// True when the data cannot tell it from the proposal.
+    pub alike: bool,
+}
+
+/// A formula that explains what no name does.
+#[derive(Debug, Clone)]
+pub struct Proposal {
+    /// Its shape in words.
+    pub shape: &'static str,
+    /// What it stands along.
+    pub along: String,
+    /// What kind of physics has this shape.
+    pub physics: &'static str,
+    /// The formula, δ in µm (arcsec), as a `custom` effect reads it.
+    pub formula: String,
+    /// Where it enters.
+    pub entry: Entry,
+    /// Its numbers.
+    pub parameters: Vec<FormulaParameter>,
+    /// The effect with its values, ready for a machine file.
+    pub term: Term,
+    /// Named effects in whose place it stands.
+    pub instead_of: Vec<String>,
+    /// Evidence ahead of those, or of nothing.
+    pub evidence: f64,
+    /// Chance of as much in noise, or odds that those effects are right.
+    pub p_value: f64,
+    /// What else could stand there, best first.
+    pub runners_up: Vec<RunnerUp>,
+}
+
+/// A claim the court has granted, with its rivals.
+#[derive(Debug, Clone)]
+pub(super) struct Granted {
+    pub(super) shape: &'static str,
+    pub(super) along: String,
+    pub(super) physics: &'static str,
+    pub(super) units: Vec<String>,
+    pub(super) term: Term,
+    pub(super) instead_of: Vec<String>,
+    pub(super) evidence: f64,
+    pub(super) p_value: f64,
+    pub(super) runners_up: Vec<RunnerUp>,
+    /// Those of them that stand in the same place, as effects.
+    pub(super) rivals: Vec<Term>,
+}
+
+/// Most runners-up that are told.
+const TOLD: usize = 5;
+
+impl Granted {
+    /// A claim as an effect of the user named so, with the claims behind it.
+    ///
+    /// # Errors
+    ///
+    /// [`EffectError`] when the formula cannot be read, which a test of the grammar excludes.
+    pub(super) fn new(
+        name: &str,
+        delta: Delta,
+        state: &State,
+        claim: &Claim<'_>,
+        behind: &[&Claim<'_>],
+    ) -> Result<Self, EffectError> {
+        let shape = claim.placed.shape;
+        let named = |group: &[usize]| -> Vec<String> {
+            group.iter().map(|&at| state.components[at].term.name.clone()).collect()
+        };
+        let mut runners_up = Vec::new();
+        let mut rivals = Vec::new();
+        for other in behind.iter().take(TOLD) {
+            let gap = claim.ahead - other.ahead;
+            runners_up.push(RunnerUp {
+                shape: other.placed.shape.words,
+                along: other.placed.shape.along.clone(),
+                formula: formula(&other.placed, delta),
+                instead_of: named(&other.group),
+                behind: gap,
+                alike: gap < MARGIN,
+            });
+            if other.group == claim.group {
+                let other = &other.placed;
+                let words = format!("{} along {}", other.shape.words, other.shape.along);
+                rivals.push(other.term(&words)?);
+            }
+        }
+        Ok(Self {
+            shape: shape.words,
+            along: shape.along.clone(),
+            physics: shape.physics,
+            units: shape.units(delta),
+            term: claim.placed.term(name)?,
+            instead_of: named(&claim.group),
+            evidence: claim.ahead,
+            p_value: claim.p_value,
+            runners_up,
+            rivals,
+        })
+    }
+
+    /// It with the values of a fit to all rows of which it is a component, and with the errors of
+    /// the fit to means of neighbours.
+    pub(super) fn proposed(
+        &self,
+        state: &State,
+        (small, thin): (&Problem, &State),
+        index: usize,
+    ) -> Proposal {
+        let (used, _) = state.coefficients(index);
+        let term = state.components[index].valued(used);
+        let stderrs = errors(small, thin, index);
+        let parameters = term.parameters.iter().zip(&term.values).zip(&self.units).enumerate();
+        let parameters = parameters.map(|(place, ((what, value), unit))| FormulaParameter {
+            name: what.name.to_string(),
+            value: *value,
+            stderr: stderrs.get(place).copied().flatten(),
+            unit: unit.clone(),
+        });
+        Proposal {
+            shape: self.shape,
+            along: self.along.clone(),
+            physics: self.physics,
+            formula: term.formula_text().to_owned(),
+            entry: term.entry,
+            parameters: parameters.collect(),
+            term,
+            instead_of: self.instead_of.clone(),
+            evidence: self.evidence,
+            p_value: self.p_value,
+            runners_up: self.runners_up.clone(),
+        }
+    }
+}
+
+fn formula(placed: &Placed<'_>, delta: Delta) -> String {
+    placed.shape.written(delta).map(|(text, _)| text).unwrap_or_default()
+}

@@ -1,0 +1,307 @@
+//! The search for formulas: named effects first, then the grammar in their place and beside them,
+//! one formula a round until what is left is noise.
+
+use super::proposal::{Granted, Proposal};
+use crate::answer::{Advice, FittedEffect, apart, effects};
+use crate::doubts::{Doubt, doubts};
+use crate::formulas::{Delta, Shape, formulas};
+use crate::hypotheses::{Structure, is_left, structures};
+use crate::model::{Columns, Component, Problem, State, helps_unseen, holdout_rms};
+use crate::noise::rms;
+use crate::policy::chance::SIGNIFICANCE;
+use crate::policy::evidence::MARGIN;
+use crate::policy::extent::{MOST_FORMULAS, SEARCHED_ROWS};
+use crate::search::{Claim, Rivals, claims, polished, rivals, search};
+
+/// Runners-up that experiments are to tell from a proposal.
+const NEAREST: usize = 2;
+
+/// What can be said of a model and a measurement when formulas may be said, too.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Found {
+    /// Formulas explain what no name does: a proposal.
+    Formula,
+    /// The named effects explain the data, and no formula does better.
+    Name,
+    /// The model leaves nothing but noise.
+    Nothing,
+    /// Structure is left that no formula of the grammar accounts for either.
+    Unexplained,
+    /// The data or the machine file look mistaken; nothing is proposed.
+    DoubtfulInput,
+}
+
+impl Found {
+    /// As results spell it.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Formula => "explained-by-a-formula",
+            Self::Name => "explained-by-name",
+            Self::Nothing => "nothing-missing",
+            Self::Unexplained => "unexplained",
+            Self::DoubtfulInput => "doubtful-input",
+        }
+    }
+}
+
+/// Formulas for what no name explains.
+#[derive(Debug, Clone)]
+pub struct Discovery {
+    /// The verdict.
+    pub found: Found,
+    /// What looks mistaken, by evidence.
+    pub doubts: Vec<Doubt>,
+    /// Formulas, in the order they were found.
+    pub proposals: Vec<Proposal>,
+    /// Named effects that stay beside them, fitted together with them.
+    pub effects: Vec<FittedEffect>,
+    /// Root mean square before and after, µm (arcsec), on the data seen.
+    pub rms_um: [f64; 2],
+    /// The same on held-out data.
+    pub holdout_rms_um: [f64; 2],
+    /// What is left that is not noise.
+    pub residual: Vec<Structure>,
+    /// Experiments that would tell the proposals from their runners-up, best first.
+    pub experiments: Vec<Advice>,
+}
+
+/// Looks for formulas that explain what the named effects do not.
+///
+/// Nothing is searched for in mistaken input. The search works on at most a few thousand rows,
+/// means of neighbours where there are more; figures that are reported are fitted to all rows.
+#[must_use]
+pub fn discover(problem: &Problem) -> Discovery {
+    let doubts = doubts(problem);
+    if !doubts.is_empty() {
+        let state = State::bare(problem);
+        let left = told(problem, &state);
+        return Discovery { found: Found::DoubtfulInput, doubts, ..left };
+    }
+    let mut small = problem.thinned(SEARCHED_ROWS).unwrap_or_else(|| problem.clone());
+    let steps = search(&mut small);
+    let state = steps[steps.len() - 1].state.clone();
+    let found = rivals(&small, &state, &steps[0].tried);
+    let mut now = Now { state, found, granted: Vec::new() };
+    let shapes = formulas(&small);
+    while now.granted.len() < MOST_FORMULAS {
+        match now.with_one_more(&small, &shapes) {
+            Some(next) => now = next,
+            None => break,
+        }
+    }
+    now.told(problem, &small)
+}
+
+/// The model while formulas are looked for: those granted so far are its last components.
+struct Now {
+    state: State,
+    /// What was tried in the place of its effects, by which they pay for their looks.
+    found: Vec<Rivals>,
+    granted: Vec<Granted>,
+}
+
+impl Now {
+    /// The model with the best formula that may join; `None` when none may.
+    fn with_one_more(&self, problem: &Problem, shapes: &[Shape]) -> Option<Self> {
+        let claims = claims(problem, &self.state, &self.found, shapes);
+        let best = simplest(&claims, |claim| may_join(problem, &self.state, claim))?;
+        let mut behind: Vec<&Claim<'_>> = Vec::new();
+        for other in &claims {
+            let same = |known: &&Claim<'_>| is_same(known, other);
+            if !is_same(best, other) && !behind.iter().any(same) {
+                behind.push(other);
+            }
+        }
+        let named = self.state.components.len() - self.granted.len();
+        let name = format!("formula {}", self.granted.len() + 1);
+        let delta = Delta::of(problem);
+        let one = Granted::new(&name, delta, &self.state, best, &behind).ok()?;
+        let mut granted: Vec<Granted> = Vec::new();
+        for (place, known) in self.granted.iter().enumerate() {
+            if !best.group.contains(&(named + place)) {
+                granted.push(known.clone());
+            }
+        }
+        let kept = (0..self.state.components.len()).filter(|at| !best.group.contains(at));
+        let mut components: Vec<Component> =
+            kept.map(|at| self.state.components[at].clone()).collect();
+        components.push(Component::new(one.term.clone()));
+        granted.push(one);
+        let state = State::settled(problem, components, &best.fit.noises)?;
+        Some(Self { state: polished(problem, state), found: Vec::new(), granted })
+    }
+
+    /// The answer, fitted to all rows.
+    fn told(&self, problem: &Problem, small: &Problem) -> Discovery {
+        let mut whole = problem.clone();
+        let state = if small.rows.len() == problem.rows.len() {
+            whole = small.clone();
+            self.state.clone()
+        } else {
+            let first = self.state.on(&whole).unwrap_or_else(|| State::bare(&whole));
+            whole.mark_outliers(&first.fit.left);
+            polished(&whole, self.state.on(&whole).unwrap_or(first))
+        };
+        let named = state.components.len() - self.granted.len();
+        let proposed = |(place, one): (usize, &Granted)| {
+            one.proposed(&state, (small, &self.state), named + place)
+        };
+        let proposals: Vec<Proposal> = self.granted.iter().enumerate().map(proposed).collect();
+        let mut experiments = Vec::new();
+        for (one, proposal) in self.granted.iter().zip(&proposals) {
+            let nearest = &one.rivals[..one.rivals.len().min(NEAREST)];
+            experiments.extend(apart(small, &self.state.fit.noises, &proposal.term, nearest));
+        }
+        experiments.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+        let mut answer = told(&whole, &state);
+        answer.effects.truncate(named);
+        answer.residual = structures(small, &self.state.columns, &self.state.fit);
+        answer.found = match (proposals.is_empty(), answer.residual.is_empty()) {
+            (_, false) => Found::Unexplained,
+            (false, true) => Found::Formula,
+            (true, true) if named == 0 => Found::Nothing,
+            (true, true) => Found::Name,
+        };
+        Discovery { proposals, experiments, ..answer }
+    }
+}
+
+/// A model's figures, nothing proposed.
+fn told(problem: &Problem, state: &State) -> Discovery {
+    let bare = State::bare(problem);
+    let size = |state: &State| rms(&problem.layout, &state.fit.left);
+    let unseen = |state: &State| holdout_rms(problem, &state.columns, &state.fit.noises);
+    Discovery {
+        found: Found::Nothing,
+        doubts: Vec::new(),
+        proposals: Vec::new(),
+        effects: effects(problem, state),
+        rms_um: [size(&bare), size(state)],
+        holdout_rms_um: [unseen(&bare), unseen(state)],
+        residual: Vec::new(),
+        experiments: Vec::new(),
+    }
+}
+
+/// True for a claim that is ahead by the margin, beyond chance, large enough, and helps on unseen
+/// data.
+fn may_join(problem: &Problem, state: &State, claim: &Claim<'_>) -> bool {
+    if claim.ahead <= MARGIN || SIGNIFICANCE <= claim.p_value {
+        return false;
+    }
+    let kept = (0..state.components.len()).filter(|at| !claim.group.contains(at));
+    let others: Vec<Component> = kept.map(|at| state.components[at].clone()).collect();
+    let Ok(base) = Columns::of(problem, &others) else { return false };
+    let columns = base.and(&claim.placed.columns);
+    if !helps_unseen(problem, (&columns, &claim.fit.noises), (&base, &state.fit.noises)) {
+        return false;
+    }
+    let nothing = vec![0.0; problem.rows.len()];
+    let shown = claim.placed.columns.left(&nothing, &claim.placed.coefficients);
+    let shown = Structure {
+        along: String::new(),
+        shape: String::new(),
+        rms_um: rms(&problem.layout, &shown),
+        p_value: claim.p_value,
+        at: None,
+        at_stderr: None,
+        line: None,
+    };
+    is_left(problem, &state.fit, &shown)
+}
+
+/// The claim that is most ahead of those that may join; where others in its place cannot be told
+/// from it, the one of the fewest numbers: a late relation with hardly any lateness is a straight
+/// one.
+fn simplest<'a, 'b>(
+    claims: &'b [Claim<'a>],
+    may_join: impl Fn(&Claim<'_>) -> bool,
+) -> Option<&'b Claim<'a>> {
+    let best = claims.iter().find(|claim| may_join(claim))?;
+    let alike = claims.iter().filter(|claim| {
+        claim.group == best.group && best.ahead - claim.ahead < MARGIN && may_join(claim)
+    });
+    alike.min_by(|a, b| a.placed.shape.numbers().total_cmp(&b.placed.shape.numbers()))
+}
+
+fn is_same(a: &Claim<'_>, b: &Claim<'_>) -> bool {
+    a.placed.shape.words == b.placed.shape.words && a.placed.shape.along == b.placed.shape.along
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use helixlock_plant::Model;
+    use helixlock_traces::{Column, Table};
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::{Distribution, StandardNormal};
+
+    use super::*;
+    use crate::measurement::{Measurement, Nominal};
+
+    const MACHINE: &str = r#"
+[workpiece]
+lead = "6 mm"
+[spindle]
+speed = "6 rpm"
+[grating]
+lines = 13906
+[laser]
+wavelength = "0.63281983 um"
+[dividers]
+a = 110
+b = 150
+[drive]
+step = "0.0125 um"
+frequency = "160 Hz"
+"#;
+
+    /// Two passes of 100 samples over 400 mm with noise of 0.05 µm, and a table motion.
+    fn problem(seed: u64, motion_um: impl Fn(f64) -> f64) -> Problem {
+        let machine = Model::parse(MACHINE, Path::new("machine.toml")).expect("a machine");
+        let mut chance = ChaCha8Rng::seed_from_u64(seed);
+        let rows: Vec<(f64, f64)> =
+            (0..200_u32).map(|row| (f64::from(row / 100), 4.0 * f64::from(row % 100))).collect();
+        let column = |name: &str, values: Vec<f64>| Column { name: name.into(), values };
+        let table = Table::new(vec![
+            column("pass", rows.iter().map(|(pass, _)| *pass).collect()),
+            column("position_mm", rows.iter().map(|(_, x)| *x).collect()),
+            column("error_um", vec![0.0; rows.len()]),
+        ]);
+        let measurement = Measurement::from_table(&table, &Nominal::of(&machine));
+        let mut problem =
+            Problem::new(&machine, &measurement.expect("a measurement")).expect("all columns");
+        // What the dividers leave of the lead is in the data, as it is in the model.
+        for (row, (_, x)) in rows.iter().enumerate() {
+            let noise: f64 = StandardNormal.sample(&mut chance);
+            problem.observed[row] = problem.predicted[row] + 0.05 * noise - motion_um(*x);
+        }
+        problem
+    }
+
+    #[test]
+    fn nothing_is_proposed_on_noise() {
+        for seed in 0..3 {
+            let found = discover(&problem(seed, |_| 0.0));
+            assert_eq!(found.found, Found::Nothing, "seed {seed}: {:?}", found.proposals);
+        }
+    }
+
+    #[test]
+    fn a_root_is_found_with_its_values() {
+        let found = discover(&problem(1, |x| 0.1 * (x - 40.0).max(0.0).sqrt()));
+        assert_eq!(found.found, Found::Formula, "{found:?}");
+        let proposal = &found.proposals[0];
+        assert_eq!(proposal.formula, "size*sqrt(ramp(position_mm - at_mm))");
+        for (name, truth, unit) in [("size", 0.1, "µm/mm^0.5"), ("at_mm", 40.0, "mm")] {
+            let parameters = &mut proposal.parameters.iter();
+            let one = parameters.find(|what| what.name == name).expect(name);
+            let stderr = one.stderr.expect("an error");
+            assert!((one.value - truth).abs() < 3.0 * stderr, "{one:?}");
+            assert_eq!(one.unit, unit);
+        }
+    }
+}

@@ -1,0 +1,201 @@
+//! Every formula that the samples of a problem may show.
+
+use super::dimension::Dimension;
+use super::expression::{Expression, Unknown};
+use super::quantities::Quantities;
+use super::shape::{Part, Shape};
+use super::{logged, moving, turning};
+use crate::model::Problem;
+use crate::numerics::{count, spread};
+
+/// The plain shapes: what stands in the place of effects whenever a model is judged.
+#[must_use]
+pub(crate) fn nameless(problem: &Problem) -> Vec<Shape> {
+    let quantities = Quantities::of(problem);
+    let mut all = Vec::new();
+    if 0.0 < spread(&quantities.position.values) {
+        all.extend(moving::along_travel(&quantities));
+        all.extend(moving::again_and_again(&quantities));
+    }
+    if quantities.timed && 0.0 < spread(&quantities.time.values) {
+        all.extend(moving::in_time(&quantities));
+    }
+    all.extend(moving::since_a_reversal(&quantities));
+    for (name, order) in quantities.shafts(problem) {
+        all.extend(turning::each_turn(&quantities, &name, order));
+    }
+    for column in &quantities.columns {
+        all.extend(logged::of_a_column(&quantities, column));
+    }
+    all
+}
+
+/// The whole grammar: those, and what is looked for when nothing else explains the data.
+#[must_use]
+pub(crate) fn formulas(problem: &Problem) -> Vec<Shape> {
+    let quantities = Quantities::of(problem);
+    let mut all = nameless(problem);
+    all.extend(turning::waves(&quantities, problem));
+    all.extend(turning::swelling(&quantities, problem));
+    all.extend(turning::resonances(&quantities, problem));
+    if 0.0 < spread(&quantities.position.values) {
+        all.extend(moving::powers(&quantities));
+    }
+    all.extend(moving::of_the_way(&quantities));
+    for column in &quantities.columns {
+        all.extend(logged::beyond_a_line(&quantities, column));
+    }
+    all
+}
+
+/// A shape without unknowns, to be filled.
+pub(super) fn shape(words: &'static str, along: &str, physics: &'static str) -> Shape {
+    Shape {
+        words,
+        along: along.to_owned(),
+        physics,
+        parts: Vec::new(),
+        unknowns: Vec::new(),
+        turns: false,
+        placed: false,
+        scan: None,
+    }
+}
+
+impl Shape {
+    /// With one more curve and its size.
+    pub(super) fn curve(mut self, size: &'static str, curve: Expression) -> Self {
+        self.parts.push(Part::Curve { size, curve });
+        self
+    }
+
+    /// With one more sine and its amplitude.
+    pub(super) fn wave(
+        mut self,
+        size: &'static str,
+        phase: &'static str,
+        swell: Option<Expression>,
+        angle: Expression,
+    ) -> Self {
+        self.parts.push(Part::Wave { size, phase, swell, angle });
+        self
+    }
+
+    /// With one more unknown.
+    pub(super) fn unknown(
+        mut self,
+        name: &'static str,
+        dimension: &Dimension,
+        axis: Vec<f64>,
+    ) -> Self {
+        self.unknowns.push(Unknown { name, dimension: dimension.clone(), axis });
+        self
+    }
+
+    /// With its first unknown a place.
+    pub(super) fn placed(mut self) -> Self {
+        self.placed = true;
+        self
+    }
+}
+
+/// An unknown by its place in the list.
+pub(super) fn unknown(place: usize) -> Expression {
+    Expression::Unknown(place)
+}
+
+/// So many values between two ends, evenly.
+pub(super) fn evenly(low: f64, high: f64, points: usize) -> Vec<f64> {
+    (0..points).map(|i| low + (high - low) * (count(i) + 0.5) / count(points)).collect()
+}
+
+/// So many values between two ends, evenly on a logarithmic scale.
+pub(super) fn by_factors(low: f64, high: f64, points: usize) -> Vec<f64> {
+    evenly(libm::log(low), libm::log(high), points).into_iter().map(libm::exp).collect()
+}
+
+/// Periods that go so often into a range, evenly in how often, in ascending order.
+pub(super) fn periods(range: f64, fewest: f64, most: f64, points: usize) -> Vec<f64> {
+    evenly(fewest, most, points).into_iter().rev().map(|times| range / times).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use helixlock_plant::{Effect, Entry, Model};
+    use helixlock_traces::{Column, Table};
+
+    use super::super::shape::Delta;
+    use super::*;
+    use crate::measurement::{Measurement, Nominal};
+    use crate::model::{Columns, Stage};
+    use crate::noise::Noise;
+
+    const MACHINE: &str = r#"
+[workpiece]
+lead = "6 mm"
+[spindle]
+speed = "6 rpm"
+[lead_screw]
+lead = "12 mm"
+[[gear]]
+name = "wheel"
+order = 2.5
+[grating]
+lines = 13906
+[laser]
+wavelength = "0.63281983 um"
+[dividers]
+a = 110
+b = 150
+[drive]
+step = "0.0125 um"
+frequency = "160 Hz"
+"#;
+
+    /// Four passes there and back at three speeds, with a logged column.
+    fn problem() -> Problem {
+        let machine = Model::parse(MACHINE, Path::new("machine.toml")).expect("a machine");
+        let column = |name: &str, value: &dyn Fn(f64, f64) -> f64| {
+            let samples = (0..4_u32).flat_map(|pass| (0..60_u32).map(move |row| (pass, row)));
+            let values = samples.map(|(pass, row)| value(f64::from(pass), f64::from(row)));
+            Column { name: name.into(), values: values.collect() }
+        };
+        let back = |row: f64| if row < 30.0 { row } else { 60.0 - row };
+        let table = Table::new(vec![
+            column("pass", &|pass, _| pass),
+            column("time_s", &|pass, row| 100.0 * pass + 1.3 * row),
+            column("position_mm", &|_, row| 3.7 * back(row)),
+            column("speed_rpm", &|pass, _| 5.0 + pass % 3.0),
+            column("oil_temperature_c", &|pass, row| 21.0 + libm::sin(pass + 0.1 * row)),
+            column("error_um", &|pass, row| libm::sin(7.0 * row * row + pass)),
+        ]);
+        let measurement = Measurement::from_table(&table, &Nominal::of(&machine));
+        Problem::new(&machine, &measurement.expect("a measurement")).expect("all columns")
+    }
+
+    #[test]
+    fn every_formula_has_a_unit_and_does_what_it_says() {
+        let problem = problem();
+        let stage = Stage::new(&problem, &Columns::default(), &[Noise::white()]);
+        let all = formulas(&problem);
+        assert!(30 < all.len(), "{}", all.len());
+        for shape in &all {
+            let told = format!("{} along {}", shape.words, shape.along);
+            assert!(shape.written(Delta::Micrometres).is_some(), "{told}: unlike units");
+            let Some(placed) = shape.best(&stage, Entry::Motion) else { continue };
+            let term = placed.term("formula").expect(&told);
+            let effect = term.effect(&problem.model, &problem.record.columns).expect(&told);
+            let shown = problem.column(Entry::Motion, &effect.deltas_um(&problem.record));
+            let mut fitted = vec![0.0; shown.len()];
+            for (column, size) in placed.columns.raw.iter().zip(&placed.coefficients) {
+                fitted.iter_mut().zip(column).for_each(|(sum, part)| *sum += size * part);
+            }
+            let most = fitted.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+            for (a, b) in shown.iter().zip(&fitted) {
+                assert!((a - b).abs() < 1e-6 * most, "{told}: {a} and {b}");
+            }
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! Shapes over a logged column.
+
+use std::sync::Arc;
+
+use super::expression::{Expression, Function, Quantity, call};
+use super::grammar::{by_factors, evenly, shape, unknown};
+use super::quantities::{Quantities, about_mean, less_mean, lowest, of};
+use super::shape::Shape;
+use crate::numerics::spread;
+
+/// Straight, through the travel, late, late through the travel, and by a relay.
+pub(super) fn of_a_column(all: &Quantities, column: &Arc<Quantity>) -> Vec<Shape> {
+    let (x, time) = (&all.position, &all.time);
+    let (low, range) = (lowest(&column.values), spread(&column.values));
+    let record_s = spread(&time.values).max(f64::MIN_POSITIVE);
+    // Time constants from a hundredth of the record to half of it.
+    let constants = || by_factors(0.01 * record_s, 0.5 * record_s, 12);
+    let late = || Expression::Lag { of: Arc::clone(column), time: Arc::clone(time), constant: 0 };
+    let of_column = |words, physics| shape(words, &column.name, physics);
+    let hysteresis = evenly(0.0, 0.6, 6).iter().map(|share| share * range).collect();
+    let mut shapes = vec![
+        of_column("straight relation", "what the column measures moves or stretches a part")
+            .curve("size", of(column)),
+        of_column("late relation", "heat or pressure that takes its time to reach a part")
+            .unknown("late_s", &time.dimension, constants())
+            .curve("size", late()),
+        of_column("relay", "a switch with hysteresis: a thermostat, a valve, a contactor")
+            .unknown("middle", &column.dimension, evenly(low, low + range, 10))
+            .unknown("hysteresis", &column.dimension, hysteresis)
+            .curve("size", Expression::Relay { of: Arc::clone(column), middle: 0, width: 1 }),
+    ];
+    if 0.0 < spread(&x.values) {
+        shapes.push(
+            of_column(
+                "straight relation times the travel",
+                "a scale, screw or bed that stretches with the column",
+            )
+            .curve("slope", of(x))
+            .curve("size", of(x) * about_mean(column)),
+        );
+        shapes.push(
+            of_column(
+                "late relation times the travel",
+                "a scale, screw, bed or beam path that follows the column late",
+            )
+            .unknown("late_s", &time.dimension, constants())
+            .curve("slope", of(x))
+            .curve("size", of(x) * less_mean(late(), column)),
+        );
+    }
+    shapes
+}
+
+/// A square, a kink at a value, and each way its own.
+pub(super) fn beyond_a_line(all: &Quantities, column: &Arc<Quantity>) -> Vec<Shape> {
+    let (low, range) = (lowest(&column.values), spread(&column.values));
+    let of_column = |words, physics| shape(words, &column.name, physics);
+    let above = of(column) - unknown(0);
+    let mut shapes = vec![
+        of_column("square of a column", "bending, dissipation or drag: what grows with the square")
+            .curve("slope", of(column))
+            .curve("size", Expression::Power(Box::new(about_mean(column)), 2)),
+        of_column("kink in a column", "what touches, opens or saturates at a value")
+            .unknown("from", &column.dimension, evenly(low, low + range, 24))
+            .curve("slope", of(column))
+            .curve("size", call(Function::Ramp, above)),
+    ];
+    if 0.0 < spread(&all.direction.values) {
+        shapes.push(
+            of_column("relation each way its own", "wind-up or play under the column's load")
+                .curve("size", of(&all.direction) * about_mean(column)),
+        );
+    }
+    shapes
+}

@@ -1,0 +1,209 @@
+//! Shapes over travel, time, speed, direction and way.
+
+use std::sync::Arc;
+
+use super::dimension::Dimension;
+use super::expression::{Expression, Function, Quantity, call, number, turns};
+use super::grammar::{by_factors, evenly, periods, shape, unknown};
+use super::quantities::{Quantities, from_start, lowest, of};
+use super::shape::Shape;
+use crate::numerics::spread;
+
+/// First width of a knock, against the distance of two; it is refined.
+const KNOCK: f64 = 0.07;
+
+fn ramp(from: Expression) -> Expression {
+    call(Function::Ramp, from)
+}
+
+/// A pulse where the share of a period is a half, of so wide a bell.
+fn knock(share: Expression, width: Expression) -> Expression {
+    let off = Expression::Power(Box::new((share - number(0.5)) / width), 2);
+    call(Function::Exp, number(-0.5) * off)
+}
+
+/// A triangle of so many waves.
+pub(super) fn triangle(waves: Expression) -> Expression {
+    call(Function::Abs, call(Function::Fract, waves) - number(0.5))
+}
+
+/// Kinks, bends, steps and roots along the travel.
+pub(super) fn along_travel(all: &Quantities) -> Vec<Shape> {
+    let x = &all.position;
+    let mm = &x.dimension;
+    let (low, range) = (lowest(&x.values), spread(&x.values));
+    let places = || evenly(low, low + range, 100);
+    let from = || of(x) - unknown(0);
+    let at =
+        |words, physics| shape(words, "position", physics).unknown("at_mm", mm, places()).placed();
+    let squared = Expression::Power(Box::new(ramp(from())), 2);
+    vec![
+        at(
+            "kink at one place",
+            "two guides that meet at an angle, a joint of the bed, a rack's change of pitch",
+        )
+        .curve("slope", of(x))
+        .curve("size", ramp(from())),
+        at(
+            "bend from one place on",
+            "a bed that sags from a support on, a screw that is worn from a place on",
+        )
+        .curve("slope", of(x))
+        .curve("size", squared),
+        at("step at one place", "a joint of two racks or scales, a dent of the guide")
+            .curve("slope", of(x))
+            .curve("size", call(Function::Step, from())),
+        at("root from one place on", "contact that stiffens under load")
+            .curve("size", call(Function::Sqrt, ramp(from()))),
+    ]
+}
+
+/// Shapes that come again along the travel.
+pub(super) fn again_and_again(all: &Quantities) -> Vec<Shape> {
+    let x = &all.position;
+    let mm = &x.dimension;
+    let range = spread(&x.values);
+    let number = Dimension::number();
+    let (start, _) = from_start(x);
+    let waves = || start.clone() / unknown(0) + unknown(1);
+    let again = |words, physics, fewest: f64, most: f64, points: [usize; 2]| {
+        shape(words, "position", physics)
+            .unknown("period_mm", mm, periods(range, fewest, most, points[0]))
+            .unknown("offset_rev", &number, evenly(0.0, 1.0, points[1]))
+    };
+    vec![
+        again(
+            "sawtooth",
+            "a rack or scale of pieces, each as long as the period",
+            4.0,
+            32.0,
+            [94, 5],
+        )
+        .curve("size", call(Function::Fract, waves())),
+        again(
+            "knocks at even distances",
+            "a chipped tooth, a ball or roller with a spot",
+            4.0,
+            32.0,
+            [140, 8],
+        )
+        .unknown("width", &number, vec![KNOCK])
+        .curve("size", knock(call(Function::Fract, waves()), unknown(2))),
+        again(
+            "triangles",
+            "a guide ground in strokes, supports at even distances",
+            0.8,
+            4.0,
+            [16, 12],
+        )
+        .curve("size", triangle(waves())),
+        again("half waves", "contact at one side only: what lifts off", 0.8, 4.0, [16, 12])
+            .curve("size", ramp(call(Function::Sin, turns(waves())))),
+    ]
+}
+
+/// A step, a parabola, a rise and its decay.
+pub(super) fn in_time(all: &Quantities) -> Vec<Shape> {
+    let t = &all.time;
+    let s = &t.dimension;
+    let (low, range) = (lowest(&t.values), spread(&t.values));
+    let peaks: Vec<f64> = evenly(0.03, 0.75, 24).iter().map(|share| share * range).collect();
+    let (start, _) = from_start(t);
+    let share = start.clone() / unknown(0);
+    vec![
+        shape("step at one moment", "time", "something slipped or was knocked and stayed so")
+            .unknown("at_s", s, evenly(low, low + range, 200))
+            .placed()
+            .curve("size", call(Function::Step, of(t) - unknown(0))),
+        shape("parabola", "time", "a load or heat that grows ever faster")
+            .curve("slope", of(t))
+            .curve("size", Expression::Power(Box::new(start), 2)),
+        shape("rise and fall", "time", "one part warms first, another takes the heat away")
+            .unknown("peak_s", s, peaks)
+            .curve("size", share.clone() * call(Function::Exp, number(1.0) - share)),
+    ]
+}
+
+/// Powers and decays along travel and time.
+pub(super) fn powers(all: &Quantities) -> Vec<Shape> {
+    let mut shapes = of_one(&all.position, "position", "length_mm");
+    let (start, _) = from_start(&all.position);
+    shapes.push(
+        shape("parabola", "position", "a bed that sags, a screw of steadily changing lead")
+            .curve("slope", of(&all.position))
+            .curve("size", Expression::Power(Box::new(start), 2)),
+    );
+    if all.timed && 0.0 < spread(&all.time.values) {
+        shapes.extend(of_one(&all.time, "time", "constant_s"));
+    }
+    shapes
+}
+
+fn of_one(x: &Arc<Quantity>, along: &str, constant: &'static str) -> Vec<Shape> {
+    let range = spread(&x.values);
+    let (start, _) = from_start(x);
+    let decay = call(Function::Exp, number(-1.0) * start.clone() / unknown(0));
+    let power = |n| Expression::Power(Box::new(start.clone()), n);
+    vec![
+        shape("cube", along, "a bed bent by two supports")
+            .curve("slope", of(x))
+            .curve("square", power(2))
+            .curve("size", power(3)),
+        shape("decay", along, "warming towards a balance, play that is taken up")
+            .unknown(constant, &x.dimension, by_factors(0.02 * range, 2.0 * range, 24))
+            .curve("size", decay),
+    ]
+}
+
+/// Play that is not taken up at once, where passes turn back inside.
+pub(super) fn since_a_reversal(all: &Quantities) -> Option<Shape> {
+    let ways = all.since_reversal.values.iter().copied().filter(|mm| mm.is_finite());
+    let longest = ways.fold(0.0, f64::max);
+    let (mm, way) = (&all.position.dimension, &all.direction);
+    let gone = number(-1.0) * of(&all.since_reversal) / unknown(0);
+    (0.0 < longest).then(|| {
+        shape(
+            "taken up after a turn",
+            "way since the reversal",
+            "play or wind-up that is taken up over a way",
+        )
+        .unknown("over_mm", mm, by_factors(0.005 * longest, 0.5 * longest, 12))
+        .curve("play", of(way))
+        .curve("size", of(way) * call(Function::Exp, gone))
+    })
+}
+
+/// What depends on how fast, which way, and which pass.
+pub(super) fn of_the_way(all: &Quantities) -> Vec<Shape> {
+    let (x, v, way) = (&all.position, &all.speed, &all.direction);
+    let moves = 0.0 < spread(&x.values);
+    let mut shapes = Vec::new();
+    if 0.0 < spread(&way.values) {
+        shapes.push(
+            shape("each way its own", "direction", "play, or friction that bends what carries")
+                .curve("size", of(way)),
+        );
+        if moves {
+            shapes.push(
+                shape("each way its own slope", "direction", "wind-up that grows with the length")
+                    .curve("size", of(way) * of(x)),
+            );
+        }
+    }
+    if 0.0 < spread(&v.values) {
+        let physics = "a sensor or a follower that is late by a time";
+        shapes.push(shape("late by a time", "speed", physics).curve("size", of(v) * of(way)));
+        let physics = "friction or heat that grows with speed";
+        shapes.push(shape("by speed", "speed", physics).curve("size", of(v)));
+        if moves {
+            shapes.push(shape("slope by speed", "speed", physics).curve("size", of(v) * of(x)));
+        }
+    }
+    if 0.0 < spread(&all.pass.values) && moves {
+        let physics = "heat or wear from pass to pass";
+        shapes.push(
+            shape("slope by the pass", "passes", physics).curve("size", of(&all.pass) * of(x)),
+        );
+    }
+    shapes
+}

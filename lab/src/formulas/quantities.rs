@@ -1,0 +1,116 @@
+//! What the samples of a problem know, by the names and units that formulas use.
+
+use std::sync::Arc;
+
+use super::dimension::Dimension;
+use super::expression::{Expression, Quantity, number};
+use crate::model::Problem;
+use crate::numerics::{count, spread};
+use crate::policy::extent::TURNS;
+
+/// Coordinates and logged columns that vary.
+#[derive(Debug)]
+pub(crate) struct Quantities {
+    pub(crate) position: Arc<Quantity>,
+    pub(crate) time: Arc<Quantity>,
+    /// True when time was measured.
+    pub(crate) timed: bool,
+    pub(crate) turns: Arc<Quantity>,
+    pub(crate) speed: Arc<Quantity>,
+    pub(crate) direction: Arc<Quantity>,
+    pub(crate) since_reversal: Arc<Quantity>,
+    pub(crate) pass: Arc<Quantity>,
+    pub(crate) columns: Vec<Arc<Quantity>>,
+}
+
+impl Quantities {
+    pub(crate) fn of(problem: &Problem) -> Self {
+        let record = &problem.record;
+        let quantity = |name: &str, unit: Dimension, values: Vec<f64>| {
+            Arc::new(Quantity { name: name.to_owned(), dimension: unit, values })
+        };
+        let unit = Dimension::unit;
+        let covariates = problem.measurement.covariates.iter();
+        let columns = covariates
+            .filter(|(_, values)| 0.0 < spread(values))
+            .map(|(name, values)| quantity(name, Dimension::of_column(name), values.clone()));
+        Self {
+            position: quantity("position_mm", unit("mm"), record.position_mm.clone()),
+            time: quantity("time_s", unit("s"), record.time_s.clone()),
+            timed: problem.measurement.timed,
+            turns: quantity("angle_rev", Dimension::number(), record.turns().collect()),
+            speed: quantity("speed_rpm", unit("rpm"), record.speed_rpm.clone()),
+            direction: quantity("direction", Dimension::number(), record.direction.clone()),
+            since_reversal: quantity(
+                "since_reversal_mm",
+                unit("mm"),
+                record.since_reversal_mm.clone(),
+            ),
+            pass: quantity(
+                "pass",
+                Dimension::number(),
+                record.pass.iter().map(|pass| count(*pass)).collect(),
+            ),
+            columns: columns.collect(),
+        }
+    }
+
+    /// Shafts whose turns the samples resolve, by name and turns a turn of the spindle.
+    pub(crate) fn shafts(&self, problem: &Problem) -> Vec<(String, f64)> {
+        let mut shafts = vec![("spindle angle".to_owned(), 1.0)];
+        if let Some(screw) = problem.model.lead_screw.as_ref().filter(|_| !problem.model.rotary) {
+            let order = problem.model.workpiece.lead.mm() / screw.mm();
+            shafts.push(("machine screw angle".to_owned(), order));
+        }
+        shafts.retain(|(_, order)| {
+            *order < problem.highest_order && TURNS < order * spread(&self.turns.values)
+        });
+        shafts
+    }
+}
+
+/// A quantity in a formula.
+pub(crate) fn of(quantity: &Arc<Quantity>) -> Expression {
+    Expression::Of(Arc::clone(quantity))
+}
+
+/// A quantity from its lowest value on, where that is far from 0 for its range.
+pub(crate) fn from_start(quantity: &Arc<Quantity>) -> (Expression, f64) {
+    let low = lowest(&quantity.values);
+    if low.abs() < 0.1 * spread(&quantity.values) {
+        return (of(quantity), 0.0);
+    }
+    let low = rounded(low);
+    (less(of(quantity), quantity, low), low)
+}
+
+/// A quantity about its mean.
+pub(crate) fn about_mean(quantity: &Arc<Quantity>) -> Expression {
+    less_mean(of(quantity), quantity)
+}
+
+/// What is made of a quantity, less that one's mean.
+pub(crate) fn less_mean(made: Expression, quantity: &Arc<Quantity>) -> Expression {
+    let mean = quantity.values.iter().sum::<f64>() / count(quantity.values.len().max(1));
+    less(made, quantity, rounded(mean))
+}
+
+/// Something in a quantity's unit, less a number in that.
+fn less(made: Expression, quantity: &Quantity, by: f64) -> Expression {
+    let number = |value| Expression::Number(value, quantity.dimension.clone());
+    if by < 0.0 { made + number(-by) } else { made - number(by) }
+}
+
+/// A shaft's turns.
+pub(crate) fn shaft_turns(turns: &Arc<Quantity>, order: f64) -> Expression {
+    if order.to_bits() == 1.0_f64.to_bits() { of(turns) } else { number(order) * of(turns) }
+}
+
+pub(crate) fn lowest(values: &[f64]) -> f64 {
+    values.iter().copied().fold(f64::INFINITY, f64::min)
+}
+
+/// Five digits, so that a formula can be read.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.4e}").parse().unwrap_or(value)
+}

@@ -1,0 +1,387 @@
+//! One shape of the grammar: its formula, where its unknowns are looked for, and its best place.
+
+use std::borrow::Cow;
+
+use helixlock_plant::{EffectError, Entry, Parameter, Term};
+use rayon::prelude::*;
+
+use super::dimension::Dimension;
+use super::expression::{Expression, Function, Unknown, call};
+use crate::model::{Columns, Gain, Problem, Stage};
+use crate::numerics::{Looks, count};
+use crate::policy::evidence::NO_SINE_PRICE;
+use crate::spectrum::{Scan, strongest_first};
+
+/// A shape, where it stands and where its unknowns are looked for.
+#[derive(Debug, Clone)]
+pub(crate) struct Shape {
+    /// What it is called in words.
+    pub(crate) words: &'static str,
+    /// What it stands along.
+    pub(crate) along: String,
+    /// What kind of physics has this shape.
+    pub(crate) physics: &'static str,
+    /// What it adds up from, a size each.
+    pub(crate) parts: Vec<Part>,
+    /// Its nonlinear numbers.
+    pub(crate) unknowns: Vec<Unknown>,
+    /// True when it comes back with every turn of a shaft, and is no sine.
+    pub(crate) turns: bool,
+    /// True when its first unknown is a place on the coordinate.
+    pub(crate) placed: bool,
+    /// When its first unknown is a frequency: of what, one value a sample, and up to where.
+    pub(crate) scan: Option<Band>,
+}
+
+/// Frequencies to look at.
+#[derive(Debug, Clone)]
+pub(crate) struct Band {
+    /// Cyclic coordinate, one value a sample.
+    pub(crate) over: Vec<f64>,
+    /// Lowest and highest frequency.
+    pub(crate) ends: [f64; 2],
+}
+
+/// A part of a formula that one size belongs to.
+#[derive(Debug, Clone)]
+pub(crate) enum Part {
+    /// size · curve.
+    Curve { size: &'static str, curve: Expression },
+    /// size · swell · sin(angle + phase), as a sine and a cosine in a fit.
+    Wave { size: &'static str, phase: &'static str, swell: Option<Expression>, angle: Expression },
+}
+
+/// What the error is measured in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Delta {
+    Micrometres,
+    Arcseconds,
+}
+
+impl Delta {
+    /// That of a problem's machine.
+    pub(crate) fn of(problem: &Problem) -> Self {
+        if problem.model.rotary { Self::Arcseconds } else { Self::Micrometres }
+    }
+
+    fn symbol(self) -> &'static str {
+        if self == Self::Arcseconds { "arcsec" } else { "µm" }
+    }
+}
+
+/// A shape at its best numbers.
+#[derive(Debug, Clone)]
+pub(crate) struct Placed<'a> {
+    /// Which.
+    pub(crate) shape: &'a Shape,
+    /// The best of its unknowns.
+    pub(crate) values: Vec<f64>,
+    /// Where it enters.
+    pub(crate) entry: Entry,
+    /// Its columns there.
+    pub(crate) columns: Columns,
+    /// Their coefficients.
+    pub(crate) coefficients: Vec<f64>,
+    /// Whitened square that it takes away.
+    pub(crate) gain: f64,
+    /// Its place, mm or s, when it has one.
+    pub(crate) at: Option<f64>,
+}
+
+/// Columns whose gains are worked out together.
+const TOGETHER: usize = 16;
+
+/// Finer grids around the best numbers, each by [`FINER`] finer.
+const ROUNDS: i32 = 5;
+const FINER: f64 = 2.5;
+
+/// Lines of a scan that are tried.
+const LINES: usize = 6;
+
+/// First step of an unknown that is looked for from one value, against that value.
+const SHARE: f64 = 0.4;
+
+impl Part {
+    fn columns(&self, at: &[f64], samples: usize) -> Vec<Vec<f64>> {
+        let full = |values: Cow<'_, [f64]>| {
+            if values.len() == 1 { vec![values[0]; samples] } else { values.into_owned() }
+        };
+        match self {
+            Self::Curve { curve, .. } => vec![full(curve.values(at))],
+            Self::Wave { swell, angle, .. } => {
+                let angle = angle.values(at);
+                let swell = swell.as_ref().map(|swell| full(swell.values(at)));
+                let of = |apply: fn(f64) -> f64| {
+                    let wave = angle.iter().map(|angle| apply(*angle));
+                    match &swell {
+                        None => wave.collect(),
+                        Some(swell) => wave.zip(swell).map(|(wave, by)| wave * by).collect(),
+                    }
+                };
+                vec![of(libm::sin), of(libm::cos)]
+            }
+        }
+    }
+
+    fn text(&self, names: &[&str]) -> String {
+        match self {
+            Self::Curve { size, curve } if curve.is_a_sum() => {
+                format!("{size}*({})", curve.text(names))
+            }
+            Self::Curve { size, curve } => format!("{size}*{}", curve.text(names)),
+            Self::Wave { size, phase, swell, angle } => {
+                let factor = |swell: &Expression| {
+                    let text = swell.text(names);
+                    if swell.is_a_sum() { format!("*({text})") } else { format!("*{text}") }
+                };
+                let swell = swell.as_ref().map_or(String::new(), factor);
+                format!("{size}{swell}*sin({} + {phase})", angle.text(names))
+            }
+        }
+    }
+
+    /// Unit of what its size is multiplied by; `None` for a formula of unlike units.
+    fn dimension(&self, unknowns: &[Unknown]) -> Option<Dimension> {
+        match self {
+            Self::Curve { curve, .. } => curve.dimension(unknowns),
+            Self::Wave { swell, angle, .. } => {
+                call(Function::Sin, angle.clone()).dimension(unknowns)?;
+                swell.as_ref().map_or(Some(Dimension::number()), |one| one.dimension(unknowns))
+            }
+        }
+    }
+}
+
+impl Shape {
+    /// Places of its grid.
+    pub(crate) fn places(&self) -> f64 {
+        let lines = self.scan.as_ref().map_or(1.0, Band::lines);
+        let axes = self.unknowns.iter().skip(usize::from(self.scan.is_some()));
+        lines * axes.map(|unknown| count(unknown.axis.len())).product::<f64>()
+    }
+
+    /// Its nonlinear numbers.
+    pub(crate) fn numbers(&self) -> f64 {
+        count(self.unknowns.len())
+    }
+
+    /// Its sizes, a phase among them.
+    pub(crate) fn sizes(&self) -> usize {
+        let width = |part: &Part| if matches!(part, Part::Wave { .. }) { 2 } else { 1 };
+        self.parts.iter().map(width).sum()
+    }
+
+    /// What it costs as evidence beside its looks when a size costs so much.
+    pub(crate) fn price(&self, of_a_size: f64) -> f64 {
+        let rare = if self.turns { NO_SINE_PRICE } else { 0.0 };
+        rare + count(self.sizes()) * of_a_size
+    }
+
+    /// The best of it on what a stage's model leaves; `None` when it takes nothing away.
+    pub(crate) fn best(&self, stage: &Stage<'_>, entry: Entry) -> Option<Placed<'_>> {
+        let mut axes: Vec<Vec<f64>> = self.unknowns.iter().map(|one| one.axis.clone()).collect();
+        if let Some(band) = &self.scan {
+            axes[0] = band.strongest(stage);
+        }
+        let mut placed = self.best_of(stage, entry, &product(&axes))?;
+        let steps = self.steps(&placed.values);
+        for round in 0..ROUNDS * i32::from(!steps.is_empty()) {
+            let share = FINER.powi(-round);
+            let steps: Vec<f64> = steps.iter().map(|step| share * step).collect();
+            let near = self.best_of(stage, entry, &around(&placed.values, &steps));
+            if let Some(near) = near.filter(|near| placed.gain < near.gain) {
+                placed = near;
+            }
+        }
+        (0.0 < placed.gain).then_some(placed)
+    }
+
+    /// Distance of grid values near some values, unknown by unknown.
+    fn steps(&self, values: &[f64]) -> Vec<f64> {
+        let of = |(place, unknown): (usize, &Unknown)| match &self.scan {
+            Some(band) if place == 0 => 0.3 * band.resolution(),
+            _ => spacing(&unknown.axis, values[place]),
+        };
+        self.unknowns.iter().enumerate().map(of).collect()
+    }
+
+    fn best_of(&self, stage: &Stage<'_>, entry: Entry, grid: &[Vec<f64>]) -> Option<Placed<'_>> {
+        let of = move |some: &'_ [Vec<f64>]| -> Option<((Vec<f64>, Columns), Gain)> {
+            let columns: Vec<Columns> =
+                some.iter().map(|values| self.columns(stage.problem, entry, values)).collect();
+            let gains = stage.gains(&columns.iter().collect::<Vec<_>>());
+            let best = some.iter().cloned().zip(columns).zip(gains);
+            best.max_by(|a, b| a.1.gain.total_cmp(&b.1.gain))
+        };
+        let best = grid.par_chunks(TOGETHER).filter_map(of).collect::<Vec<_>>().into_iter();
+        let ((values, columns), gain) = best.max_by(|a, b| a.1.gain.total_cmp(&b.1.gain))?;
+        let at = self.placed.then(|| values[0]);
+        let coefficients = gain.fit.coefficients;
+        Some(Placed { shape: self, values, entry, columns, coefficients, gain: gain.gain, at })
+    }
+
+    /// Its columns for some unknowns, the sine before the cosine.
+    fn columns(&self, problem: &Problem, entry: Entry, values: &[f64]) -> Columns {
+        let samples = problem.record.len();
+        let curves = self.parts.iter().flat_map(|part| part.columns(values, samples));
+        Columns::free(curves.map(|deltas| problem.column(entry, &deltas)).collect())
+    }
+
+    /// The formula, and the unit of each of its parameters; `None` when it mixes units.
+    pub(crate) fn written(&self, delta: Delta) -> Option<(String, Vec<(&'static str, Dimension)>)> {
+        let delta = Dimension::unit(delta.symbol());
+        let names: Vec<&str> = self.unknowns.iter().map(|unknown| unknown.name).collect();
+        let text: Vec<String> = self.parts.iter().map(|part| part.text(&names)).collect();
+        let mut parameters = Vec::new();
+        for part in &self.parts {
+            let unit = delta.over(&part.dimension(&self.unknowns)?);
+            match part {
+                Part::Curve { size, .. } => parameters.push((*size, unit)),
+                Part::Wave { size, phase, .. } => {
+                    parameters.extend([(*size, unit), (*phase, Dimension::number())]);
+                }
+            }
+        }
+        parameters.extend(self.unknowns.iter().map(|one| (one.name, one.dimension.clone())));
+        Some((text.join(" + "), parameters))
+    }
+
+    /// The units of its parameters in words.
+    pub(crate) fn units(&self, delta: Delta) -> Vec<String> {
+        let written = self.written(delta).map_or_else(Vec::new, |(_, parameters)| parameters);
+        written.into_iter().map(|(_, unit)| unit.to_string()).collect()
+    }
+}
+
+impl Placed<'_> {
+    /// Where it was looked for: what its curve turns by along each of its unknowns through the best.
+    pub(crate) fn looks(&self, stage: &Stage<'_>) -> Looks {
+        let unknowns = self.shape.unknowns.iter().enumerate();
+        unknowns.fold(Looks::at_places(1.0), |looks, (place, unknown)| match &self.shape.scan {
+            Some(band) if place == 0 => looks.along(band.arc(stage)),
+            _ => looks.over(&reach(&unknown.axis), |value| {
+                let mut values = self.values.clone();
+                values[place] = value;
+                stage.span(&self.shape.columns(stage.problem, self.entry, &values))
+            }),
+        })
+    }
+
+    /// It as an effect of the user, with its values.
+    ///
+    /// # Errors
+    ///
+    /// [`EffectError`] when the formula cannot be read, which a test excludes.
+    pub(crate) fn term(&self, name: &str) -> Result<Term, EffectError> {
+        let Some((formula, units)) = self.shape.written(Delta::Micrometres) else {
+            return Term::custom(name, self.entry, "", Vec::new(), Vec::new());
+        };
+        let mut values = Vec::new();
+        let mut rest = self.coefficients.iter().copied();
+        for part in &self.shape.parts {
+            let first = rest.next().unwrap_or_default();
+            if matches!(part, Part::Wave { .. }) {
+                let second = rest.next().unwrap_or_default();
+                values.extend([libm::hypot(first, second), libm::atan2(second, first)]);
+            } else {
+                values.push(first);
+            }
+        }
+        values.extend(&self.values);
+        let parameter = |((name, _), value): (&(&'static str, _), &f64)| {
+            Parameter::of_formula((*name).to_owned(), *value)
+        };
+        let parameters = units.iter().zip(&values).map(parameter).collect();
+        Term::custom(name, self.entry, &formula, parameters, values)
+    }
+}
+
+impl Band {
+    /// From so many waves over the coordinate up to a frequency; `None` when nothing is between.
+    pub(crate) fn new(over: Vec<f64>, ends: [f64; 2]) -> Option<Self> {
+        (ends[0] < ends[1]).then_some(Self { over, ends })
+    }
+
+    fn resolution(&self) -> f64 {
+        1.0 / crate::numerics::spread(&self.over).max(f64::MIN_POSITIVE)
+    }
+
+    /// Frequencies that a record tells apart.
+    fn lines(&self) -> f64 {
+        (2.0 * (self.ends[1] - self.ends[0]) / self.resolution()).max(1.0)
+    }
+
+    /// What a wave turns by over all frequencies, rad.
+    fn arc(&self, stage: &Stage<'_>) -> f64 {
+        self.scan(stage, &self.of_rows(stage)).arc()
+    }
+
+    fn of_rows(&self, stage: &Stage<'_>) -> Vec<f64> {
+        stage.problem.rows.iter().map(|row| self.over[row.sample]).collect()
+    }
+
+    fn scan<'a>(&self, stage: &'a Stage<'_>, over: &'a [f64]) -> Scan<'a> {
+        Scan {
+            layout: &stage.problem.layout,
+            noises: &stage.noises,
+            turns: over,
+            whitener: &stage.whitener,
+            lowest: self.ends[0],
+            highest: self.ends[1],
+        }
+    }
+
+    /// Frequencies of the strongest lines that a stage leaves, none next to a stronger one.
+    fn strongest(&self, stage: &Stage<'_>) -> Vec<f64> {
+        let over = self.of_rows(stage);
+        let scan = self.scan(stage, &over);
+        let mut lines: Vec<f64> = Vec::new();
+        for point in strongest_first(scan.spectrum(&stage.target[..over.len()])) {
+            let apart = |known: &f64| self.resolution() < (known - point.frequency).abs();
+            if lines.iter().all(apart) {
+                lines.push(point.frequency);
+            }
+            if lines.len() == LINES {
+                break;
+            }
+        }
+        lines
+    }
+}
+
+/// Distance of the values of an axis around one of them.
+fn spacing(axis: &[f64], value: f64) -> f64 {
+    let near = axis.partition_point(|known| *known < value).clamp(1, axis.len().max(2) - 1);
+    match axis.get(near - 1..=near) {
+        Some(pair) => pair[1] - pair[0],
+        None => SHARE * value.abs(),
+    }
+}
+
+/// Values of an axis, or those around its only one that the search comes to.
+fn reach(axis: &[f64]) -> Cow<'_, [f64]> {
+    match axis {
+        [value] => Cow::Owned(vec![(1.0 - SHARE) * value, *value, (1.0 + SHARE) * value]),
+        _ => Cow::Borrowed(axis),
+    }
+}
+
+/// Points around some values, two on either side in each direction.
+fn around(values: &[f64], steps: &[f64]) -> Vec<Vec<f64>> {
+    let axes: Vec<Vec<f64>> = values
+        .iter()
+        .zip(steps)
+        .map(|(value, step)| [-0.8, -0.4, 0.0, 0.4, 0.8].map(|by| value + by * step).to_vec())
+        .collect();
+    product(&axes)
+}
+
+fn product(axes: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    axes.iter().fold(vec![Vec::new()], |points, axis| {
+        let with = |point: &Vec<f64>| {
+            let longer = |value: &f64| [point.as_slice(), &[*value]].concat();
+            axis.iter().map(longer).collect::<Vec<_>>()
+        };
+        points.iter().flat_map(with).collect()
+    })
+}

@@ -1,0 +1,125 @@
+//! Shapes over the turns of shafts.
+
+use super::dimension::Dimension;
+use super::expression::{Expression, Function, call, number, turns};
+use super::grammar::{evenly, shape, unknown};
+use super::moving::triangle;
+use super::quantities::{Quantities, of, shaft_turns};
+use super::shape::{Band, Shape};
+use crate::model::Problem;
+use crate::numerics::{spread, usual_rate};
+use crate::policy::extent::{SLOWEST_WAVES, TURNS};
+use crate::spectrum::gear_orders;
+
+/// Shapes that come with every turn of a shaft and are no sine.
+pub(super) fn each_turn(all: &Quantities, shaft: &str, order: f64) -> Vec<Shape> {
+    let turn = shaft_turns(&all.turns, order) + unknown(0);
+    let each = |words, physics, most: f64, points| {
+        let mut one = shape(words, shaft, physics).unknown(
+            "offset_rev",
+            &Dimension::number(),
+            evenly(0.0, most, points),
+        );
+        one.turns = true;
+        one
+    };
+    let fract = || call(Function::Fract, turn.clone());
+    vec![
+        each("square wave each turn", "a face cam, a part that seats on one of two faces", 0.5, 12)
+            .curve("size", call(Function::Step, number(0.5) - fract())),
+        each("triangle each turn", "a cam of even rise", 0.5, 12)
+            .curve("size", triangle(turn.clone())),
+        each("half wave each turn", "contact over half of a turn only", 1.0, 24)
+            .curve("size", call(Function::Ramp, call(Function::Sin, turns(turn.clone())))),
+        each("sawtooth each turn", "a cam with an edge, one lost count a turn", 1.0, 24)
+            .curve("size", fract()),
+    ]
+}
+
+/// A sine of any order of the spindle, and of any frequency in time.
+pub(super) fn waves(all: &Quantities, problem: &Problem) -> Vec<Shape> {
+    let mut shapes = Vec::new();
+    let over = &all.turns;
+    let highest = problem.highest_order.min(0.5 * usual_rate(&over.values));
+    let lowest = SLOWEST_WAVES / spread(&over.values).max(f64::MIN_POSITIVE);
+    if let Some(band) = Band::new(over.values.clone(), [lowest, highest]) {
+        let physics = "a shaft, wheel or belt that the machine file does not list";
+        let mut wave = shape("sine of an order", "spindle angle", physics)
+            .unknown("order", &Dimension::number(), vec![lowest, highest])
+            .wave("amplitude", "phase_rad", None, turns(unknown(0) * of(over)));
+        wave.scan = Some(band);
+        shapes.push(wave);
+    }
+    let over = &all.time;
+    let highest = problem.highest_hz.min(0.5 * usual_rate(&over.values));
+    let lowest = SLOWEST_WAVES / spread(&over.values).max(f64::MIN_POSITIVE);
+    let band = Band::new(over.values.clone(), [lowest, highest]).filter(|_| all.timed);
+    if let Some(band) = band {
+        let mut wave =
+            shape("sine in time", "time", "a pump, a motor, a control loop, the building")
+                .unknown("frequency_hz", &over.dimension.to_the(-1), vec![lowest, highest])
+                .wave("amplitude", "phase_rad", None, turns(unknown(0) * of(over)));
+        wave.scan = Some(band);
+        shapes.push(wave);
+    }
+    shapes
+}
+
+/// Orders of the machine that its samples resolve.
+fn orders(all: &Quantities, problem: &Problem) -> Vec<f64> {
+    let mut orders = gear_orders(&problem.model);
+    orders.push(1.0);
+    orders.retain(|order| {
+        *order < problem.highest_order && TURNS < order * spread(&all.turns.values)
+    });
+    orders.sort_by(f64::total_cmp);
+    orders.dedup();
+    orders
+}
+
+/// A shaft's sine that swells with the turn of another: two sidebands.
+pub(super) fn swelling(all: &Quantities, problem: &Problem) -> Vec<Shape> {
+    let angle = |order| turns(shaft_turns(&all.turns, order));
+    let orders = orders(all, problem);
+    let pairs = orders.iter().flat_map(|a| orders.iter().map(move |b| (*a, *b)));
+    let physics = "a wheel that another one drives: its wave swells with the other's turn";
+    pairs
+        .filter(|(carrier, slow)| carrier.to_bits() != slow.to_bits())
+        .map(|(carrier, slow)| {
+            let swell = call(Function::Sin, angle(slow) + unknown(0));
+            shape("sine that swells with a turn", &format!("orders {carrier} and {slow}"), physics)
+                .unknown("swell_rad", &Dimension::number(), evenly(0.0, std::f64::consts::PI, 6))
+                .wave("amplitude", "phase_rad", None, angle(carrier))
+                .wave("swell", "swell_phase_rad", Some(swell), angle(carrier))
+        })
+        .collect()
+}
+
+/// A shaft's sine through a resonance that the speeds of the passes go over.
+pub(super) fn resonances(all: &Quantities, problem: &Problem) -> Vec<Shape> {
+    let mut speeds = all.speed.values.clone();
+    speeds.sort_by(f64::total_cmp);
+    speeds.dedup();
+    let (Some(slowest), Some(fastest)) = (speeds.first(), speeds.last()) else {
+        return Vec::new();
+    };
+    if speeds.len() < 3 {
+        return Vec::new();
+    }
+    let square = |of: Expression| Expression::Power(Box::new(of), 2);
+    let ratio = || of(&all.speed) / unknown(0);
+    let stiff = || number(1.0) - square(ratio());
+    let damped = || number(2.0) * unknown(1) * ratio();
+    let swell = || number(1.0) / call(Function::Sqrt, square(stiff()) + square(damped()));
+    // The lag of a driven mass, from 0 at rest to half a turn far above.
+    let late = || Expression::Pi / number(2.0) - call(Function::Atan, stiff() / damped());
+    let physics = "something that swings at its own frequency, driven by a shaft's turn";
+    let of_order = |order: f64| {
+        let angle = turns(shaft_turns(&all.turns, order)) - late();
+        shape("resonance of a shaft's wave", &format!("order {order} by speed"), physics)
+            .unknown("resonance_rpm", &all.speed.dimension, evenly(*slowest, *fastest, 16))
+            .unknown("damping", &Dimension::number(), vec![0.02, 0.05, 0.1, 0.2, 0.4])
+            .wave("amplitude", "phase_rad", Some(swell()), angle)
+    };
+    orders(all, problem).into_iter().map(of_order).collect()
+}
