@@ -69,6 +69,29 @@ fn rounds_are_kept_and_can_be_taken_back() {
     assert_eq!(taken, [false, true, true]);
 }
 
+/// A run, a hand-made change, the same run and taking back: the change is in no danger.
+#[test]
+fn a_machine_file_edited_by_hand_is_kept_aside() {
+    let folder = scratch();
+    let (out, out_word) = word(&folder, "learned");
+    let words = ["learn", "examples/hidden-gear/machine.toml", "examples/hidden-gear/data.csv"];
+    let learn = || helixlock(&[&words[..], &["-o", &out_word]].concat());
+    let first = learn();
+    assert!(!first.stdout.contains("kept as"), "{}", first.stdout);
+    assert!(!learn().stdout.contains("kept as"), "its own file is no edit");
+    let text = fs::read_to_string(out.join("machine.toml")).expect("a machine file");
+    for name in ["machine-1.toml", "machine-2.toml"] {
+        let edited = format!("{text}\n# my own for {name}\n");
+        put(&out.join("machine.toml"), &edited);
+        let said = match name {
+            "machine-1.toml" => learn().stdout,
+            _ => helixlock(&["learn", "--undo", "-o", &out_word]).stdout,
+        };
+        assert!(said.contains(&format!("kept as {name}")), "{said}");
+        assert_eq!(fs::read_to_string(out.join(name)).expect("kept"), edited);
+    }
+}
+
 /// The learned file is the old one, to the byte, with tables behind it.
 #[test]
 fn the_new_machine_file_keeps_comments_and_order() {
@@ -91,7 +114,15 @@ fn the_new_machine_file_keeps_comments_and_order() {
         .map(|entry| entry.expect("an entry").file_name().into_string().expect("text"))
         .collect();
     files.sort_unstable();
-    assert_eq!(files, ["ledger.json", "machine.toml", "notes.txt", "report.html"]);
+    assert_eq!(
+        files,
+        ["ledger.json", "machine-1.toml", "machine.toml", "notes.txt", "report.html"],
+        "the machine file of somebody else is kept aside"
+    );
+    let aside = fs::read_to_string(out.join("machine-1.toml")).expect("kept");
+    assert_eq!(aside, "# of an earlier run\n");
+    let kept = "note: machine.toml was not as `learn` had left it: kept as machine-1.toml\n";
+    assert!(learned.stdout.ends_with(kept), "{}", learned.stdout);
 
     // What was learned is no longer missing.
     let machine = out.join("machine.toml").to_str().expect("text").to_owned();

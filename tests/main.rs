@@ -67,6 +67,7 @@ mod sweep;
 mod synchronisers;
 mod tables;
 mod templates;
+mod uncertainty;
 mod verdict_properties;
 mod waveform_readers;
 mod what_is_left;

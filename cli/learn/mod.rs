@@ -2,6 +2,7 @@
 
 mod closed_loop_check;
 mod json;
+mod kept;
 mod page;
 mod pictures;
 mod undone_page;
@@ -23,6 +24,7 @@ use serde_json::Value;
 
 use self::closed_loop_check::Checked;
 use self::json::{LearnJson, LedgerJson};
+use self::kept::{edited_aside, is_taken_back, keep_aside};
 use crate::shared::angular::in_unit;
 use crate::shared::captured::Signals;
 use crate::shared::effect_file::own_effects;
@@ -33,6 +35,8 @@ use crate::shared::{diagnosis_text, measured};
 
 /// Name of the ledger in its folder.
 const LEDGER: &str = "ledger.json";
+/// Name of the machine file in its folder.
+const MACHINE: &str = "machine.toml";
 
 /// Find what a machine file lacks and write the better file, its ledger and a report
 #[derive(Debug, Args)]
@@ -92,16 +96,19 @@ impl Learn {
         let check = checked(&file, &problem, &diagnosis)?;
         let book =
             Ledger { accepted: self.accepts(&diagnosis), ..ledger(&file, &diagnosis, data_hash)? };
+        let mut kept = None;
         if let Some(folder) = folder {
             let spectra = (spectra(&problem, &diagnosis), lines_left(&problem));
             let page = page::page(&problem, &diagnosis, &spectra, &check);
             let json = LedgerJson::new(data, &diagnosis, &book, &check, &problem);
             let json = in_unit(&json, problem.measurement.unit_word())?;
             let last = book.entries.last().filter(|_| book.accepted);
-            let learned = last.map_or(text, |last| last.machine.clone());
+            let learned = last.map_or_else(|| text.clone(), |last| last.machine.clone());
             let mut inputs = machine_files(machine, &file.model);
             inputs.extend(self.custom.iter().cloned().chain([data.to_owned()]));
-            write_folder(Batch::new(folder, inputs)?, &learned, &json, &page)?;
+            let mut files = Batch::new(folder, inputs)?;
+            kept = keep_aside(&mut files, &[&learned, &text])?;
+            write_folder(files, &learned, &json, &page)?;
         }
         if self.json {
             let json = LearnJson::new(&diagnosis, &book, &check, &problem);
@@ -110,6 +117,7 @@ impl Learn {
             diagnosis_text::print(out, &diagnosis, problem.measurement.unit())?;
             check.print(out)?;
             print_offer(out, &book)?;
+            write!(out, "{}", kept::note(kept.as_deref()))?;
         }
         Ok(status(diagnosis.verdict))
     }
@@ -137,9 +145,8 @@ fn print_offer(out: &mut impl Write, book: &Ledger) -> anyhow::Result<()> {
 }
 
 fn write_folder(mut files: Batch, learned: &str, json: &Value, page: &Page) -> anyhow::Result<()> {
-    keep_taken_back(&mut files)?;
     files.write_json(LEDGER, json)?;
-    files.write_content("machine.toml", learned)?;
+    files.write_content(MACHINE, learned)?;
     files.write_content("report.html", page.html())?;
     files.keep()
 }
@@ -155,27 +162,6 @@ fn checked(
         None => file.clone(),
     };
     Ok(Checked::run(problem, &file.model, &learned.model))
-}
-
-/// A ledger with rounds that were taken back gets another name: a new run does not know them.
-fn keep_taken_back(files: &mut Batch) -> anyhow::Result<()> {
-    let folder = files.folder().to_owned();
-    let Ok(bytes) = std::fs::read(folder.join(LEDGER)) else { return Ok(()) };
-    let rounds = serde_json::from_slice::<Value>(&bytes)
-        .ok()
-        .and_then(|mut book| book.get_mut("rounds").map(Value::take));
-    let taken_back =
-        |rounds: Value| rounds.as_array().is_some_and(|all| all.iter().any(is_taken_back));
-    if !rounds.is_some_and(taken_back) {
-        return Ok(());
-    }
-    let names = (1_u32..).map(|number| format!("ledger-{number}.json"));
-    let mut free = names.filter(|name| !folder.join(name).exists());
-    free.next().map_or(Ok(()), |name| files.write_content(&name, bytes))
-}
-
-fn is_taken_back(round: &Value) -> bool {
-    round.get("taken_back").and_then(Value::as_bool) == Some(true)
 }
 
 fn read_ledger(path: &Path) -> anyhow::Result<Value> {
@@ -204,10 +190,12 @@ fn undo(folder: &Path, out: &mut impl Write) -> anyhow::Result<ExitCode> {
     last["taken_back"] = Value::from(true);
     let added = last["added"].as_str().unwrap_or("nothing").to_owned();
     let mut files = Batch::new(folder, [])?;
+    let kept = edited_aside(&mut files)?;
     files.write_json(LEDGER, &book)?;
-    files.write_content("machine.toml", machine)?;
+    files.write_content(MACHINE, machine)?;
     files.write_content("report.html", undone_page::page(&book).html())?;
     files.keep()?;
+    write!(out, "{}", kept::note(kept.as_deref()))?;
     writeln!(out, "{added} taken back")?;
     Ok(ExitCode::SUCCESS)
 }

@@ -1,28 +1,42 @@
-//! An ISO 230-2 test against a limit.
+//! An ISO 230-2 test against what it has to keep.
 
+use helixlock_metrology::Conformity;
 use helixlock_metrology::iso230::AxisResult;
-use helixlock_metrology::{Conformity, conformity};
+
+use crate::shared::sheet::{Line, Sheet};
 
 /// What was found, and what it is held against.
 pub(crate) struct AxisTest {
-    /// Largest accuracy A allowed, µm.
-    pub(crate) limit_um: Option<f64>,
-    /// Expanded uncertainty of A (k = 2), µm.
-    pub(crate) expanded_um: Option<f64>,
     /// What was found.
     pub(crate) found: AxisResult,
+    /// The figures with their uncertainty and tolerances, A first.
+    pub(crate) sheet: Sheet,
+    /// True when a file told of the measurement.
+    pub(crate) told: bool,
 }
 
 impl AxisTest {
     /// True when there is no limit or it is kept; proven so where the uncertainty is known.
     pub(crate) fn holds(&self) -> bool {
-        let kept = self.limit_um.is_none_or(|limit| self.found.accuracy_um <= limit);
-        self.conformity().map_or(kept, |found| found == Conformity::Proven)
+        self.sheet.holds()
     }
 
-    /// The decision by ISO 14253-1; absent without a limit or an uncertainty.
+    /// Largest accuracy A allowed, µm.
+    pub(crate) fn limit_um(&self) -> Option<f64> {
+        self.accuracy()?.tolerance_um
+    }
+
+    /// Expanded uncertainty of A, µm.
+    pub(crate) fn expanded_um(&self) -> Option<f64> {
+        Some(self.accuracy()?.budget.as_ref()?.expanded_um)
+    }
+
+    /// The decision on A by ISO 14253-1; absent without a limit or an uncertainty.
     pub(crate) fn conformity(&self) -> Option<Conformity> {
-        let (limit_um, expanded_um) = self.limit_um.zip(self.expanded_um)?;
-        Some(conformity(self.found.accuracy_um, limit_um, expanded_um))
+        self.accuracy()?.conformity()
+    }
+
+    fn accuracy(&self) -> Option<&Line> {
+        self.sheet.lines.first()
     }
 }

@@ -1,21 +1,28 @@
 //! `helixlock scale iso230`: positioning accuracy by ISO 230-2.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use anyhow::anyhow;
+use anyhow::{anyhow, bail};
 use clap::Args;
+use helixlock_metrology::iso230::{Approaches, Figure};
 use helixlock_metrology::scale::Detector;
+use helixlock_metrology::uncertainty::{Acts, Budget, Readings, Source};
 
 use super::axis_test::AxisTest;
 use super::json::AxisTestJson;
-use super::samples::{axis_result, read_samples};
-use super::text;
-use crate::shared::output::print_json;
+use super::samples::{read_samples, targets};
+use super::{axis_page, text};
+use crate::shared::output::{Batch, print_json};
 use crate::shared::quantity::length_um;
+use crate::shared::sheet::{Named, Sheet, SheetFile, Subject};
 
 /// Evaluate positioning accuracy by ISO 230-2
+///
+/// With `--sheet` every figure has its uncertainty, by a budget of what contributes to it as ISO/TR
+/// 230-9 names it, and the decision by ISO 14253-1 on the tolerances of the sheet. Exit status 1: a
+/// tolerance or the limit is not kept, or with an uncertainty not proven to be.
 #[derive(Debug, Args)]
 pub(crate) struct Iso230 {
     /// Measured errors: two approaches or more of every target and direction
@@ -27,10 +34,19 @@ pub(crate) struct Iso230 {
     /// Expanded uncertainty of A (k = 2), µm: the limit is then decided by ISO 14253-1
     #[arg(long, value_name = "UM", value_parser = length_um, requires = "limit")]
     expanded_uncertainty: Option<f64>,
+    /// What is known of the measurement, tolerances, and what is printed on the sheet
+    #[arg(long, value_name = "SHEET.toml", conflicts_with = "expanded_uncertainty")]
+    sheet: Option<PathBuf>,
+    /// Folder for report.html, a sheet to sign, figure.svg and result.json
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
     /// Print the result as JSON
     #[arg(long)]
     json: bool,
 }
+
+/// Each reading is changed once and all are evaluated anew.
+const MOST_READINGS: usize = 10_000;
 
 impl Iso230 {
     /// Does it.
@@ -39,14 +55,77 @@ impl Iso230 {
         let detector = Detector { pitch_mm: 2.0, lsb_um: 1.0 };
         let samples = read_samples(&self.data, 0.0, &detector)?;
         let errors = samples.iter().map(|sample| (*sample, sample.error_um));
-        let found =
-            axis_result(errors).map_err(|error| anyhow!("{}: {error}", self.data.display()))?;
-        let test = AxisTest { limit_um: self.limit, expanded_um: self.expanded_uncertainty, found };
+        let approaches = Approaches::new(targets(errors))
+            .map_err(|error| anyhow!("{}: {error}", self.data.display()))?;
+        let test = AxisTest {
+            sheet: self.sheet_of(&approaches)?,
+            found: approaches.found().clone(),
+            told: self.sheet.is_some(),
+        };
+        let result = AxisTestJson::new(&test);
+        if let Some(output) = &self.output {
+            let inputs = self.sheet.iter().chain([&self.data]).cloned();
+            write_files(output, inputs.collect(), &self.data, &test, &result)?;
+        }
         if self.json {
-            print_json(out, &AxisTestJson::new(&test))?;
+            print_json(out, &result)?;
         } else {
             text::print_axis(out, &test)?;
         }
         Ok(if test.holds() { ExitCode::SUCCESS } else { ExitCode::from(1) })
     }
+
+    fn sheet_of(&self, approaches: &Approaches) -> anyhow::Result<Sheet> {
+        let subject = Subject::Positions(approaches.length_mm());
+        let file = self.sheet.as_deref().map(|path| SheetFile::read(path, subject)).transpose()?;
+        let mut file =
+            file.unwrap_or_else(SheetFile::empty).with_tolerance("accuracy", self.limit)?;
+        let sources = std::mem::take(&mut file.sources);
+        let readings = approaches.readings();
+        if file.missing.is_empty() && MOST_READINGS < readings {
+            let path = self.data.display();
+            bail!(
+                "{path}: {readings} readings, expected {MOST_READINGS} or fewer for an uncertainty"
+            );
+        }
+        let noise_um = noise_um(&sources);
+        // Beyond half of it what the readings vary by is taken for the axis' own scatter.
+        if approaches.scatter_um() < 2.0 * noise_um {
+            file.missing
+                .push("the axis alone: half its scatter and more may be that of the readings");
+        }
+        let named = |figure: Figure| Named {
+            symbol: figure.symbol.into(),
+            key: figure.key.into(),
+            meaning: figure.meaning.into(),
+            value_um: figure.value_um,
+        };
+        let figures = approaches.found().figures().into_iter().map(named).collect();
+        let mut sheet = Sheet::new(file, figures, approaches, &sources)?;
+        if let Some((line, expanded_um)) = sheet.lines.first_mut().zip(self.expanded_uncertainty) {
+            line.budget = Some(Budget::told(line.named.value_um, expanded_um));
+        }
+        Ok(sheet)
+    }
+}
+
+/// What adds to every reading on its own, as a standard uncertainty, µm.
+fn noise_um(sources: &[Source]) -> f64 {
+    let of = |source: &Source| match source.acts {
+        Acts::AtEachReading(per_unit) => per_unit * source.standard,
+        _ => 0.0,
+    };
+    sources.iter().map(|source| of(source).powi(2)).sum::<f64>().sqrt()
+}
+
+fn write_files(
+    output: &Path,
+    inputs: Vec<PathBuf>,
+    data: &Path,
+    test: &AxisTest,
+    result: &AxisTestJson<'_>,
+) -> anyhow::Result<()> {
+    let mut files = Batch::new(output, inputs)?;
+    files.write_report(&axis_page::figure(test), result, &axis_page::page(data, test))?;
+    files.keep()
 }

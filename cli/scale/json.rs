@@ -7,6 +7,7 @@ use helixlock_metrology::scale::{CorrectionTable, IMAGE_BYTES, Joint, Residual, 
 use super::axis_test::AxisTest;
 use super::comparison::Comparison;
 use crate::shared::keys::keys;
+use crate::shared::sheet::SheetJson;
 
 keys! {
     /// A built table.
@@ -48,13 +49,15 @@ keys! {
     }
 
     /// An ISO 230-2 test.
-    AxisTestJson(test: &AxisTest) {
+    AxisTestJson<'a>(test: &'a AxisTest) {
         #[serde(flatten)]
         values: AxisJson = AxisJson::new(&test.found),
-        limit_um: Option<f64> = test.limit_um,
-        expanded_uncertainty_um: Option<f64> = test.expanded_um,
+        limit_um: Option<f64> = test.limit_um(),
+        expanded_uncertainty_um: Option<f64> = test.expanded_um(),
         conformity: Option<&'static str> = test.conformity().map(Conformity::name),
-        holds: Option<bool> = test.limit_um.map(|_| test.holds()),
+        holds: Option<bool> = test.sheet.decides().then(|| test.holds()),
+        #[serde(skip_serializing_if = "Option::is_none")]
+        sheet: Option<SheetJson<'a>> = test.told.then(|| SheetJson::new(&test.sheet)),
         targets: Vec<TargetJson> = test.found.targets.iter().map(TargetJson::new).collect(),
     }
 

@@ -1,6 +1,7 @@
 //! `helixlock scale`: errors of a machine scale stored, applied, exported, modelled.
 
 mod apply;
+mod axis_page;
 mod axis_test;
 mod build;
 mod comparison;

@@ -73,12 +73,17 @@ fn decoded(series: &Series, codes: &[f64], detector: &Detector) -> anyhow::Resul
     Ok(errors_um)
 }
 
-/// ISO 230-2 of errors; samples at one position (to a nanometre) are approaches of one target.
-///
-/// The standard's deviation is actual less target: the opposite of what the scale shows too much.
+/// ISO 230-2 of errors, as [`targets`] has them.
 pub(crate) fn axis_result(
     errors: impl Iterator<Item = (ErrorSample, f64)>,
 ) -> Result<AxisResult, Error> {
+    evaluate_axis(&targets(errors))
+}
+
+/// Approaches of targets; samples at one position (to a nanometre) are approaches of one target.
+///
+/// The standard's deviation is actual less target: the opposite of what the scale shows too much.
+pub(crate) fn targets(errors: impl Iterator<Item = (ErrorSample, f64)>) -> Vec<Target> {
     let mut sorted: Vec<(ErrorSample, f64)> = errors.collect();
     sorted.sort_by(|a, b| a.0.position_mm.total_cmp(&b.0.position_mm));
     let same =
@@ -93,6 +98,5 @@ pub(crate) fn axis_result(
             backward_um: side(Direction::Backward),
         }
     };
-    let targets: Vec<Target> = sorted.chunk_by(same).map(target).collect();
-    evaluate_axis(&targets)
+    sorted.chunk_by(same).map(target).collect()
 }

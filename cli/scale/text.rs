@@ -3,7 +3,6 @@
 use std::io::Write;
 use std::path::Path;
 
-use helixlock_metrology::iso230::{AxisResult, Vdi3441};
 use helixlock_metrology::scale::{CorrectionTable, Joint};
 
 use super::axis_test::AxisTest;
@@ -69,44 +68,16 @@ pub(crate) fn print_applied(
     Ok(())
 }
 
-/// Symbol, meaning and value of every figure, ISO 230-2 first, then VDI/DGQ 3441.
-fn axis_figures(found: &AxisResult) -> Vec<(&'static str, &'static str, Option<f64>)> {
-    let vdi = |figure: fn(&Vdi3441) -> f64| found.vdi3441.as_ref().map(figure);
-    vec![
-        ("A", "accuracy", Some(found.accuracy_um)),
-        ("A↑", "accuracy, forward", found.accuracy_unidirectional_um[0]),
-        ("A↓", "accuracy, backward", found.accuracy_unidirectional_um[1]),
-        ("E", "systematic error", Some(found.systematic_um)),
-        ("E↑", "systematic error, forward", found.systematic_unidirectional_um[0]),
-        ("E↓", "systematic error, backward", found.systematic_unidirectional_um[1]),
-        ("M", "range of the means", Some(found.mean_range_um)),
-        ("B", "largest reversal value", found.reversal_um),
-        ("B̄", "mean reversal value", found.mean_reversal_um),
-        ("R", "repeatability", Some(found.repeatability_um)),
-        ("R↑", "repeatability, forward", found.repeatability_unidirectional_um[0]),
-        ("R↓", "repeatability, backward", found.repeatability_unidirectional_um[1]),
-        ("P", "VDI/DGQ 3441 positional uncertainty", vdi(|vdi| vdi.uncertainty_um)),
-        ("Pa", "VDI/DGQ 3441 positional deviation", vdi(|vdi| vdi.deviation_um)),
-        ("U", "VDI/DGQ 3441 largest reversal span", vdi(|vdi| vdi.reversal_um[0])),
-        ("Ps", "VDI/DGQ 3441 largest scatter", vdi(|vdi| vdi.scatter_um[0])),
-    ]
-}
-
 /// An ISO 230-2 test for people.
 pub(crate) fn print_axis(out: &mut impl Write, test: &AxisTest) -> anyhow::Result<()> {
-    let found = &test.found;
-    writeln!(out, "ISO 230-2, {} targets", found.targets.len())?;
-    for (symbol, meaning, value_um) in axis_figures(found) {
-        if let Some(value_um) = value_um {
-            writeln!(out, "{symbol:<6} {meaning:<38} {value_um:9.3} µm")?;
-        }
+    writeln!(out, "ISO 230-2, {} targets", test.found.targets.len())?;
+    for line in test.sheet.words() {
+        writeln!(out, "{line}")?;
     }
-    if let Some(limit) = test.limit_um {
-        let verdict = match test.conformity() {
-            Some(decision) => format!("by ISO 14253-1: conformity {}", decision.name()),
-            None => words::held(test.holds()).into(),
-        };
-        writeln!(out, "limit {limit} µm {verdict}")?;
+    if test.told
+        && let Some(why) = test.sheet.why_without()
+    {
+        writeln!(out, "note: {why}")?;
     }
     Ok(())
 }

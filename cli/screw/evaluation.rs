@@ -6,6 +6,8 @@ use helixlock_metrology::screw::{
     Characteristic, Curve, Estimate, FAITHFUL_PER_TURN, Gap, Grading, MeanLine, Status,
 };
 
+use crate::shared::sheet::Sheet;
+
 /// A screw evaluated by either standard.
 pub(crate) struct Evaluation {
     /// The file.
@@ -34,12 +36,19 @@ pub(crate) struct Evaluation {
     pub(crate) reading_noise_um: Option<f64>,
     /// What is known of the characteristics, in their order.
     pub(crate) estimates: Vec<Option<Estimate>>,
+    /// The figures on a sheet, when one was told.
+    pub(crate) sheet: Option<Sheet>,
 }
 
 impl Evaluation {
     /// True when the grade holds.
     pub(crate) fn meets(&self, grade: &str) -> bool {
         self.grading.verdicts.iter().any(|verdict| verdict.grade == grade && verdict.holds)
+    }
+
+    /// True when the grade asked for is met, and every tolerance of the sheet is kept.
+    pub(crate) fn holds(&self, asked: Option<(&str, bool)>) -> bool {
+        asked.is_none_or(|(_, meets)| meets) && self.sheet.as_ref().is_none_or(Sheet::holds)
     }
 
     /// Every characteristic with what is known of it without the noise of the readings.
@@ -67,6 +76,7 @@ impl Evaluation {
             let found = self.samples_per_turn;
             notes.push(format!("{found:.1} samples a turn: what varies within a turn is a lower bound, expected {FAITHFUL_PER_TURN} or more"));
         }
+        notes.extend(self.sheet.as_ref().and_then(Sheet::why_without));
         for gap in &self.gaps {
             let (from, to) = (gap.from_mm, gap.to_mm);
             notes.push(format!(

@@ -6,7 +6,9 @@ use helixlock_metrology::screw::{
 use serde::{Serialize, Serializer};
 
 use super::evaluation::Evaluation;
+use super::sheet::key;
 use crate::shared::keys::keys;
+use crate::shared::sheet::SheetJson;
 
 keys! {
     /// A whole evaluation; `asked` is the grade asked for, and whether it is met.
@@ -35,6 +37,8 @@ keys! {
             found.without_noise().map(|(one, size)| CharacteristicJson::new(one, size)).collect(),
         grades: Vec<VerdictJson<'a>> = found.grading.verdicts.iter().map(VerdictJson::new).collect(),
         gaps: Vec<GapJson> = found.gaps.iter().map(GapJson::new).collect(),
+        #[serde(skip_serializing_if = "Option::is_none")]
+        sheet: Option<SheetJson<'a>> = found.sheet.as_ref().map(SheetJson::new),
         notes: Vec<String> = found.notes(),
     }
 
@@ -120,7 +124,7 @@ fn values<S: Serializer>(all: &[Characteristic], serializer: S) -> Result<S::Ok,
     }
     let mut entries = Vec::new();
     for one in all {
-        let key = one.symbol.to_lowercase().replace('δ', "delta_").replace('π', "pi");
+        let key = key(one.symbol);
         let reached = one.reached.as_ref().ok();
         let value_um = || Value::Size(reached.map(|reached| reached.value_um));
         let place = Value::Place(reached.map(Reached::stretch_mm));

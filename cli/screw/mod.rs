@@ -3,6 +3,7 @@
 mod evaluation;
 mod json;
 mod page;
+mod sheet;
 mod text;
 
 use std::io::Write;
@@ -13,15 +14,17 @@ use anyhow::{Context, anyhow, bail};
 use clap::{Args, ValueEnum};
 use helixlock_metrology::Error;
 use helixlock_metrology::screw::{
-    Characteristic, Curve, Estimate, ToleranceTable, Weighting, built_in_table, evaluate_travel,
-    grade, helical_characteristics, pitch_characteristics, without_reading_noise,
+    Characteristic, Curve, Estimate, Grading, ToleranceTable, Weighting, built_in_table,
+    evaluate_travel, grade, helical_characteristics, pitch_characteristics, without_reading_noise,
 };
 
 use self::evaluation::Evaluation;
 use self::json::ScrewJson;
+use self::sheet::{Measured, reading_noise_um, sheet_of, with_budgets};
 use crate::shared::output::{Batch, print_json};
 use crate::shared::quantity::{deviation_um, lead_mm, length_mm, length_um, position_mm};
 use crate::shared::series::Series;
+use crate::shared::sheet::{Sheet, SheetFile, Subject};
 
 /// Grade a lead screw from its travel deviation
 ///
@@ -61,8 +64,12 @@ pub(crate) struct Screw {
     /// what noise adds to each characteristic, and gives it an uncertainty and every grade a probability
     #[arg(long, value_name = "UM", value_parser = length_um, conflicts_with = "uncertainty")]
     reading_noise: Option<f64>,
+    /// What is known of the measurement, tolerances, and what is printed on the sheet: gives every
+    /// figure its uncertainty, and the grade asked for is decided by ISO 14253-1
+    #[arg(long, value_name = "SHEET.toml", conflicts_with = "uncertainty")]
+    sheet: Option<PathBuf>,
     /// Seed of the noise that `--reading-noise` tries; equal seeds give equal results
-    #[arg(long, default_value = "1", requires = "reading_noise")]
+    #[arg(long, default_value = "1")]
     seed: u64,
     /// Grade the screw has to meet
     #[arg(long, value_name = "GRADE")]
@@ -118,7 +125,7 @@ impl Screw {
         let asked = self.grade.as_ref().map(|grade| (grade.as_str(), evaluation.meets(grade)));
         let result = ScrewJson::new(&evaluation, asked);
         if let Some(output) = &self.output {
-            let inputs = self.table.iter().chain([&self.data]).cloned();
+            let inputs = self.table.iter().chain(&self.sheet).chain([&self.data]).cloned();
             write_files(output, inputs.collect(), &evaluation, &result)?;
         }
         if self.json {
@@ -126,8 +133,7 @@ impl Screw {
         } else {
             text::print(out, &evaluation, asked)?;
         }
-        let refused = asked.is_some_and(|(_, meets)| !meets);
-        Ok(if refused { ExitCode::from(1) } else { ExitCode::SUCCESS })
+        Ok(if evaluation.holds(asked) { ExitCode::SUCCESS } else { ExitCode::from(1) })
     }
 
     fn tolerance_table(&self) -> anyhow::Result<ToleranceTable> {
@@ -152,12 +158,25 @@ impl Screw {
             By::Travel => Weighting::Travel,
         };
         let variation = evaluate_travel(&curve, self.lead, self.compensation, weighting)?;
-        let characteristics = match self.standard {
-            Standard::Iso3408 => variation.characteristics.to_vec(),
-            Standard::Jbt2886 => self.of_jbt2886(&curve),
+        let evaluate = |curve: &Curve| self.characteristics(curve, weighting);
+        let measured = Measured { curve: &curve, evaluate: &evaluate };
+        let characteristics = evaluate(&curve);
+        let subject = Subject::Positions(curve.length_mm());
+        let file = self.sheet.as_deref().map(|path| SheetFile::read(path, subject)).transpose()?;
+        let (file, noise_um) = match file {
+            None => (None, self.reading_noise),
+            Some(mut file) => {
+                let noise_um = reading_noise_um(&mut file, self.reading_noise)?;
+                (Some(file), noise_um)
+            }
         };
-        let estimates = self.estimates(&curve, weighting, &characteristics);
+        let mut estimates = self.estimates(&measured, noise_um, &characteristics);
+        let sheet = file.map(|file| sheet_of(file, &measured, &estimates, noise_um)).transpose()?;
+        if let Some(sheet) = &sheet {
+            estimates = with_budgets(sheet, &characteristics, estimates);
+        }
         let grading = grade(table, &characteristics, curve.length_mm(), &estimates);
+        let sheet = sheet.map(|sheet| self.with_limits_of_the_grade(sheet, &grading));
         Ok(Evaluation {
             path: self.data.clone(),
             standard: table.standard.clone(),
@@ -167,37 +186,50 @@ impl Screw {
             intervals_in_300_mm: variation.intervals_in_300_mm,
             gaps: variation.gaps,
             uncertainty_um: self.uncertainty,
-            reading_noise_um: self.reading_noise,
+            reading_noise_um: noise_um,
             characteristics,
             estimates,
             grading,
+            sheet,
             curve,
         })
     }
 
-    fn of_jbt2886(&self, curve: &Curve) -> Vec<Characteristic> {
-        let mut all = helical_characteristics(curve, self.lead).to_vec();
-        all.extend(pitch_characteristics(curve, self.lead));
-        all
+    /// The characteristics of the standard.
+    fn characteristics(&self, curve: &Curve, weighting: Weighting) -> Vec<Characteristic> {
+        match self.standard {
+            // The lead, all that can be refused, was accepted before.
+            Standard::Iso3408 => evaluate_travel(curve, self.lead, self.compensation, weighting)
+                .map_or_else(|_| Vec::new(), |found| found.characteristics.to_vec()),
+            Standard::Jbt2886 => {
+                let mut all = helical_characteristics(curve, self.lead).to_vec();
+                all.extend(pitch_characteristics(curve, self.lead));
+                all
+            }
+        }
+    }
+
+    /// The limits of the grade asked for are tolerances where the sheet has no other.
+    fn with_limits_of_the_grade(&self, mut sheet: Sheet, grading: &Grading) -> Sheet {
+        let asked = grading.verdicts.iter().find(|one| Some(&one.grade) == self.grade.as_ref());
+        for limit in asked.into_iter().flat_map(|verdict| &verdict.judgements) {
+            let line = sheet.lines.iter_mut().find(|line| line.named.symbol == limit.symbol);
+            if let Some(line) = line.filter(|line| line.tolerance_um.is_none()) {
+                line.tolerance_um = Some(limit.limit_um);
+            }
+        }
+        sheet
     }
 
     /// What is known of each characteristic: nothing, unless its uncertainty or the noise is.
     fn estimates(
         &self,
-        curve: &Curve,
-        weighting: Weighting,
+        measured: &Measured<'_>,
+        noise_um: Option<f64>,
         characteristics: &[Characteristic],
     ) -> Vec<Option<Estimate>> {
-        if let Some(noise_um) = self.reading_noise {
-            let evaluate = |curve: &Curve| match self.standard {
-                // The lead, all that can be refused, was accepted before.
-                Standard::Iso3408 => {
-                    evaluate_travel(curve, self.lead, self.compensation, weighting)
-                        .map_or_else(|_| Vec::new(), |found| found.characteristics.to_vec())
-                }
-                Standard::Jbt2886 => self.of_jbt2886(curve),
-            };
-            return without_reading_noise(curve, noise_um, self.seed, &evaluate);
+        if let Some(noise_um) = noise_um {
+            return without_reading_noise(measured.curve, noise_um, self.seed, measured.evaluate);
         }
         let estimate = |one: &Characteristic| {
             let size_um = one.reached.ok()?.value_um.abs();

@@ -5,12 +5,16 @@ use helixlock_report::{Band, Colour, Figure, Page, Panel, Part, Series, Style, T
 
 use super::evaluation::Evaluation;
 use crate::shared::page_pieces::{self, panel};
+use crate::shared::sheet;
 
 /// The page: grade, curve, figures, limits.
 pub(crate) fn page(evaluation: &Evaluation) -> Page {
     let grading = &evaluation.grading;
     let grade = grading.grade.as_deref().map_or("none".into(), |grade| format!("grade {grade}"));
+    let mut sheet = evaluation.sheet.as_ref().map_or_else(Vec::new, sheet::parts);
+    let signatures = sheet.pop();
     let mut parts = vec![Part::Numbers(numbers(evaluation, &grade))];
+    parts.extend(sheet);
     parts.extend(evaluation.notes().into_iter().map(Part::Note));
     parts.push(Part::Picture {
         svg: figure(evaluation).svg(),
@@ -20,6 +24,7 @@ pub(crate) fn page(evaluation: &Evaluation) -> Page {
     parts.push(Part::Table(characteristics(evaluation)));
     parts.push(Part::Heading("Limits".into()));
     parts.push(Part::Table(limits(evaluation)));
+    parts.extend(signatures);
     Page {
         title: format!("Lead screw by {}", evaluation.standard),
         summary: format!(

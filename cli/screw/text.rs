@@ -5,6 +5,7 @@ use std::io::Write;
 use helixlock_metrology::screw::Estimate;
 
 use super::evaluation::Evaluation;
+use crate::shared::sheet::Sheet;
 
 /// Characteristics, grade, notes; `asked` is the grade asked for, and whether it is met.
 pub(crate) fn print(
@@ -52,6 +53,9 @@ pub(crate) fn print(
     }
     if let Some((grade, meets)) = asked {
         writeln!(out, "grade {grade} is {}", if meets { "met" } else { "not met" })?;
+    }
+    for line in evaluation.sheet.iter().flat_map(Sheet::words) {
+        writeln!(out, "{line}")?;
     }
     for note in evaluation.notes() {
         writeln!(out, "note: {note}")?;

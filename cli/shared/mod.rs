@@ -15,6 +15,7 @@ pub(crate) mod quantity;
 pub(crate) mod residual_picture;
 pub(crate) mod series;
 pub(crate) mod shards;
+pub(crate) mod sheet;
 pub(crate) mod spectrum;
 pub(crate) mod terminal;
 pub(crate) mod wheels;

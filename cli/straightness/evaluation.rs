@@ -9,6 +9,8 @@ use helixlock_metrology::straightness::{
     StraightnessLines, straightness,
 };
 
+use crate::shared::sheet::Sheet;
+
 /// Methods on the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum By {
@@ -47,6 +49,10 @@ pub(crate) struct Evaluation {
     pub(crate) path: PathBuf,
     /// Runs in it.
     pub(crate) repeats: usize,
+    /// True when the bar's parabola is measured.
+    pub(crate) zeros_matched: bool,
+    /// The straightness on a sheet, when one was told.
+    pub(crate) sheet: Option<Sheet>,
     /// The combined readings.
     pub(crate) combined: Combined,
     /// What the spacings do.
@@ -72,6 +78,12 @@ impl Evaluation {
             By::Fourier => &self.fourier,
             By::LeastSquares => &self.least_squares,
         }
+    }
+
+    /// True when a limit, if there is one, and the tolerances of the sheet are kept.
+    pub(crate) fn holds(&self, limit_um: Option<f64>) -> bool {
+        limit_um.is_none_or(|limit_um| self.keeps(limit_um))
+            && self.sheet.as_ref().is_none_or(Sheet::holds)
     }
 
     /// True when the straightness of the bar is within a limit.

@@ -8,6 +8,7 @@ use helixlock_metrology::straightness::{
 use super::evaluation::{Evaluation, Outcome};
 use super::text::{method_name, spacing_mm};
 use crate::shared::keys::keys;
+use crate::shared::sheet::SheetJson;
 
 keys! {
     /// A whole evaluation; the arrays go by `position_mm`.
@@ -30,7 +31,9 @@ keys! {
         straightness_um: LinesJson = LinesJson::new(&found.chosen().workpiece),
         carriage_straightness_um: LinesJson = LinesJson::new(&found.chosen().carriage),
         limit_um: Option<f64> = limit_um,
-        holds: Option<bool> = limit_um.map(|limit| found.keeps(limit)),
+        holds: Option<bool> = limit_um.map(|_| found.holds(limit_um)),
+        #[serde(skip_serializing_if = "Option::is_none")]
+        sheet: Option<SheetJson<'a>> = found.sheet.as_ref().map(SheetJson::new),
         position_mm: &'a [f64] = &found.chosen().separated.position_mm,
         fourier: OutcomeJson<'a> = OutcomeJson::new(&found.fourier),
         least_squares: OutcomeJson<'a> = OutcomeJson::new(&found.least_squares),

@@ -4,6 +4,7 @@ mod evaluation;
 mod json;
 mod page;
 mod readings;
+mod sheet;
 mod text;
 
 use std::io::Write;
@@ -21,8 +22,10 @@ use helixlock_traces::csv::RowWriter;
 use self::evaluation::{By, Evaluation, Outcome};
 use self::json::{PlansJson, StraightnessJson};
 use self::readings::read_readings;
+use self::sheet::sheet_of;
 use crate::shared::output::{Batch, print_json};
 use crate::shared::quantity::{length_mm, length_um};
+use crate::shared::sheet::{SheetFile, Subject};
 
 /// Separate a guideway and a workpiece by three probes
 ///
@@ -64,6 +67,10 @@ pub(crate) struct StraightnessCommand {
     /// Straightness of the bar (minimum zone) that must not be exceeded, µm
     #[arg(long, value_name = "UM", value_parser = length_um)]
     limit: Option<f64>,
+    /// What is known of the measurement, tolerances, and what is printed on the sheet: gives the
+    /// straightness its uncertainty, and decides tolerances by ISO 14253-1
+    #[arg(long, value_name = "SHEET.toml")]
+    sheet: Option<PathBuf>,
     /// Step of the correction table, mm
     #[arg(long, value_name = "MM", value_parser = length_mm, default_value = "1 mm")]
     table_step: f64,
@@ -107,13 +114,19 @@ impl StraightnessCommand {
             );
         }
         let spacing = self.spacing(readings.step_mm)?;
-        let evaluation = self
+        let mut evaluation = self
             .evaluate(path, &readings, spacing)
             .map_err(|error| anyhow!("{}: {error}", path.display()))?;
-        let exceeded = self.limit.is_some_and(|limit| !evaluation.keeps(limit));
+        if let Some(path) = &self.sheet {
+            let file = SheetFile::read(path, Subject::Heights)?;
+            let file = file.with_tolerance("minimum_zone", self.limit)?;
+            evaluation.sheet = Some(sheet_of(file, &evaluation)?);
+        }
+        let exceeded = !evaluation.holds(self.limit);
         let result = StraightnessJson::new(&evaluation, self.limit);
         if let Some(output) = &self.output {
-            write_files(output, path, &evaluation, &result)?;
+            let inputs = self.sheet.iter().chain([path]).cloned();
+            write_files(output, inputs.collect(), &evaluation, &result)?;
         }
         if self.json {
             print_json(out, &result)?;
@@ -179,6 +192,8 @@ impl StraightnessCommand {
         Ok(Evaluation {
             path: path.to_owned(),
             repeats: readings.repeats.len(),
+            zeros_matched: self.zeros_matched,
+            sheet: None,
             plan: plan(spacing, combined.z_um.len()),
             method: self.method,
             rms_difference_um: fourier.separated.rms_difference_um(&least_squares.separated),
@@ -222,12 +237,12 @@ fn whole_steps(steps: f64) -> usize {
 
 fn write_files(
     output: &Path,
-    data: &Path,
+    inputs: Vec<PathBuf>,
     evaluation: &Evaluation,
     result: &StraightnessJson<'_>,
 ) -> anyhow::Result<()> {
     let page = page::page(evaluation);
-    let mut files = Batch::new(output, [data.to_owned()])?;
+    let mut files = Batch::new(output, inputs)?;
     files.write_report(&page::figure(evaluation), result, &page)?;
     files.write("separated.csv", |file| write_separated(file, evaluation.chosen()))?;
     files.write("correction.csv", |file| {

@@ -5,6 +5,7 @@ use helixlock_report::{Axis, Colour, Figure, Page, Panel, Part, Series, Style, T
 
 use super::evaluation::{Evaluation, Outcome};
 use crate::shared::page_pieces::{self, panel, points};
+use crate::shared::sheet;
 
 /// The page: bar, carriage, gain of the harmonics, figures.
 pub(crate) fn page(evaluation: &Evaluation) -> Page {
@@ -21,7 +22,10 @@ pub(crate) fn page(evaluation: &Evaluation) -> Page {
     if let Some(sigma) = evaluation.combined.sigma_um {
         numbers.push((format!("{:.3} µm", 3.0 * sigma), "±3σ of the combined signal".into()));
     }
+    let mut sheet = evaluation.sheet.as_ref().map_or_else(Vec::new, sheet::parts);
+    let signatures = sheet.pop();
     let mut parts = vec![Part::Numbers(numbers)];
+    parts.extend(sheet);
     parts.push(Part::Picture {
         svg: figure(evaluation).svg(),
         caption:
@@ -43,6 +47,7 @@ pub(crate) fn page(evaluation: &Evaluation) -> Page {
             outcome.after_if_stepless_um
         )));
     }
+    parts.extend(signatures);
     Page {
         title: "Straightness by three probes".into(),
         summary: format!(

@@ -50,6 +50,14 @@ pub(crate) fn print(
             method_name(evaluation.method)
         )?;
     }
+    if let Some(sheet) = &evaluation.sheet {
+        for line in sheet.words() {
+            writeln!(out, "{line}")?;
+        }
+        if let Some(why) = sheet.why_without() {
+            writeln!(out, "note: {why}")?;
+        }
+    }
     for warning in &evaluation.plan.warnings {
         writeln!(out, "note: {warning}")?;
     }

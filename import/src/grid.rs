@@ -100,6 +100,11 @@ impl Grid {
             let expected = format!("up to {}", limits::CELLS);
             return Err(ImportError::found(place, "more cells", expected));
         }
+        if limits::CELL < cell.len() {
+            let place = Place::file(&self.file);
+            let found = format!("a cell of {} bytes", cell.len());
+            return Err(ImportError::found(place, found, format!("up to {}", limits::CELL)));
+        }
         let start = self.text.len();
         self.text.push_str(cell);
         self.cells.push((start, self.text.len(), column));

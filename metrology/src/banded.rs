@@ -20,6 +20,11 @@ impl Banded {
         }
     }
 
+    /// Adds to one element, at or below the diagonal.
+    pub(crate) fn add(&mut self, row: usize, column: usize, value: f64) {
+        self.bands[row][row - column] += value;
+    }
+
     /// Cholesky factor in place of the matrix; `None` when it is not positive definite.
     pub(crate) fn factor(mut self) -> Option<Factor> {
         let width = self.bands.first().map_or(0, |row| row.len() - 1);
@@ -53,6 +58,14 @@ impl Factor {
     /// Natural logarithm of the determinant of the matrix.
     pub(crate) fn log_determinant(&self) -> f64 {
         2.0 * self.0.iter().map(|row| libm::log(row[0])).sum::<f64>()
+    }
+
+    /// The lower triangle times a vector: independent normal numbers become those of the covariance.
+    pub(crate) fn spread(&self, normal: &[f64]) -> Vec<f64> {
+        let row = |(i, row): (usize, &Vec<f64>)| {
+            row.iter().take(i + 1).enumerate().map(|(d, value)| value * normal[i - d]).sum()
+        };
+        self.0.iter().enumerate().map(row).collect()
     }
 
     /// Solves for one right-hand side.

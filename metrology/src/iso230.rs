@@ -6,6 +6,11 @@
 use crate::Error;
 use crate::number::{mean, number};
 
+pub mod coverage;
+mod figures;
+
+pub use figures::{Approaches, Figure};
+
 /// Approaches of one target.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {

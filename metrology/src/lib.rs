@@ -11,6 +11,7 @@ pub mod scale;
 pub mod screw;
 pub mod straightness;
 pub mod transmission;
+pub mod uncertainty;
 
 pub use conformity::{Conformity, conformity};
 pub use error::Error;

@@ -15,6 +15,7 @@
 mod chauvenet;
 mod compensation;
 pub mod coverage;
+mod drawn;
 mod fourier;
 mod least_squares;
 mod plan;
@@ -28,6 +29,7 @@ pub use compensation::{
     CompensationModel, CompensationOutcome, CorrectionPoint, correction_table,
     simulate_compensation,
 };
+pub use drawn::straightness_uncertainty_um;
 pub use fourier::separate_by_fourier;
 pub use least_squares::separate_by_least_squares;
 pub use plan::{Plan, plan, propose};

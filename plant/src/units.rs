@@ -61,6 +61,12 @@ impl Unit {
         Self { symbol, dimension, size, zero: 0.0 }
     }
 
+    /// A unit of differences, such as of temperatures: its zero is zero, and no other converts into it.
+    #[must_use]
+    pub const fn difference(symbol: &'static str) -> Self {
+        Self::new(symbol, Dimension::Number, (1.0, 1.0))
+    }
+
     /// The unit of the same parameter on a rotary chain, whose δ is in seconds of arc.
     #[must_use]
     pub fn on_rotary_chain(self) -> Self {

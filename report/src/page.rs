@@ -32,6 +32,8 @@ pub enum Part {
         /// What to see in it.
         caption: String,
     },
+    /// Names with what belongs to them, or with room to write it by hand: `("Date", "")`.
+    Fields(Vec<(String, String)>),
     /// A table.
     Table(Table),
     /// Something the reader must not overlook.
@@ -70,6 +72,7 @@ fn push_part(html: &mut String, part: &Part) {
         Part::Heading(text) => writeln!(html, "<h2>{}</h2>", escaped(text)),
         Part::Text(text) => writeln!(html, "<p>{}</p>", escaped(text)),
         Part::Numbers(numbers) => return push_numbers(html, numbers),
+        Part::Fields(fields) => return push_fields(html, fields),
         Part::Picture { svg, caption } => {
             let caption = escaped(caption);
             writeln!(html, "<figure>\n{svg}<figcaption>{caption}</figcaption>\n</figure>")
@@ -89,6 +92,15 @@ fn push_numbers(html: &mut String, numbers: &[(String, String)]) {
     html.push_str("</dl>\n");
 }
 
+fn push_fields(html: &mut String, fields: &[(String, String)]) {
+    html.push_str("<dl class=\"fields\">\n");
+    for (name, value) in fields {
+        let (name, value) = (escaped(name), escaped(value));
+        let _ = writeln!(html, "<div><dt>{name}</dt><dd>{value}</dd></div>");
+    }
+    html.push_str("</dl>\n");
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -102,6 +114,7 @@ mod tests {
                 Part::Numbers(vec![("0.31 µm".into(), "after".into())]),
                 Part::Picture { svg: "<svg></svg>".into(), caption: "the error".into() },
                 Part::Note("slew limit <reached>".into()),
+                Part::Fields(vec![("Signature".into(), String::new())]),
             ],
         };
         let html = page.html();
@@ -109,6 +122,7 @@ mod tests {
         assert!(html.contains("<title>Error &amp; correction</title>"));
         assert!(html.contains("<dd>0.31 µm</dd><dt>after</dt>"));
         assert!(html.contains("slew limit &lt;reached&gt;"));
+        assert!(html.contains("<dt>Signature</dt><dd></dd>"));
         for outside in ["http:", "https:", "src=", "href=", "@import", "url("] {
             assert!(!html.contains(outside), "{outside}");
         }

@@ -48,6 +48,9 @@ pub(super) fn cases() -> Vec<Case> {
     cases.extend(each("a name that turns the line", turned, Refused));
     let long = format!("position_mm,{}\n0,1\n1,x\n", "n".repeat(5_000_000));
     cases.extend(each("a name of 5 MB", long.as_bytes(), Refused));
+    let rows = text((0..400).map(|i| format!("{i},{},{i}\n", i % 7)));
+    let beside = format!("position_mm,lead_error_um,{}\n{rows}", "n".repeat(5_000_000));
+    cases.extend(each("a name of 5 MB beside good ones", beside.as_bytes(), Refused));
     let cell = format!("position_mm,error_um\n0,{}\n1,2\n", "9".repeat(3_000_000));
     cases.extend(each("a number of 3 million digits", cell.as_bytes(), Refused));
     let small = table((0..100).map(|i| format!("{i},{}e-320\n", i % 7)));

@@ -12,7 +12,7 @@ use ::csv::{ByteRecord, QuoteStyle, ReaderBuilder};
 
 use crate::error::{At, TraceError};
 use crate::number::write_number;
-use crate::table::{MOST_CELLS, MOST_COLUMNS, Table};
+use crate::table::{LONGEST_NAME, MOST_CELLS, MOST_COLUMNS, Table};
 
 mod cells;
 mod place;
@@ -171,6 +171,10 @@ fn header(record: &ByteRecord, line: &Line) -> Result<Vec<String>, TraceError> {
     let mut names: Vec<String> = Vec::with_capacity(record.len());
     for (index, cell) in record.iter().enumerate() {
         let name = text_of(cell.trim_ascii());
+        if LONGEST_NAME < name.len() {
+            let (at, what) = (line.at(index), "bytes in the name of a column");
+            return Err(TraceError::TooMany { at, most: LONGEST_NAME, what });
+        }
         if name.contains(|c: char| c.is_control() || c == '\u{feff}') {
             return refuse(
                 index,

@@ -6,6 +6,8 @@ use crate::error::{At, TraceError};
 
 /// Most columns of a table; an instrument has some twenty.
 pub(crate) const MOST_COLUMNS: usize = 4096;
+/// Longest name of a column, bytes: it is compared, sorted and quoted at every turn.
+pub(crate) const LONGEST_NAME: usize = 1000;
 /// Most cells of a table: 400 MB of numbers.
 pub(crate) const MOST_CELLS: usize = 50_000_000;
 

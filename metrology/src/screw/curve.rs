@@ -102,6 +102,14 @@ impl Curve {
         Self { travel_mm: self.travel_mm.clone(), deviation_um }
     }
 
+    /// The same travel, measured with a device whose lengths are too long by so many µm/m.
+    #[must_use]
+    pub fn stretched(&self, um_per_m: f64) -> Self {
+        let samples = self.travel_mm.iter().zip(&self.deviation_um);
+        let deviation_um = samples.map(|(mm, um)| um + um_per_m * mm / 1000.0).collect();
+        Self { travel_mm: self.travel_mm.clone(), deviation_um }
+    }
+
     /// Median distance of neighbouring samples, mm; samples at one place do not count.
     #[must_use]
     pub fn median_step_mm(&self) -> f64 {

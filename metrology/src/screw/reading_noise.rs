@@ -28,7 +28,7 @@ const DRAWS: u32 = 32;
 
 /// The extrapolation spreads more than the band it starts from. Chosen: ±1.96 times the uncertainty
 /// then hold the truth in 95.8 % of records, 90 to 98 % by kind of curve; with 1.0 in 89 %. The
-/// example `screw_coverage` draws them.
+/// example `coverage` draws them.
 const SPREAD_OF_THE_EXTRAPOLATION: f64 = 1.5;
 
 /// Sizes of the characteristics without noise of `noise_um` (standard deviation of one reading,

@@ -199,6 +199,7 @@ mod tests {
             carriage_um: vec![0.0; 33],
             tilt_urad: vec![0.0; 33],
             uncertainty_um: None,
+            covariance_um2: None,
         }
     }
 

@@ -5,6 +5,8 @@
 //! found at its end. `least_squares` does without, and `Separated::with_difference_from` puts what
 //! the two differ by into the uncertainty.
 
+use std::f64::consts::TAU;
+
 use rustfft::FftPlannerScalar;
 use rustfft::num_complex::Complex;
 
@@ -33,9 +35,19 @@ pub fn separate_by_fourier(combined: &Combined, accept_lost: bool) -> Result<Sep
     let workpiece_um = divide(&combined.z_um, &kept);
     let touched_um =
         |sample: usize, back: usize| workpiece_um[(sample + samples - back % samples) % samples];
-    let uncertainty_um = uncertainty(combined, &kept);
-    Ok(Separated::with_carriage(combined, touched_um, uncertainty_um))
+    let by_distance_um2 = covariance_um2(combined, &kept);
+    let row = |covariance: &[f64], place: usize| -> Vec<f64> {
+        (0..samples).map(|other| covariance[place.abs_diff(other)]).collect()
+    };
+    let whole = by_distance_um2.as_ref().filter(|_| samples <= MOST_WITH_COVARIANCE);
+    let rows = whole.map(|found| (0..samples).map(|place| row(found, place)).collect());
+    let found = Separated::with_carriage(combined, touched_um, rows);
+    let uncertainty_um = by_distance_um2.map(|found| vec![found[0].sqrt(); samples]);
+    Ok(Separated { uncertainty_um, ..found })
 }
+
+/// Samples of which pairs are still few enough to keep.
+const MOST_WITH_COVARIANCE: usize = 2000;
 
 /// Forward transform, division by `A_k·e^(iψ_k)`, backward transform.
 fn divide(z_um: &[f64], kept: &[Harmonic]) -> Vec<f64> {
@@ -58,20 +70,23 @@ fn divide(z_um: &[f64], kept: &[Harmonic]) -> Vec<f64> {
     divided.iter().map(|value| value.re / number(samples)).collect()
 }
 
-/// `σ/√m · √(2/N·Σ 1/A_k²)`, the same at every place.
-fn uncertainty(combined: &Combined, kept: &[Harmonic]) -> Option<Vec<f64>> {
+/// `σ²/m · 2/N·Σ cos(2π·k·d/N)/A_k²` by the distance d in steps; of many samples the variance alone.
+fn covariance_um2(combined: &Combined, kept: &[Harmonic]) -> Option<Vec<f64>> {
     let samples = combined.z_um.len();
     debug_assert!(kept.len() <= highest_harmonic(samples));
-    let squares: f64 = kept.iter().map(|h| 1.0 / (h.gain * h.gain)).sum();
     let fewest = combined.counts.iter().min()?;
-    let of_mean_um = combined.sigma_um? / number(*fewest).sqrt();
-    Some(vec![of_mean_um * (2.0 / number(samples) * squares).sqrt(); samples])
+    let of_mean_um2 = combined.sigma_um?.powi(2) / number(*fewest);
+    let turn = |part: usize| TAU * number(part % samples) / number(samples);
+    let at_distance = |steps: usize| -> f64 {
+        let each = kept.iter().map(|h| libm::cos(turn(h.number * steps)) / (h.gain * h.gain));
+        of_mean_um2 * 2.0 / number(samples) * each.sum::<f64>()
+    };
+    let distances = if samples <= MOST_WITH_COVARIANCE { samples } else { 1 };
+    Some((0..distances).map(at_distance).collect())
 }
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::TAU;
-
     use proptest::prelude::*;
 
     use super::*;

@@ -1,31 +1,37 @@
 //! Separation by generalised least squares, without periodicity.
 //!
 //! Unknown is the bar at every place a probe touches, before the stroke too: more unknowns than
-//! equations. What is missing is supplied by one assumption, that the bar is smooth: its second
-//! differences are small and independent (an integrated random walk). How small is not chosen
-//! but estimated, by the restricted likelihood of `z`, together with the noise:
+//! equations. What is missing is supplied by an assumption of what bars are: a smooth form, whose
+//! second differences are small and independent (an integrated random walk), with a few waves.
+//! How smooth is not chosen but left open, and so are the number of waves, their lengths, sizes
+//! and phases: every smoothness with up to five waves is fitted and weighed by how probable it
+//! makes the readings. The bar is the mean of them all, and its variance the mean of their variances
+//! and the variance of their means (Hoeting et al., Statistical Science 14, 1999, 382).
 //!
 //! ```text
-//! minimise  ‖z − A·h‖² + λ·‖D²·h‖²,     λ from   N·ln σ² + ln det(AᵀA + λ·DᵀD) − (n − 2)·ln λ
+//! minimise  ‖z − A·(h + w)‖² + λ·‖D²·h‖²;     −2·ln p(z | λ) has  ln det(AᵀA + λ·DᵀD) − (n − 2)·ln λ
 //! ```
 //!
-//! Where runs were repeated, σ² is not estimated from the form but known from their scatter, and
-//! the first term is the penalised squares over σ². Roughness of the bar is then not taken for noise.
-//! Source: Wahba 1985, "A comparison of GCV and GML" (the generalised maximum likelihood choice).
+//! Source of the second term: Wahba 1985, "A comparison of GCV and GML". One smoothness alone, the
+//! most probable, would be narrower than what is known; and without waves a bar that has some is
+//! taken for a rough one. The noise is known from the scatter of the runs, so roughness of the bar
+//! is not taken for noise. With one run it is estimated with the form, by the most probable
+//! smoothness without waves, and nothing can be said about the uncertainty.
 //! The matrix is a band, so the cost grows with the samples, not with their cube. A straight line
 //! is in both null spaces; the first and the last place are held at zero to fix it.
 
+mod posterior;
+mod system;
+mod waves;
+
 use super::readings::Combined;
-use super::separated::{Separated, without_line};
+use super::separated::Separated;
 use crate::Error;
-use crate::banded::{Banded, Factor};
 use crate::number::number;
+use posterior::{affordable, posterior};
+use system::{System, dot};
 
-/// Above this many places the uncertainty, a full inverse, is not worked out.
-const MOST_PLACES_WITH_UNCERTAINTY: usize = 2500;
-
-/// Smoothness weights tried, in quarter decades: from no smoothing to nothing but a line, first a
-/// decade apart, then about the best of those.
+/// Smoothness weights tried, in quarter decades: from no smoothing to nothing but a line.
 const SMOOTHNESS_TRIED: std::ops::RangeInclusive<i32> = -40..=32;
 
 /// Finds the bar without assuming that it repeats with the stroke.
@@ -34,7 +40,8 @@ const SMOOTHNESS_TRIED: std::ops::RangeInclusive<i32> = -40..=32;
 /// are unknown, and the bar is given the parabola that belongs to a mean of zero.
 ///
 /// Lost harmonics are no error here: what the spacings do not see is filled in smoothly, and the
-/// uncertainty says so.
+/// uncertainty says so. There is none with one run, nor for records of more than 600 places or
+/// with probes far apart in steps: waves would take too long to find there.
 ///
 /// # Errors
 ///
@@ -45,131 +52,46 @@ pub fn separate_by_least_squares(
 ) -> Result<Separated, Error> {
     let offset_um = if zeros_matched { combined.offset_um } else { 0.0 };
     let z_um: Vec<f64> = combined.z_um.iter().map(|z| z + offset_um).collect();
-    let system = System { z_um: &z_um, combined };
-    let fit =
-        |quarters: i32| Some((quarters, system.fit(libm::pow(10.0, f64::from(quarters) / 4.0))?));
-    let better = |a: &(i32, Fit), b: &(i32, Fit)| a.1.misfit.total_cmp(&b.1.misfit);
-    let coarse = SMOOTHNESS_TRIED.step_by(4).filter_map(fit).min_by(better);
-    let near = coarse.as_ref().map_or(0..=0, |(quarters, _)| quarters - 3..=quarters + 3);
-    let best = near.filter_map(fit).min_by(better);
-    let (_, best) = best.ok_or(Error::TooFewSamples { found: z_um.len(), expected: 4 })?;
+    let system = System::new(&z_um, combined);
+    let weights: Vec<f64> = SMOOTHNESS_TRIED.map(|q| libm::pow(10.0, f64::from(q) / 4.0)).collect();
+    let noise_um2 = system.variance_of_mean_um2();
+    let known = noise_um2.filter(|_| affordable(&system));
+    let (places_um, covariance_um2) = match known {
+        Some(noise_um2) => posterior(&system, noise_um2, &weights)
+            .map(|found| (found.places_um, Some(found.covariance_um2))),
+        None => most_probable(&system, noise_um2, &weights).map(|places_um| (places_um, None)),
+    }
+    .ok_or(Error::TooFewSamples { found: z_um.len(), expected: 4 })?;
     let back = combined.spacing.total();
-    let uncertainty_um = system.uncertainty(&best);
-    let touched_um = |sample: usize, behind: usize| best.places_um[sample + back - behind];
-    Ok(Separated::with_carriage(combined, touched_um, uncertainty_um))
+    let touched_um = |sample: usize, behind: usize| places_um[sample + back - behind];
+    Ok(Separated::with_carriage(combined, touched_um, covariance_um2))
 }
 
-/// The equations, for any smoothness weight.
-struct System<'a> {
-    z_um: &'a [f64],
-    combined: &'a Combined,
-}
-
-/// A solution for one smoothness weight.
-struct Fit {
-    /// The bar at every place touched, µm.
-    places_um: Vec<f64>,
-    /// Minus twice the restricted log likelihood.
-    misfit: f64,
-    /// Variance of `z`, µm²: known from the runs, or estimated.
-    variance_um2: f64,
-    factor: Factor,
-}
-
-impl System<'_> {
-    fn places(&self) -> usize {
-        self.z_um.len() + self.combined.spacing.total()
-    }
-
-    /// Variance of a mean `z` by the scatter of the runs, µm².
-    fn variance_of_mean_um2(&self) -> Option<f64> {
-        let sigma_um = self.combined.sigma_um.filter(|sigma_um| 0.0 < *sigma_um)?;
-        Some(sigma_um * sigma_um / number(*self.combined.counts.iter().min()?))
-    }
-
-    /// Coefficients of one sample's equation, by place.
-    fn equation(&self, sample: usize) -> [(usize, f64); 3] {
-        let (spacing, r) = (self.combined.spacing, self.combined.spacing.ratio());
-        let here = sample + spacing.total();
-        [(here, 1.0), (here - spacing.first, -(1.0 + r)), (sample, r)]
-    }
-
-    fn fit(&self, smoothness: f64) -> Option<Fit> {
-        let (places, samples) = (self.places(), self.z_um.len());
-        let width = self.combined.spacing.total().max(2);
-        let mut matrix = Banded::zeros(places - 2, width);
-        let mut right = vec![0.0; places - 2];
-        for (sample, z) in self.z_um.iter().enumerate() {
-            let equation = free(&self.equation(sample), places);
-            matrix.add_outer(&equation, 1.0);
-            for (place, value) in equation {
-                right[place] += value * z;
-            }
-        }
-        for middle in 1..places - 1 {
-            matrix.add_outer(&free(&second_difference(middle), places), smoothness);
-        }
-        let factor = matrix.factor()?;
-        let mut places_um = vec![0.0];
-        places_um.extend(factor.solve(&right));
-        places_um.push(0.0);
-        let squares_um2 = self.penalised_squares(&places_um, smoothness);
-        let estimated_um2 = squares_um2 / number(samples);
-        let known_um2 = self.variance_of_mean_um2();
-        let variance_um2 = known_um2.unwrap_or(estimated_um2);
-        let estimated_misses = number(samples) * libm::log(estimated_um2);
-        let misses = known_um2.map_or(estimated_misses, |known_um2| squares_um2 / known_um2);
-        let misfit = misses + factor.log_determinant() - number(places - 2) * libm::log(smoothness);
+/// The bar of the most probable smoothness, first of those a decade apart, then of those near it.
+fn most_probable(system: &System<'_>, noise_um2: Option<f64>, weights: &[f64]) -> Option<Vec<f64>> {
+    let misfit = |smoothness: f64| {
+        let smooth = system.smooth(smoothness)?;
+        let squares_um2 = dot(&smooth.left(system, system.z_um), system.z_um);
+        let samples = number(system.z_um.len());
+        let estimated = samples * libm::log(squares_um2 / samples);
+        let misfit = noise_um2.map_or(estimated, |noise_um2| squares_um2 / noise_um2) + smooth.cost;
         // Readings without any form or noise fit exactly, with a likelihood beyond all bounds.
-        (!misfit.is_nan()).then_some(Fit { places_um, misfit, variance_um2, factor })
-    }
-
-    fn penalised_squares(&self, places_um: &[f64], smoothness: f64) -> f64 {
-        let value = |row: &[(usize, f64)]| row.iter().map(|(p, c)| c * places_um[*p]).sum::<f64>();
-        let misses = self.z_um.iter().enumerate().map(|(s, z)| z - value(&self.equation(s)));
-        let bends = (1..places_um.len() - 1).map(|middle| value(&second_difference(middle)));
-        misses.map(|miss| miss * miss).sum::<f64>()
-            + smoothness * bends.map(|bend| bend * bend).sum::<f64>()
-    }
-
-    /// Standard uncertainty at each sample after the line is removed: the diagonal of the
-    /// posterior covariance, projected.
-    fn uncertainty(&self, fit: &Fit) -> Option<Vec<f64>> {
-        let (places, back) = (self.places(), self.combined.spacing.total());
-        if MOST_PLACES_WITH_UNCERTAINTY < places {
-            return None;
-        }
-        let column = |place: usize| -> Vec<f64> {
-            let mut unit = vec![0.0; places - 2];
-            if let Some(element) = place.checked_sub(1).and_then(|free| unit.get_mut(free)) {
-                *element = 1.0;
-            }
-            let solved = fit.factor.solve(&unit);
-            let padded = std::iter::once(0.0).chain(solved).chain(std::iter::once(0.0));
-            without_line(padded.skip(back).collect())
-        };
-        // Rows of P·C; removing the line along the other side too gives P·C·P.
-        let columns: Vec<Vec<f64>> = (back..places).map(column).collect();
-        let row = |sample: usize| without_line(columns.iter().map(|c| c[sample]).collect());
-        let variance = (0..columns.len()).map(|sample| row(sample)[sample] * fit.variance_um2);
-        Some(variance.map(|variance| variance.max(0.0).sqrt()).collect())
-    }
-}
-
-fn second_difference(middle: usize) -> [(usize, f64); 3] {
-    [(middle - 1, 1.0), (middle, -2.0), (middle + 1, 1.0)]
-}
-
-/// A row without the two places held at zero, numbered from the first free one.
-fn free(row: &[(usize, f64)], places: usize) -> Vec<(usize, f64)> {
-    let is_free = |place: usize| 0 < place && place < places - 1;
-    row.iter().filter(|(place, _)| is_free(*place)).map(|(place, c)| (place - 1, *c)).collect()
+        (!misfit.is_nan()).then(|| (misfit, smooth.form(system, system.z_um)))
+    };
+    let fit = |index: usize| Some((index, misfit(weights[index])?));
+    let better =
+        |a: &(usize, (f64, Vec<f64>)), b: &(usize, (f64, Vec<f64>))| a.1.0.total_cmp(&b.1.0);
+    let coarse = (0..weights.len()).step_by(4).filter_map(fit).min_by(better);
+    let about = coarse.as_ref().map_or(0, |(index, _)| *index);
+    let near = about.saturating_sub(3)..(about + 4).min(weights.len());
+    near.filter_map(fit).min_by(better).map(|(_, (_, form_um))| form_um)
 }
 
 #[cfg(test)]
 mod tests {
     use std::f64::consts::TAU;
 
+    use super::super::separated::without_line;
     use super::*;
     use crate::straightness::{Readings, Repeat, Spacing, separate_by_fourier};
 

@@ -17,6 +17,8 @@ pub struct Separated {
     /// Standard uncertainty (k = 1) of h at each place from the scatter of the runs, µm; absent
     /// when nothing was repeated.
     pub uncertainty_um: Option<Vec<f64>>,
+    /// Covariance of h at the places, whose diagonal that is squared, µm².
+    pub covariance_um2: Option<Vec<Vec<f64>>>,
 }
 
 impl Separated {
@@ -33,6 +35,9 @@ impl Separated {
         let excess_um2 = (difference_um2 - expected_um2).max(0.0);
         for u_um in self.uncertainty_um.iter_mut().flatten() {
             *u_um = libm::sqrt(*u_um * *u_um + excess_um2);
+        }
+        for (place, row) in self.covariance_um2.iter_mut().flatten().enumerate() {
+            row[place] += excess_um2;
         }
         self
     }
@@ -55,7 +60,7 @@ impl Separated {
     pub(super) fn with_carriage(
         combined: &Combined,
         touched_um: impl Fn(usize, usize) -> f64,
-        uncertainty_um: Option<Vec<f64>>,
+        covariance_um2: Option<Vec<Vec<f64>>>,
     ) -> Self {
         let samples = combined.z_um.len();
         let positions = (0..samples).map(|sample| place(combined, sample));
@@ -63,12 +68,17 @@ impl Separated {
         let motion = (0..samples).map(|sample| carriage(combined, sample, &touched_um));
         let (carriage_um, tilt_urad): (Vec<f64>, Vec<f64>) = motion.unzip();
         let mean_tilt = crate::number::mean(&tilt_urad);
+        let uncertainty = |rows: &Vec<Vec<f64>>| -> Vec<f64> {
+            rows.iter().enumerate().map(|(place, row)| row[place].max(0.0).sqrt()).collect()
+        };
+        let uncertainty_um = covariance_um2.as_ref().map(uncertainty);
         Self {
             position_mm: positions.collect(),
             workpiece_um: without_line(workpiece_um),
             carriage_um: without_line(carriage_um),
             tilt_urad: tilt_urad.iter().map(|tilt| tilt - mean_tilt).collect(),
             uncertainty_um,
+            covariance_um2,
         }
     }
 }

@@ -12,7 +12,7 @@ use bytes::Bytes;
 
 use crate::error::{At, TraceError};
 use crate::number::LARGEST;
-use crate::table::{Column, MOST_CELLS, MOST_COLUMNS, Table};
+use crate::table::{Column, LONGEST_NAME, MOST_CELLS, MOST_COLUMNS, Table};
 
 /// Most bytes that the pages of a file may unpack to.
 const MOST_UNPACKED: i64 = 1 << 30;
@@ -46,7 +46,13 @@ pub(super) fn is_text(column: &ColumnDescriptor) -> bool {
 
 /// Rows that the footer declares; a few bytes can stand for any number of equal ones.
 pub(super) fn declared_rows(file: &SerializedFileReader<Bytes>) -> Result<usize, ParquetError> {
-    let columns = file.metadata().file_metadata().schema_descr().num_columns();
+    let schema = file.metadata().file_metadata().schema_descr();
+    let columns = schema.num_columns();
+    if schema.columns().iter().any(|column| LONGEST_NAME < column.path().string().len()) {
+        let message =
+            format!("found more bytes in the name of a column, expected at most {LONGEST_NAME}");
+        return Err(ParquetError::General(message));
+    }
     if MOST_COLUMNS < columns {
         let message = format!("found {columns} columns, expected at most {MOST_COLUMNS}");
         return Err(ParquetError::General(message));

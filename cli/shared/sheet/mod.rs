@@ -1,0 +1,140 @@
+//! A sheet that a laboratory can sign: figures, their uncertainty by a budget, and what that proves.
+
+mod file;
+mod json;
+mod page;
+mod reader;
+
+use helixlock_metrology::uncertainty::{Budget, Readings, Source, budgets};
+use helixlock_metrology::{Conformity, conformity};
+
+use crate::shared::words;
+
+pub(crate) use file::{FROM_READING_TO_READING, SheetFile, Subject, ZEROS};
+pub(crate) use json::SheetJson;
+pub(crate) use page::parts;
+
+/// A figure as a command names it.
+pub(crate) struct Named {
+    /// Its symbol.
+    pub(crate) symbol: String,
+    /// Its name in the file of the sheet.
+    pub(crate) key: String,
+    /// What it is.
+    pub(crate) meaning: String,
+    /// Its value, µm.
+    pub(crate) value_um: f64,
+}
+
+/// A figure on the sheet.
+pub(crate) struct Line {
+    /// What it is.
+    pub(crate) named: Named,
+    /// Its uncertainty, when all that contributes was told.
+    pub(crate) budget: Option<Budget>,
+    /// What it may be at most, µm.
+    pub(crate) tolerance_um: Option<f64>,
+}
+
+/// A sheet.
+pub(crate) struct Sheet {
+    /// What is printed above the figures; without a text, a field to fill in.
+    pub(crate) head: Vec<(&'static str, Option<String>)>,
+    /// The figures.
+    pub(crate) lines: Vec<Line>,
+    /// What was not told, so that there is no uncertainty.
+    pub(crate) missing: Vec<&'static str>,
+}
+
+impl Line {
+    /// Decision by ISO 14253-1; absent without a tolerance or an uncertainty.
+    pub(crate) fn conformity(&self) -> Option<Conformity> {
+        let (tolerance_um, budget) = (self.tolerance_um?, self.budget.as_ref()?);
+        Some(conformity(self.named.value_um.abs(), tolerance_um, budget.expanded_um))
+    }
+
+    /// True when the tolerance is kept; proven so where the uncertainty is known.
+    pub(crate) fn holds(&self) -> bool {
+        let kept = self.tolerance_um.is_none_or(|most| self.named.value_um.abs() <= most);
+        self.conformity().map_or(kept, |found| found == Conformity::Proven)
+    }
+
+    /// What is said of the tolerance.
+    fn verdict(&self) -> String {
+        match self.conformity() {
+            Some(decision) => format!("by ISO 14253-1: conformity {}", decision.name()),
+            None => words::held(self.holds()).into(),
+        }
+    }
+
+    /// The decision in words.
+    pub(crate) fn decision(&self) -> &'static str {
+        match (self.tolerance_um, self.conformity()) {
+            (None, _) => "",
+            (Some(_), Some(Conformity::Proven)) => "conforms",
+            (Some(_), Some(Conformity::Disproven)) => "does not conform",
+            (Some(_), Some(Conformity::Open)) => "no decision: within U of the tolerance",
+            (Some(_), None) if self.holds() => "kept, without U: nothing is proven",
+            (Some(_), None) => "exceeded, without U: nothing is proven",
+        }
+    }
+}
+
+impl Sheet {
+    /// Figures with what the file says of them; `sources` is what it tells of the measurement.
+    pub(crate) fn new(
+        file: SheetFile,
+        named: Vec<Named>,
+        readings: &dyn Readings,
+        sources: &[Source],
+    ) -> anyhow::Result<Self> {
+        file.only_figures(&named)?;
+        let budgets = if file.missing.is_empty() { budgets(readings, sources) } else { Vec::new() };
+        let mut budgets = budgets.into_iter();
+        let line = |named: Named| Line {
+            tolerance_um: file.tolerance_um(&named.key),
+            budget: budgets.next(),
+            named,
+        };
+        let lines = named.into_iter().map(line).collect();
+        Ok(Self { lines, head: file.head, missing: file.missing })
+    }
+
+    /// True when every tolerance is kept.
+    pub(crate) fn holds(&self) -> bool {
+        self.lines.iter().all(Line::holds)
+    }
+
+    /// True when anything is held against a tolerance.
+    pub(crate) fn decides(&self) -> bool {
+        self.lines.iter().any(|line| line.tolerance_um.is_some())
+    }
+
+    /// The figures in words, a line each, and then the decisions.
+    pub(crate) fn words(&self) -> Vec<String> {
+        let decision = |line: &Line| {
+            let most_um = line.tolerance_um?;
+            Some(format!("{}: limit {most_um} µm {}", line.named.symbol, line.verdict()))
+        };
+        let figures = self.lines.iter().map(in_words);
+        figures.chain(self.lines.iter().filter_map(decision)).collect()
+    }
+
+    /// Why there is no uncertainty, when there is none.
+    pub(crate) fn why_without(&self) -> Option<String> {
+        let told = self.missing.is_empty();
+        (!told).then(|| {
+            format!("no uncertainty is given: nothing is told of {}", self.missing.join(", "))
+        })
+    }
+}
+
+fn in_words(line: &Line) -> String {
+    let Named { symbol, meaning, value_um, .. } = &line.named;
+    let mut words = format!("{symbol:<6} {meaning:<38} {value_um:9.3} µm");
+    if let Some(budget) = &line.budget {
+        words +=
+            &format!("   U = {:.3} µm (k = {:.2})", budget.expanded_um, budget.coverage_factor);
+    }
+    words
+}

@@ -1,0 +1,112 @@
+//! What may be wrong with a measurement, and by how much.
+
+/// How the values of an input quantity are spread.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Distribution {
+    /// Normal, as certificates state it.
+    Normal,
+    /// Anywhere between two limits alike.
+    Rectangular,
+    /// The square of a length that lies anywhere between two limits alike: a cosine error.
+    SquareOfRectangular,
+}
+
+/// What an error of an input quantity does to the readings; each number is for one unit of it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Acts {
+    /// It makes all lengths wrong alike, µm/m.
+    OnLengths(f64),
+    /// It adds to every reading at a place alike, from place to place independently, µm.
+    AtEachPlace(f64),
+    /// It adds to every reading independently, µm.
+    AtEachReading(f64),
+    /// It changes each figure by this, µm, found by other means.
+    OnFigures(Vec<f64>),
+}
+
+/// An input quantity of a budget.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Source {
+    /// What it is.
+    pub quantity: String,
+    /// Its estimate, in its unit.
+    pub estimate: f64,
+    /// Its unit.
+    pub unit: &'static str,
+    /// Its standard uncertainty, in its unit.
+    pub standard: f64,
+    /// How its values are spread.
+    pub distribution: Distribution,
+    /// Degrees of freedom of the standard uncertainty; infinite when it is taken as known.
+    pub degrees_of_freedom: f64,
+    /// What an error of it does.
+    pub acts: Acts,
+}
+
+/// An error that is added to readings.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Added {
+    /// None.
+    Nothing,
+    /// Proportional to the position, µm/m.
+    ToLengths(f64),
+    /// To every reading at one place, µm.
+    AtPlace(usize, f64),
+    /// To one reading, µm.
+    AtReading(usize, f64),
+}
+
+/// Readings from which figures are evaluated.
+pub trait Readings {
+    /// Places at which something was read.
+    fn places(&self) -> usize;
+    /// Readings at all places.
+    fn readings(&self) -> usize;
+    /// All figures, µm, always in the same order, with an error added to the readings.
+    fn figures_um(&self, added: Added) -> Vec<f64>;
+}
+
+impl Distribution {
+    /// In one word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Normal => "normal",
+            Self::Rectangular => "rectangular",
+            Self::SquareOfRectangular => "square of rectangular",
+        }
+    }
+}
+
+/// A measuring line that is off the axis by at most `offset_mm` over `length_mm`: lengths are
+/// too short by `o²/(2·L²)` of themselves, `o` anywhere up to the offset alike.
+///
+/// Nobody takes such an error off, so what counts is its root mean square about zero,
+/// `offset²/(2·√5·L²)`, and not its spread about its mean (JCGM 100:2008, F.2.4.4 and F.2.4.5).
+/// Twice it, `0.447·offset²/L`, holds the error in √0.894 = 94.6 % of all cases; the spread,
+/// `0.3·offset²/L`, as a width taken for centred, in √0.577 = 76 %.
+#[must_use]
+pub fn misalignment(offset_mm: f64, length_mm: f64) -> Source {
+    let part = offset_mm / length_mm;
+    Source {
+        quantity: "misalignment of the device".into(),
+        estimate: 0.0,
+        unit: "um/m",
+        standard: part * part / (2.0 * 5.0_f64.sqrt()) * 1e6,
+        distribution: Distribution::SquareOfRectangular,
+        degrees_of_freedom: f64::INFINITY,
+        acts: Acts::OnLengths(1.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::misalignment;
+
+    /// 1 mm over 1 m is a cosine error of up to 0.5 µm.
+    #[test]
+    fn a_millimetre_over_a_metre() {
+        let um_per_m = misalignment(1.0, 1000.0).standard;
+        assert!((um_per_m - 0.223_606_797_749_979).abs() < 1e-12, "{um_per_m}");
+    }
+}
