@@ -38,8 +38,8 @@ fn of_straightness(out: &mut impl Write) -> Printed {
 }
 
 fn of_screws(out: &mut impl Write) -> Printed {
-    let head = "| screw | noise | widened by | left of it | ±1.96 u holds |";
-    writeln!(out, "{head}\n|---|---|---|---|---|")?;
+    let header = "| screw | noise | widened by | left of it | ±1.96 u holds |";
+    writeln!(out, "{header}\n|---|---|---|---|---|")?;
     for kind in screw::coverage::Screw::ALL {
         for noise_um in [0.05, 0.25, 0.6] {
             let found = screw::coverage::coverage(kind, noise_um, 500, 1);

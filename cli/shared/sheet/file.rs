@@ -7,7 +7,7 @@ use helixlock_metrology::uncertainty::{Acts, Source, misalignment};
 use helixlock_plant::units::{DEG_C, MM, PPM_PER_K, UM, UM_PER_M, Unit};
 use toml_edit::{Document, Item, TableLike};
 
-use super::Named;
+use super::named::Named;
 use super::reader::{KELVIN, Reader};
 use crate::shared::input::Input;
 
@@ -115,9 +115,8 @@ impl SheetFile {
         self.needs(
             reader.source(
                 device,
-                "calibration",
+                ("calibration", "calibration of the device"),
                 &UM_PER_M,
-                "calibration of the device",
                 Acts::OnLengths(1.0),
             )?,
             "`device.calibration`",
@@ -134,14 +133,13 @@ impl SheetFile {
             ("at_each_place", "device, from place to place", Acts::AtEachPlace(1.0)),
             ("at_each_reading", FROM_READING_TO_READING, Acts::AtEachReading(1.0)),
         ] {
-            self.sources.extend(reader.source(device, key, &UM, name, acts)?);
+            self.sources.extend(reader.source(device, (key, name), &UM, acts)?);
         }
         self.needs(
             reader.source(
                 environment,
-                "variation",
+                ("variation", "variation of the environment"),
                 &UM,
-                "variation of the environment",
                 Acts::AtEachReading(1.0),
             )?,
             "`environment.variation`",
@@ -192,11 +190,15 @@ impl SheetFile {
                       estimate: Option<f64>,
                       per_unit: Option<f64>,
                       absent: Option<&'static str>| {
-            let found =
-                reader.source(table, key, unit, &what, Acts::OnLengths(per_unit.unwrap_or(0.0)))?;
+            let found = reader.source(
+                table,
+                (key, &what),
+                unit,
+                Acts::OnLengths(per_unit.unwrap_or(0.0)),
+            )?;
             match (found, estimate.zip(per_unit)) {
                 (Some(found), Some((estimate, _))) => {
-                    self.sources.push(Source { estimate, ..found })
+                    self.sources.push(Source { estimate, ..found });
                 }
                 (Some(_), None) => bail!(
                     "{}: `{key}` without `temperature` and `expansion`, expected both beside it",
@@ -234,23 +236,21 @@ impl SheetFile {
         self.needs(
             reader.source(
                 device,
-                "calibration",
+                ("calibration", "calibration of the probes"),
                 &UM_PER_M,
-                "calibration of the probes",
                 Acts::OnLengths(1.0),
             )?,
             "`device.calibration`",
         );
         self.needs(
-            reader.source(device, "zeros", &UM, ZEROS, Acts::AtEachPlace(1.0))?,
+            reader.source(device, ("zeros", ZEROS), &UM, Acts::AtEachPlace(1.0))?,
             "`device.zeros`",
         );
         self.needs(
             reader.source(
                 environment,
-                "variation",
+                ("variation", "variation of the environment"),
                 &UM,
-                "variation of the environment",
                 Acts::AtEachReading(1.0),
             )?,
             "`environment.variation`",

@@ -2,6 +2,7 @@
 
 mod file;
 mod json;
+mod named;
 mod page;
 mod reader;
 
@@ -12,19 +13,8 @@ use crate::shared::words;
 
 pub(crate) use file::{FROM_READING_TO_READING, SheetFile, Subject, ZEROS};
 pub(crate) use json::SheetJson;
+pub(crate) use named::Named;
 pub(crate) use page::parts;
-
-/// A figure as a command names it.
-pub(crate) struct Named {
-    /// Its symbol.
-    pub(crate) symbol: String,
-    /// Its name in the file of the sheet.
-    pub(crate) key: String,
-    /// What it is.
-    pub(crate) meaning: String,
-    /// Its value, µm.
-    pub(crate) value_um: f64,
-}
 
 /// A figure on the sheet.
 pub(crate) struct Line {
@@ -131,10 +121,8 @@ impl Sheet {
 
 fn in_words(line: &Line) -> String {
     let Named { symbol, meaning, value_um, .. } = &line.named;
-    let mut words = format!("{symbol:<6} {meaning:<38} {value_um:9.3} µm");
-    if let Some(budget) = &line.budget {
-        words +=
-            &format!("   U = {:.3} µm (k = {:.2})", budget.expanded_um, budget.coverage_factor);
-    }
-    words
+    let uncertainty = line.budget.as_ref().map_or_else(String::new, |budget| {
+        format!("   U = {:.3} µm (k = {:.2})", budget.expanded_um, budget.coverage_factor)
+    });
+    format!("{symbol:<6} {meaning:<38} {value_um:9.3} µm{uncertainty}")
 }

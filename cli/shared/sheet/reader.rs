@@ -114,9 +114,8 @@ impl Reader<'_> {
     pub(super) fn source(
         &self,
         table: Option<&dyn TableLike>,
-        key: &str,
+        (key, quantity): (&str, &str),
         unit: &Unit,
-        quantity: &str,
         acts: Acts,
     ) -> anyhow::Result<Option<Source>> {
         let Some(item) = table.and_then(|table| table.get(key)) else { return Ok(None) };

@@ -52,7 +52,7 @@ pub(super) fn posterior(
     let sum: f64 = judged.iter().map(|one| weight(one.0)).sum();
     let kept = judged.iter().map(|(misfit, level, model)| (weight(*misfit) / sum, *level, *model));
     let kept: Vec<_> = kept.filter(|(weight, ..)| LEAST_WEIGHT < *weight).collect();
-    let mut mixture = Mixture::new(system);
+    let mut mixture = Mixture::new(system, noise_um2);
     for (level, smoothness) in smoothness.iter().enumerate() {
         let models_here = || kept.iter().filter(|(_, at, _)| *at == level);
         if models_here().next().is_none() {
@@ -62,7 +62,7 @@ pub(super) fn posterior(
         let of_smooth = covariance_of_smooth(system, &smooth, noise_um2);
         for (weight, _, model) in models_here() {
             let waves = fit(system, &smooth, prior, &models[*model])?;
-            mixture.add(*weight, &smooth, &waves, noise_um2, &of_smooth);
+            mixture.add(*weight, &smooth, &waves, &of_smooth);
         }
     }
     Some(mixture.posterior())
@@ -108,6 +108,7 @@ fn covariance_of_smooth(system: &System<'_>, smooth: &Smooth, noise_um2: f64) ->
 
 struct Mixture<'a> {
     system: &'a System<'a>,
+    noise_um2: f64,
     weights: f64,
     places_um: Vec<f64>,
     /// Sums of the weighted squares about zero at the places of the first probe, µm².
@@ -115,25 +116,19 @@ struct Mixture<'a> {
 }
 
 impl<'a> Mixture<'a> {
-    fn new(system: &'a System<'a>) -> Self {
+    fn new(system: &'a System<'a>, noise_um2: f64) -> Self {
         let samples = system.z_um.len();
         Self {
             system,
+            noise_um2,
             weights: 0.0,
             places_um: vec![0.0; system.places()],
             squares_um2: vec![vec![0.0; samples]; samples],
         }
     }
 
-    fn add(
-        &mut self,
-        weight: f64,
-        smooth: &Smooth,
-        waves: &Waves,
-        noise_um2: f64,
-        of_smooth_um2: &[Vec<f64>],
-    ) {
-        let (system, before) = (self.system, self.system.before());
+    fn add(&mut self, weight: f64, smooth: &Smooth, waves: &Waves, of_smooth_um2: &[Vec<f64>]) {
+        let (system, before, noise_um2) = (self.system, self.system.before(), self.noise_um2);
         let sum = |of: &[Vec<f64>], at: usize| {
             of.iter().zip(&waves.coefficients).map(|(column, c)| column[at] * c).sum::<f64>()
         };

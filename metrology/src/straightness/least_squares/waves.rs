@@ -151,8 +151,10 @@ impl<'a> Search<'a> {
         let places = number(system.places());
         let step = 2.0 * PI / (DENSITY * places);
         let from = 2.0 * PI / (LONGEST * places);
-        let frequencies: Vec<f64> =
-            (0..).map(|k| from + number(k) * step).take_while(|f| *f < PI).collect();
+        let frequencies: Vec<f64> = (0..2 * system.places())
+            .map(|k| from + number(k) * step)
+            .take_while(|f| *f < PI)
+            .collect();
         let level = |smoothness: f64| {
             let smooth = system.smooth(smoothness)?;
             let column = |form: Vec<f64>| {
