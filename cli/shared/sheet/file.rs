@@ -213,8 +213,8 @@ impl SheetFile {
         of(
             "temperature_uncertainty",
             &KELVIN,
-            format!("temperature of {name}"),
-            temperature_c,
+            format!("temperature of {name} above {REFERENCE_C} °C"),
+            beyond,
             expansion,
             temperature,
         )?;

@@ -96,10 +96,10 @@ fn full(budget: &Budget) -> Table {
     ]);
     for Contribution { source, sensitivity, contribution_um } in &budget.contributions {
         let unit = source.unit.replace('u', "µ");
-        let per = if unit == "µm" { "µm/µm".into() } else { format!("µm/({unit})") };
+        let per = if unit.contains('/') { format!("µm/({unit})") } else { format!("µm/{unit}") };
         table.row([
             source.quantity.clone(),
-            format!("{} {unit}", source.estimate),
+            format!("{} {unit}", short(source.estimate)),
             format!("{:.4} {unit}", source.standard),
             source.distribution.name().into(),
             degrees(source.degrees_of_freedom),
@@ -117,6 +117,12 @@ fn full(budget: &Budget) -> Table {
         format!("{:.4}", budget.standard_um),
     ]);
     table
+}
+
+/// As many digits as there are, six at most: a difference has rounding in its last ones.
+fn short(value: f64) -> String {
+    let digits = format!("{value:.6}");
+    digits.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 fn degrees(of_freedom: f64) -> String {
