@@ -1,8 +1,9 @@
 //! Mathematics that knows nothing of machines: series of numbers in, numbers out.
 //!
 //! Least squares, two minimisers, Fourier sums at uneven places and what those places resolve,
-//! the plain figures of a series, and the price of looking at many places.
+//! the plain figures of a series, values to be tried, and the price of looking at many places.
 
+mod axes;
 mod chi_squared;
 pub(crate) mod fourier;
 mod golden_section;
@@ -13,6 +14,7 @@ mod sampling;
 pub(crate) mod simplex;
 mod summary;
 
+pub(crate) use axes::{by_factors, evenly, product};
 pub(crate) use chi_squared::chi_squared_tail;
 pub(crate) use golden_section::golden_maximum;
 pub(crate) use looks::Looks;

@@ -112,15 +112,7 @@ impl SheetFile {
         let device = reader.table(root, "device", &DEVICE)?;
         let object = reader.table(root, "object", &OBJECT)?;
         let environment = reader.table(root, "environment", &["variation"])?;
-        self.needs(
-            reader.source(
-                device,
-                ("calibration", "calibration of the device"),
-                &UM_PER_M,
-                Acts::OnLengths(1.0),
-            )?,
-            "`device.calibration`",
-        );
+        self.calibrated(reader, device, "calibration of the device")?;
         self.misaligned(reader, device, length_mm)?;
         self.body(reader, device, "the device", None)?;
         self.body(
@@ -135,15 +127,31 @@ impl SheetFile {
         ] {
             self.sources.extend(reader.source(device, (key, name), &UM, acts)?);
         }
-        self.needs(
-            reader.source(
-                environment,
-                ("variation", "variation of the environment"),
-                &UM,
-                Acts::AtEachReading(1.0),
-            )?,
-            "`environment.variation`",
-        );
+        self.surrounded(reader, environment)
+    }
+
+    /// What the certificate of the device leaves.
+    fn calibrated(
+        &mut self,
+        reader: &Reader<'_>,
+        device: Option<&dyn TableLike>,
+        quantity: &str,
+    ) -> anyhow::Result<()> {
+        let words = ("calibration", quantity);
+        let found = reader.source(device, words, &UM_PER_M, Acts::OnLengths(1.0))?;
+        self.needs(found, "`device.calibration`");
+        Ok(())
+    }
+
+    /// How the surroundings vary.
+    fn surrounded(
+        &mut self,
+        reader: &Reader<'_>,
+        environment: Option<&dyn TableLike>,
+    ) -> anyhow::Result<()> {
+        let words = ("variation", "variation of the environment");
+        let found = reader.source(environment, words, &UM, Acts::AtEachReading(1.0))?;
+        self.needs(found, "`environment.variation`");
         Ok(())
     }
 
@@ -233,29 +241,12 @@ impl SheetFile {
         let device = reader.table(root, "device", &["calibration", "zeros"])?;
         let environment = reader.table(root, "environment", &["variation"])?;
         reader.table(root, "object", &[])?;
-        self.needs(
-            reader.source(
-                device,
-                ("calibration", "calibration of the probes"),
-                &UM_PER_M,
-                Acts::OnLengths(1.0),
-            )?,
-            "`device.calibration`",
-        );
+        self.calibrated(reader, device, "calibration of the probes")?;
         self.needs(
             reader.source(device, ("zeros", ZEROS), &UM, Acts::AtEachPlace(1.0))?,
             "`device.zeros`",
         );
-        self.needs(
-            reader.source(
-                environment,
-                ("variation", "variation of the environment"),
-                &UM,
-                Acts::AtEachReading(1.0),
-            )?,
-            "`environment.variation`",
-        );
-        Ok(())
+        self.surrounded(reader, environment)
     }
 
     fn needs(&mut self, source: Option<Source>, name: &'static str) {

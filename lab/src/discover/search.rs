@@ -123,9 +123,7 @@ impl Now {
                 granted.push(known.clone());
             }
         }
-        let kept = (0..self.state.components.len()).filter(|at| !best.group.contains(at));
-        let mut components: Vec<Component> =
-            kept.map(|at| self.state.components[at].clone()).collect();
+        let mut components = self.state.without(&best.group);
         components.push(Component::new(one.term.clone()));
         granted.push(one);
         let state = State::settled(problem, components, &best.fit.noises)?;
@@ -190,25 +188,10 @@ fn may_join(problem: &Problem, state: &State, claim: &Claim<'_>) -> bool {
     if claim.ahead <= MARGIN || SIGNIFICANCE <= claim.p_value {
         return false;
     }
-    let kept = (0..state.components.len()).filter(|at| !claim.group.contains(at));
-    let others: Vec<Component> = kept.map(|at| state.components[at].clone()).collect();
-    let Ok(base) = Columns::of(problem, &others) else { return false };
+    let Ok(base) = Columns::of(problem, &state.without(&claim.group)) else { return false };
     let columns = base.and(&claim.placed.columns);
-    if !helps_unseen(problem, (&columns, &claim.fit.noises), (&base, &state.fit.noises)) {
-        return false;
-    }
-    let nothing = vec![0.0; problem.rows.len()];
-    let shown = claim.placed.columns.left(&nothing, &claim.placed.coefficients);
-    let shown = Structure {
-        along: String::new(),
-        shape: String::new(),
-        rms_um: rms(&problem.layout, &shown),
-        p_value: claim.p_value,
-        at: None,
-        at_stderr: None,
-        line: None,
-    };
-    is_left(problem, &state.fit, &shown)
+    helps_unseen(problem, (&columns, &claim.fit.noises), (&base, &state.fit.noises))
+        && is_left(problem, &state.fit, &claim.shown(problem))
 }
 
 /// The claim that is most ahead of those that may join; where others in its place cannot be told

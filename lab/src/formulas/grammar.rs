@@ -6,7 +6,7 @@ use super::quantities::Quantities;
 use super::shape::{Part, Shape};
 use super::{logged, moving, turning};
 use crate::model::Problem;
-use crate::numerics::{count, spread};
+use crate::numerics::{evenly, spread};
 
 /// The plain shapes: what stands in the place of effects whenever a model is judged.
 #[must_use]
@@ -102,16 +102,6 @@ impl Shape {
 /// An unknown by its place in the list.
 pub(super) fn unknown(place: usize) -> Expression {
     Expression::Unknown(place)
-}
-
-/// So many values between two ends, evenly.
-pub(super) fn evenly(low: f64, high: f64, points: usize) -> Vec<f64> {
-    (0..points).map(|i| low + (high - low) * (count(i) + 0.5) / count(points)).collect()
-}
-
-/// So many values between two ends, evenly on a logarithmic scale.
-pub(super) fn by_factors(low: f64, high: f64, points: usize) -> Vec<f64> {
-    evenly(libm::log(low), libm::log(high), points).into_iter().map(libm::exp).collect()
 }
 
 /// Periods that go so often into a range, evenly in how often, in ascending order.

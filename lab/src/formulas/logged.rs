@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use super::expression::{Expression, Function, Quantity, call};
-use super::grammar::{by_factors, evenly, shape, unknown};
+use super::grammar::{shape, unknown};
 use super::quantities::{Quantities, about_mean, less_mean, lowest, of};
 use super::shape::Shape;
-use crate::numerics::spread;
+use crate::numerics::{by_factors, evenly, spread};
 
 /// Straight, through the travel, late, late through the travel, and by a relay.
 pub(super) fn of_a_column(all: &Quantities, column: &Arc<Quantity>) -> Vec<Shape> {

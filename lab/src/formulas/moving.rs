@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use super::dimension::Dimension;
 use super::expression::{Expression, Function, Quantity, call, number, turns};
-use super::grammar::{by_factors, evenly, periods, shape, unknown};
+use super::grammar::{periods, shape, unknown};
 use super::quantities::{Quantities, from_start, lowest, of};
 use super::shape::Shape;
-use crate::numerics::spread;
+use crate::numerics::{by_factors, evenly, spread};
 
 /// First width of a knock, against the distance of two; it is refined.
 const KNOCK: f64 = 0.07;

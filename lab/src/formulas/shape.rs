@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::dimension::Dimension;
 use super::expression::{Expression, Function, Unknown, call};
 use crate::model::{Columns, Gain, Problem, Stage};
-use crate::numerics::{Looks, count};
+use crate::numerics::{Looks, count, product};
 use crate::policy::evidence::NO_SINE_PRICE;
 use crate::spectrum::{Scan, strongest_first};
 
@@ -374,14 +374,4 @@ fn around(values: &[f64], steps: &[f64]) -> Vec<Vec<f64>> {
         .map(|(value, step)| [-0.8, -0.4, 0.0, 0.4, 0.8].map(|by| value + by * step).to_vec())
         .collect();
     product(&axes)
-}
-
-fn product(axes: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    axes.iter().fold(vec![Vec::new()], |points, axis| {
-        let with = |point: &Vec<f64>| {
-            let longer = |value: &f64| [point.as_slice(), &[*value]].concat();
-            axis.iter().map(longer).collect::<Vec<_>>()
-        };
-        points.iter().flat_map(with).collect()
-    })
 }

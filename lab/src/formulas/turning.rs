@@ -2,12 +2,12 @@
 
 use super::dimension::Dimension;
 use super::expression::{Expression, Function, call, number, turns};
-use super::grammar::{evenly, shape, unknown};
+use super::grammar::{shape, unknown};
 use super::moving::triangle;
 use super::quantities::{Quantities, of, shaft_turns};
 use super::shape::{Band, Shape};
 use crate::model::Problem;
-use crate::numerics::{spread, usual_rate};
+use crate::numerics::{evenly, spread, usual_rate};
 use crate::policy::extent::{SLOWEST_WAVES, TURNS};
 use crate::spectrum::gear_orders;
 

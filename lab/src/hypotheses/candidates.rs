@@ -4,7 +4,7 @@ use helixlock_plant::{CATALOGUE, Entry, Formula, Parameter, Role, Search, Term};
 
 use super::unfolding::unfolded;
 use crate::model::{Component, Problem, Stage};
-use crate::numerics::{Looks, count, median, spread};
+use crate::numerics::{Looks, by_factors, count, evenly, median, product, spread};
 use crate::policy::evidence::{ANOTHER_MATERIAL, LOOSELY_KNOWN, MARGIN};
 use crate::policy::extent::{FREQUENCIES, LONGEST, NARROWEST, OVERTONES, SHORTEST, SLOWEST_WAVES};
 use crate::spectrum::{Scan, gear_orders, strongest_first};
@@ -223,10 +223,6 @@ fn axis(stage: &Stage<'_>, parameter: &Parameter) -> Vec<f64> {
     }
 }
 
-fn evenly(low: f64, high: f64, points: usize) -> Vec<f64> {
-    (0..points).map(|i| low + (high - low) * (count(i) + 0.5) / count(points)).collect()
-}
-
 /// Values that the record can tell apart: times from a part of an interval on, widths from a small
 /// part of the travel on, neither much longer than the record.
 fn logarithmic(problem: &Problem, parameter: &Parameter) -> Vec<f64> {
@@ -243,8 +239,7 @@ fn logarithmic(problem: &Problem, parameter: &Parameter) -> Vec<f64> {
         low = low.max(least);
         high = high.min(whole * LONGEST).max(low);
     }
-    let (from, to) = (libm::log(low.max(1e-12)), libm::log(high.max(1e-12)));
-    evenly(from, to, PLAIN).into_iter().map(libm::exp).collect()
+    by_factors(low.max(1e-12), high.max(1e-12), PLAIN)
 }
 
 /// Median time between two samples of a pass as they were measured, before any means.
@@ -367,17 +362,4 @@ fn thinned(mut axes: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
         });
     }
     axes
-}
-
-fn product(axes: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let mut points = vec![Vec::new()];
-    for axis in axes {
-        points = points
-            .iter()
-            .flat_map(|point: &Vec<f64>| {
-                axis.iter().map(|value| [point.as_slice(), &[*value]].concat())
-            })
-            .collect();
-    }
-    points
 }

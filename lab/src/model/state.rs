@@ -45,6 +45,14 @@ impl State {
         Some(if near.fit.log_likelihood < anew.fit.log_likelihood { anew } else { near })
     }
 
+    /// The effects that are in no group.
+    #[must_use]
+    pub(crate) fn without(&self, group: &[usize]) -> Vec<Component> {
+        let all = self.components.iter().enumerate();
+        let kept = all.filter(|(index, _)| !group.contains(index));
+        kept.map(|(_, component)| component.clone()).collect()
+    }
+
     /// The same effects fitted to other rows of the same measurement.
     ///
     /// The noise begins with what they leave there as they are: begun with what there is without

@@ -137,6 +137,17 @@ pub(crate) struct Claim<'a> {
     pub(crate) p_value: f64,
 }
 
+impl Claim<'_> {
+    /// What the shape shows at its best, by itself.
+    pub(crate) fn shown(&self, problem: &Problem) -> Structure {
+        let placed = &self.placed;
+        let nothing = vec![0.0; problem.rows.len()];
+        let shown = placed.columns.left(&nothing, &placed.coefficients);
+        let shape = placed.shape.words.to_owned();
+        structure(placed, shape, rms(&problem.layout, &shown), self.p_value)
+    }
+}
+
 impl<'a> Court<'a> {
     fn new(
         problem: &'a Problem,
@@ -162,10 +173,7 @@ impl<'a> Court<'a> {
 
     /// Columns of the effects that are in no group.
     fn without(&self, group: &[usize]) -> Option<Columns> {
-        let kept = (0..self.state.components.len()).filter(|index| !group.contains(index));
-        let others: Vec<Component> =
-            kept.map(|index| self.state.components[index].clone()).collect();
-        Columns::of(self.problem, &others).ok()
+        Columns::of(self.problem, &self.state.without(group)).ok()
     }
 
     /// The shape that explains more than a group of effects in their place, and by how much.
@@ -295,11 +303,7 @@ impl<'a> Court<'a> {
 
     /// What a shape shows beside all effects; `None` when it is chance or too small.
     fn beside_all(&self, claim: &Claim<'_>) -> Option<Structure> {
-        let placed = &claim.placed;
-        let nothing = vec![0.0; self.problem.rows.len()];
-        let shown = placed.columns.left(&nothing, &placed.coefficients);
-        let shape = placed.shape.words.to_owned();
-        let told = structure(placed, shape, rms(&self.problem.layout, &shown), claim.p_value);
+        let told = claim.shown(self.problem);
         is_left(self.problem, &self.state.fit, &told).then_some(told)
     }
 

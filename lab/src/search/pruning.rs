@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::hypotheses::{above_hunting, matters};
 use crate::model::{
-    Component, JointCovariance, Problem, State, helps_unseen, joint_covariance, settle_beside,
+    JointCovariance, Problem, State, helps_unseen, joint_covariance, settle_beside,
 };
 use crate::noise::swift_rms;
 use crate::numerics::least_squares::covariance_rows;
@@ -53,9 +53,7 @@ fn weakest(problem: &Problem, state: &State) -> Option<(State, Dropped)> {
 }
 
 fn without(problem: &Problem, state: &State, index: usize) -> Option<State> {
-    let mut fewer: Vec<Component> = state.components.clone();
-    fewer.remove(index);
-    State::settled(problem, fewer, &state.fit.noises)
+    State::settled(problem, state.without(&[index]), &state.fit.noises)
 }
 
 /// Why an effect is not needed; `None` when it is.
