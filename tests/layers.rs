@@ -45,10 +45,20 @@ fn every_crate_has_its_level() {
     let manifest = read("Cargo.toml");
     let listed = manifest.lines().find_map(|line| line.strip_prefix("members = "));
     let folders: Vec<_> = listed.expect("members").split('"').skip(1).step_by(2).collect();
-    assert_eq!(folders.len(), LAYERS.len() + 1, "{folders:?}");
-    for folder in folders.into_iter().filter(|folder| *folder != "xtask") {
+    let beside = ["python", "xtask"];
+    assert_eq!(folders.len(), LAYERS.len() + beside.len(), "{folders:?}");
+    for folder in folders.into_iter().filter(|folder| !beside.contains(folder)) {
         assert!(LAYERS.iter().any(|(known, _)| *known == folder), "{folder} has no level");
     }
+}
+
+/// Python is given what the command finds, and nothing past it.
+#[test]
+fn python_stands_on_the_command_alone() {
+    let dependencies = dependencies(&read("python/Cargo.toml"));
+    assert!(dependencies.contains("helixlock = { path = \"..\" }"), "{dependencies}");
+    let others = dependencies.matches("helixlock-").count();
+    assert_eq!(others, 1, "its own name alone: {dependencies}");
 }
 
 /// Only the command may print, create files, or speak JSON.

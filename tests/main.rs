@@ -48,6 +48,7 @@ mod parquet_readers;
 mod phase_meter;
 mod programmable_divider;
 mod properties;
+mod python;
 mod range_stage;
 mod reset_counter;
 mod ring_distributor;

@@ -22,7 +22,8 @@ const ROOTS: &[(&str, &str)] = &[
     ("gen", "gen/src/lib.rs"),
     ("sim", "sim/src/lib.rs"),
     ("lab", "lab/src/lib.rs"),
-    ("cli", "cli/main.rs"),
+    ("cli", "cli/lib.rs"),
+    ("python", "python/src/lib.rs"),
     ("xtask", "xtask/src/lib.rs"),
 ];
 

@@ -8,10 +8,11 @@ use std::process::ExitCode;
 
 use anyhow::{Context, bail};
 use clap::Args;
-use helixlock_lab::{Added, Measurement, add, written};
-use helixlock_plant::{MachineFile, Term};
+use helixlock_lab::{Added, Measurement, Problem, add, written};
+use helixlock_plant::{At, MachineFile, Term};
 
 use crate::shared::angular::in_unit;
+use crate::shared::answer::{Answer, Answering};
 use crate::shared::captured::Signals;
 use crate::shared::diagnosis_json::{EffectJson, effects};
 use crate::shared::effect_file::{effect_text, own_effects};
@@ -51,8 +52,8 @@ pub(crate) struct Add {
     #[command(flatten)]
     signals: Signals,
     /// New machine file
-    #[arg(short, long)]
-    output: PathBuf,
+    #[arg(short, long, required = true)]
+    output: Option<PathBuf>,
     /// Let the new machine file replace the old one
     #[arg(long)]
     force: bool,
@@ -64,13 +65,31 @@ pub(crate) struct Add {
 impl Add {
     /// Writes the new machine file; exit status 1 when the effect has no influence on the data.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+        let output = self.output.as_deref().context("no file, expected `-o FILE`")?;
         let file = MachineFile::read(&self.machine)?;
         let Some(data) = &self.fit else {
             let new = self.with_given_values(&file)?;
-            self.write(&new, &file)?;
-            writeln!(out, "{}: {} added", self.output.display(), self.what())?;
+            self.write(output, &new, &file)?;
+            writeln!(out, "{}: {} added", output.display(), self.what())?;
             return Ok(ExitCode::SUCCESS);
         };
+        let Fitted { base, problem, added, name } = self.fitted(file, data)?;
+        let Some(added) = added else {
+            writeln!(out, "{name} has no influence on these data")?;
+            return Ok(ExitCode::from(1));
+        };
+        self.write(output, &written(&base, &added.effects)?, &base)?;
+        let unit = problem.measurement.unit_word();
+        if self.json {
+            output::print_json(out, &in_unit(&AddedJson::new(&added, unit), unit)?)?;
+        } else {
+            print(out, &added, problem.measurement.unit())?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+
+    /// Fits the effect to the data.
+    fn fitted(&self, file: MachineFile, data: &Path) -> anyhow::Result<Fitted> {
         if self.formula.is_none() && !self.values.is_empty() {
             bail!(
                 "--set {}: found with --fit, which finds the values",
@@ -82,19 +101,9 @@ impl Add {
         let problem = measured::problem(&base.model, data, Input::read(data)?, &self.signals)?;
         let term = self.term(&base, &problem.measurement)?;
         let added = add(&problem, &beside, &term)
-            .with_context(|| format!("{}: {} cannot be fitted", data.display(), term.name))?;
-        let Some(added) = added else {
-            writeln!(out, "{} has no influence on these data", term.name)?;
-            return Ok(ExitCode::from(1));
-        };
-        self.write(&written(&base, &added.effects)?, &base)?;
-        let unit = problem.measurement.unit_word();
-        if self.json {
-            output::print_json(out, &in_unit(&AddedJson::new(&added, unit), unit)?)?;
-        } else {
-            print(out, &added, problem.measurement.unit())?;
-        }
-        Ok(ExitCode::SUCCESS)
+            .with_context(|| format!("{} cannot be fitted", term.name))
+            .context(At::file(data))?;
+        Ok(Fitted { base, problem, added, name: term.name })
     }
 
     /// The effect in words.
@@ -145,14 +154,41 @@ impl Add {
     }
 
     /// Writes the new file; what was read is spared unless the user says otherwise of the machine.
-    fn write(&self, new: &MachineFile, old: &MachineFile) -> anyhow::Result<()> {
+    fn write(&self, output: &Path, new: &MachineFile, old: &MachineFile) -> anyhow::Result<()> {
         let mut inputs = machine_files(&self.machine, &old.model);
         if self.force {
             inputs.remove(0);
         }
         inputs.extend(self.fit.clone());
         inputs.extend(self.effect.as_ref().map(PathBuf::from));
-        output::write_content(&self.output, inputs, new.text())
+        output::write_content(output, inputs, new.text())
+    }
+}
+
+/// A fit and what it began with.
+struct Fitted {
+    /// The machine file without the effects that are fitted.
+    base: MachineFile,
+    problem: Problem,
+    /// `None` where the effect has no influence on the data.
+    added: Option<Added>,
+    /// Name of the effect.
+    name: String,
+}
+
+impl Answering for Add {
+    /// With the text `machine`; nothing else where nothing is fitted.
+    fn answer(&self) -> anyhow::Result<Answer> {
+        let file = MachineFile::read(&self.machine)?;
+        let Some(data) = &self.fit else {
+            let new = self.with_given_values(&file)?;
+            return Ok(Answer::new(&serde_json::Map::new())?.with_text("machine", new.text()));
+        };
+        let Fitted { base, problem, added, name } = self.fitted(file, data)?;
+        let added = added.with_context(|| format!("{name} has no influence on these data"))?;
+        let unit = problem.measurement.unit_word();
+        let answer = Answer::in_unit(&AddedJson::new(&added, unit), unit)?;
+        Ok(answer.with_text("machine", written(&base, &added.effects)?.text()))
     }
 }
 

@@ -13,8 +13,10 @@ use helixlock_lab::compare;
 
 use self::json::ComparisonJson;
 use crate::shared::angular::in_unit;
+use crate::shared::answer::{Answer, Answering};
 use crate::shared::measured::Files;
 use crate::shared::output::{Batch, print_json};
+use crate::shared::residual_table::{residual_table, spectrum_table};
 
 /// Show where a machine file and a measurement part
 #[derive(Debug, Args)]
@@ -47,5 +49,20 @@ impl Compare {
             text::print(out, &comparison, &problem.measurement)?;
         }
         Ok(ExitCode::SUCCESS)
+    }
+}
+
+impl Answering for Compare {
+    /// With the tables `residual` and `spectrum`.
+    fn answer(&self) -> anyhow::Result<Answer> {
+        let (_, problem) = self.files.read()?;
+        let comparison = compare(&problem);
+        let json = ComparisonJson::new(&comparison, &problem.measurement);
+        let answer = Answer::in_unit(&json, problem.measurement.unit_word())?;
+        let spectra: Vec<_> =
+            comparison.sensors.iter().map(|sensor| sensor.spectrum.as_slice()).collect();
+        Ok(answer
+            .with_table("residual", residual_table(&problem, &[("residual", &comparison.residual)]))
+            .with_table("spectrum", spectrum_table(&problem, &spectra)))
     }
 }

@@ -5,14 +5,16 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use helixlock_lab::diagnose;
+use helixlock_lab::{Diagnosis, Problem, diagnose};
 
 use crate::shared::angular::in_unit;
+use crate::shared::answer::{Answer, Answering};
 use crate::shared::diagnosis_json::DiagnosisJson;
 use crate::shared::diagnosis_text::print;
 use crate::shared::effect_file::own_effects;
 use crate::shared::measured::Files;
 use crate::shared::output::print_json;
+use crate::shared::residual_table::residual_table;
 use crate::shared::words::status;
 
 /// Name the effects that a machine file lacks, with evidence, rivals, and the experiment that tells
@@ -31,11 +33,7 @@ pub(crate) struct Diagnose {
 impl Diagnose {
     /// Prints the diagnosis; exit status 1 when the input itself is doubted, else 0.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
-        let (file, mut problem) = self.files.read()?;
-        if let Some(custom) = &self.custom {
-            problem.extra = own_effects(&file, custom)?;
-        }
-        let diagnosis = diagnose(&problem);
+        let (problem, diagnosis) = self.found()?;
         if self.json {
             let json = DiagnosisJson::new(&diagnosis, &problem.measurement);
             print_json(out, &in_unit(&json, problem.measurement.unit_word())?)?;
@@ -43,5 +41,26 @@ impl Diagnose {
             print(out, &diagnosis, problem.measurement.unit())?;
         }
         Ok(status(diagnosis.verdict))
+    }
+
+    fn found(&self) -> anyhow::Result<(Problem, Diagnosis)> {
+        let (file, mut problem) = self.files.read()?;
+        if let Some(custom) = &self.custom {
+            problem.extra = own_effects(&file, custom)?;
+        }
+        let diagnosis = diagnose(&problem);
+        Ok((problem, diagnosis))
+    }
+}
+
+impl Answering for Diagnose {
+    /// With the table `residual`, before and after the effects that were found.
+    fn answer(&self) -> anyhow::Result<Answer> {
+        let (problem, found) = self.found()?;
+        let json = DiagnosisJson::new(&found, &problem.measurement);
+        let answer = Answer::in_unit(&json, problem.measurement.unit_word())?;
+        let residual =
+            residual_table(&problem, &[("before", &found.before), ("after", &found.left)]);
+        Ok(answer.with_table("residual", residual))
     }
 }

@@ -26,10 +26,12 @@ use self::closed_loop_check::Checked;
 use self::json::{LearnJson, LedgerJson};
 use self::kept::{edited_aside, is_taken_back, keep_aside};
 use crate::shared::angular::in_unit;
+use crate::shared::answer::{Answer, Answering};
 use crate::shared::captured::Signals;
 use crate::shared::effect_file::own_effects;
 use crate::shared::input::{Input, machine_files};
 use crate::shared::output::{self, Batch, print_json};
+use crate::shared::residual_table::residual_table;
 use crate::shared::words::status;
 use crate::shared::{diagnosis_text, measured};
 
@@ -85,6 +87,31 @@ impl Learn {
         folder: Option<&Path>,
         out: &mut impl Write,
     ) -> anyhow::Result<ExitCode> {
+        let learned = self.learned(machine, data)?;
+        let Learned { problem, diagnosis, check, book, .. } = &learned;
+        let mut kept = None;
+        if let Some(folder) = folder {
+            let spectra = (spectra(problem, diagnosis), lines_left(problem));
+            let page = page::page(problem, diagnosis, &spectra, check);
+            let mut inputs = machine_files(machine, &learned.file.model);
+            inputs.extend(self.custom.iter().cloned().chain([data.to_owned()]));
+            let mut files = Batch::new(folder, inputs)?;
+            kept = keep_aside(&mut files, &[learned.machine(), &learned.text])?;
+            write_folder(files, learned.machine(), &learned.ledger(data)?, &page)?;
+        }
+        if self.json {
+            let json = LearnJson::new(diagnosis, book, check, problem);
+            print_json(out, &in_unit(&json, problem.measurement.unit_word())?)?;
+        } else {
+            diagnosis_text::print(out, diagnosis, problem.measurement.unit())?;
+            check.print(out)?;
+            print_offer(out, book)?;
+            write!(out, "{}", kept::note(kept.as_deref()))?;
+        }
+        Ok(status(diagnosis.verdict))
+    }
+
+    fn learned(&self, machine: &Path, data: &Path) -> anyhow::Result<Learned> {
         let (file, text) = MachineFile::read_with_text(machine)?;
         let input = Input::read(data)?;
         let data_hash = fingerprint(input.bytes());
@@ -96,30 +123,7 @@ impl Learn {
         let check = checked(&file, &problem, &diagnosis)?;
         let book =
             Ledger { accepted: self.accepts(&diagnosis), ..ledger(&file, &diagnosis, data_hash)? };
-        let mut kept = None;
-        if let Some(folder) = folder {
-            let spectra = (spectra(&problem, &diagnosis), lines_left(&problem));
-            let page = page::page(&problem, &diagnosis, &spectra, &check);
-            let json = LedgerJson::new(data, &diagnosis, &book, &check, &problem);
-            let json = in_unit(&json, problem.measurement.unit_word())?;
-            let last = book.entries.last().filter(|_| book.accepted);
-            let learned = last.map_or_else(|| text.clone(), |last| last.machine.clone());
-            let mut inputs = machine_files(machine, &file.model);
-            inputs.extend(self.custom.iter().cloned().chain([data.to_owned()]));
-            let mut files = Batch::new(folder, inputs)?;
-            kept = keep_aside(&mut files, &[&learned, &text])?;
-            write_folder(files, &learned, &json, &page)?;
-        }
-        if self.json {
-            let json = LearnJson::new(&diagnosis, &book, &check, &problem);
-            print_json(out, &in_unit(&json, problem.measurement.unit_word())?)?;
-        } else {
-            diagnosis_text::print(out, &diagnosis, problem.measurement.unit())?;
-            check.print(out)?;
-            print_offer(out, &book)?;
-            write!(out, "{}", kept::note(kept.as_deref()))?;
-        }
-        Ok(status(diagnosis.verdict))
+        Ok(Learned { file, text, problem, diagnosis, check, book })
     }
 
     /// Whether what was found goes into the machine file: not beside something unexplained, unless
@@ -130,6 +134,48 @@ impl Learn {
             Verdict::DoubtfulInput => false,
             _ => true,
         }
+    }
+}
+
+/// All that was learned of a machine.
+struct Learned {
+    file: MachineFile,
+    /// The machine file as it was.
+    text: String,
+    problem: Problem,
+    diagnosis: Diagnosis,
+    check: Checked,
+    book: Ledger,
+}
+
+impl Learned {
+    /// The machine file as it is to be.
+    fn machine(&self) -> &str {
+        let last = self.book.entries.last().filter(|_| self.book.accepted);
+        last.map_or(&self.text, |last| &last.machine)
+    }
+
+    fn ledger(&self, data: &Path) -> anyhow::Result<Value> {
+        let json = LedgerJson::new(data, &self.diagnosis, &self.book, &self.check, &self.problem);
+        in_unit(&json, self.problem.measurement.unit_word())
+    }
+}
+
+impl Answering for Learn {
+    /// With the texts `machine` and `ledger`, and the table `residual` of before and after.
+    fn answer(&self) -> anyhow::Result<Answer> {
+        let (Some(machine), Some(data)) = (&self.machine, &self.data) else {
+            bail!("found no machine file and data, expected both");
+        };
+        let learned = self.learned(machine, data)?;
+        let Learned { problem, diagnosis, check, book, .. } = &learned;
+        let json = LearnJson::new(diagnosis, book, check, problem);
+        let residual =
+            residual_table(problem, &[("before", &diagnosis.before), ("after", &diagnosis.left)]);
+        Ok(Answer::in_unit(&json, problem.measurement.unit_word())?
+            .with_table("residual", residual)
+            .with_text("machine", learned.machine().to_owned())
+            .with_text("ledger", serde_json::to_string_pretty(&learned.ledger(data)?)? + "\n"))
     }
 }
 

@@ -5,14 +5,16 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
-use helixlock_metrology::scale::{Detector, Direction, LookUp, Scheme, apply};
-use helixlock_traces::csv::RowWriter;
+use helixlock_metrology::scale::{Corrected, Detector, Direction, LookUp, Scheme, apply};
+use helixlock_traces::csv::write_csv;
+use helixlock_traces::{Column, Table};
 
 use super::comparison::Comparison;
 use super::image::read_image;
 use super::json::AppliedJson;
 use super::samples::read_samples;
 use super::{page, text};
+use crate::shared::answer::{Answer, Answering};
 use crate::shared::output::{Batch, print_json};
 use crate::shared::quantity::{length_um, position_mm};
 
@@ -63,16 +65,7 @@ pub(crate) enum By {
 impl Apply {
     /// Does it.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
-        let table = read_image(&self.image)?;
-        let detector = Detector { pitch_mm: 2.0, lsb_um: table.lsb_um };
-        let samples = read_samples(&self.data, self.origin, &detector)?;
-        let scheme = match self.scheme {
-            By::Step => Scheme::Step { step_um: self.step_size },
-            By::Display => Scheme::Display { resolution_um: self.resolution },
-        };
-        let look_up = if self.interpolate { LookUp::Linear } else { LookUp::Nearest };
-        let corrected = apply(&table, &samples, scheme, look_up);
-        let comparison = Comparison::new(&self.data, corrected);
+        let comparison = self.compared()?;
         let result = AppliedJson::new(&comparison, self.limit);
         if let Some(output) = &self.output {
             write_applied(output, [self.image, self.data], &comparison, &result)?;
@@ -85,6 +78,28 @@ impl Apply {
         let exceeded = self.limit.is_some_and(|limit| !comparison.keeps(limit));
         Ok(if exceeded { ExitCode::from(1) } else { ExitCode::SUCCESS })
     }
+
+    fn compared(&self) -> anyhow::Result<Comparison> {
+        let table = read_image(&self.image)?;
+        let detector = Detector { pitch_mm: 2.0, lsb_um: table.lsb_um };
+        let samples = read_samples(&self.data, self.origin, &detector)?;
+        let scheme = match self.scheme {
+            By::Step => Scheme::Step { step_um: self.step_size },
+            By::Display => Scheme::Display { resolution_um: self.resolution },
+        };
+        let look_up = if self.interpolate { LookUp::Linear } else { LookUp::Nearest };
+        let corrected = apply(&table, &samples, scheme, look_up);
+        Ok(Comparison::new(&self.data, corrected))
+    }
+}
+
+impl Answering for Apply {
+    /// With the table `corrected`.
+    fn answer(&self) -> anyhow::Result<Answer> {
+        let comparison = self.compared()?;
+        let answer = Answer::new(&AppliedJson::new(&comparison, self.limit))?;
+        Ok(answer.with_table("corrected", corrected_table(&comparison)))
+    }
 }
 
 fn write_applied(
@@ -96,20 +111,31 @@ fn write_applied(
     let page = page::page(comparison);
     let mut files = Batch::new(output, inputs)?;
     files.write_report(&page::figure(comparison), result, &page)?;
-    files.write("corrected.csv", |file| write_corrected(file, comparison))?;
+    let corrected = corrected_table(comparison);
+    files.write("corrected.csv", |mut file| Ok(write_csv(&corrected, &mut file)?))?;
     files.keep()
 }
 
-fn write_corrected(file: &mut dyn Write, comparison: &Comparison) -> anyhow::Result<()> {
-    let names = ["position_mm", "error_um", "direction", "correction_um", "steps", "left_um"];
-    let mut rows = RowWriter::new(file, &names)?;
-    for one in &comparison.corrected {
-        let direction = if one.sample.direction == Direction::Forward { 1.0 } else { -1.0 };
-        let correction = one.correction_um.unwrap_or(f64::NAN);
-        #[expect(clippy::cast_precision_loss, reason = "a correction holds few steps")]
-        let steps = one.steps as f64;
-        let (position, error) = (one.sample.position_mm, one.sample.error_um);
-        rows.row(&[position, error, direction, correction, steps, one.left_um])?;
-    }
-    Ok(())
+fn corrected_table(comparison: &Comparison) -> Table {
+    let column = |name: &str, value: fn(&Corrected) -> f64| {
+        Column::new(name, comparison.corrected.iter().map(value).collect())
+    };
+    Table::new(vec![
+        column("position_mm", |one| one.sample.position_mm),
+        column("error_um", |one| one.sample.error_um),
+        column(
+            "direction",
+            |one| {
+                if one.sample.direction == Direction::Forward { 1.0 } else { -1.0 }
+            },
+        ),
+        column("correction_um", |one| one.correction_um.unwrap_or(f64::NAN)),
+        column("steps", steps),
+        column("left_um", |one| one.left_um),
+    ])
+}
+
+#[expect(clippy::cast_precision_loss, reason = "a correction holds few steps")]
+fn steps(one: &Corrected) -> f64 {
+    one.steps as f64
 }

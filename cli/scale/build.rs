@@ -4,16 +4,21 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use anyhow::anyhow;
+use anyhow::Context;
 use clap::Args;
-use helixlock_metrology::scale::{Detector, Direction, JointRule, TableRule, build_table};
+use helixlock_metrology::scale::{
+    CorrectionTable, Detector, Direction, Joint, JointRule, TableRule, build_table, to_hex,
+    to_image,
+};
 
 use super::image::write_image;
 use super::json::BuiltJson;
 use super::samples::read_samples;
 use super::text;
+use crate::shared::answer::{Answer, Answering};
 use crate::shared::output::print_json;
 use crate::shared::quantity::{length_mm, length_um, position_mm};
+use crate::shared::refused::in_file;
 
 /// Make the EEPROM image from measured errors
 #[derive(Debug, Args)]
@@ -22,8 +27,8 @@ pub(crate) struct Build {
     #[arg(value_name = "DATA")]
     data: PathBuf,
     /// Image to write: Intel HEX for `.hex`, binary otherwise
-    #[arg(short, long, value_name = "IMAGE")]
-    output: PathBuf,
+    #[arg(short, long, value_name = "IMAGE", required = true)]
+    output: Option<PathBuf>,
     /// Position of the origin pulse, mm: the table counts from there
     #[arg(long, value_name = "MM", value_parser = position_mm, allow_hyphen_values = true, default_value = "0")]
     origin: f64,
@@ -47,27 +52,47 @@ pub(crate) struct Build {
 impl Build {
     /// Does it.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+        let output = self.output.as_deref().context("no image, expected `-o IMAGE`")?;
+        let Built { table, joints, samples } = self.built()?;
+        write_image(output, [self.data.clone()], &table)
+            .map_err(|error| error.context(self.data.display().to_string()))?;
+        if self.json {
+            print_json(out, &BuiltJson::new(&table, &joints, samples))?;
+        } else {
+            text::print_built(out, output, &table, &joints)?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+
+    fn built(&self) -> anyhow::Result<Built> {
         let detector = Detector { pitch_mm: 2.0, lsb_um: self.lsb };
         let samples = read_samples(&self.data, self.origin, &detector)?;
         let zone_mm = self.joint_zone.unwrap_or(0.0);
         let joints = JointRule { every_mm: self.joint, first_mm: self.joint, zone_mm };
         let rule = TableRule { step_mm: self.step, lsb_um: self.lsb, joints: Some(joints) };
-        let refused = |error| anyhow!("{}: {error}", self.data.display());
-        let table = build_table(&samples, &rule).map_err(refused)?;
-        write_image(&self.output, [self.data.clone()], &table)
-            .map_err(|error| error.context(self.data.display().to_string()))?;
+        let table = build_table(&samples, &rule).map_err(in_file(&self.data))?;
         let mut forward: Vec<(f64, f64)> = samples
             .iter()
             .filter(|sample| sample.direction == Direction::Forward)
             .map(|sample| (sample.position_mm, sample.error_um))
             .collect();
         forward.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let found = joints.joints(&forward);
-        if self.json {
-            print_json(out, &BuiltJson::new(&table, &found, samples.len()))?;
-        } else {
-            text::print_built(out, &self.output, &table, &found)?;
-        }
-        Ok(ExitCode::SUCCESS)
+        Ok(Built { table, joints: joints.joints(&forward), samples: samples.len() })
+    }
+}
+
+/// A table, and what it was made of.
+struct Built {
+    table: CorrectionTable,
+    joints: Vec<Joint>,
+    samples: usize,
+}
+
+impl Answering for Build {
+    /// With the text `image`, Intel HEX.
+    fn answer(&self) -> anyhow::Result<Answer> {
+        let Built { table, joints, samples } = self.built()?;
+        let image = to_hex(&to_image(&table).map_err(in_file(&self.data))?)?;
+        Ok(Answer::new(&BuiltJson::new(&table, &joints, samples))?.with_text("image", image))
     }
 }

@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{anyhow, bail};
+use anyhow::bail;
 use helixlock_metrology::scale::{CorrectionTable, from_hex, from_image, to_hex, to_image};
 use helixlock_traces::read_bytes;
 
 use crate::shared::output::write_content;
+use crate::shared::refused::in_file;
 
 /// Longest file that may be an image, bytes; as Intel HEX one has some three times its size.
 const LONGEST_BYTES: u64 = 1 << 20;
@@ -30,7 +31,7 @@ pub(crate) fn write_image(
 pub(crate) fn read_image(path: &Path) -> anyhow::Result<CorrectionTable> {
     let place = path.display();
     let bytes = read_bytes(path, LONGEST_BYTES)?;
-    let refused = |error| anyhow!("{place}: {error}");
+    let refused = in_file(path);
     if bytes.first() != Some(&b':') {
         return from_image(&bytes).map_err(refused);
     }

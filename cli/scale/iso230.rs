@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use anyhow::{anyhow, bail};
+use anyhow::bail;
 use clap::Args;
 use helixlock_metrology::iso230::{Approaches, Figure};
 use helixlock_metrology::scale::Detector;
@@ -14,8 +14,10 @@ use super::axis_test::AxisTest;
 use super::json::AxisTestJson;
 use super::samples::{read_samples, targets};
 use super::{axis_page, text};
+use crate::shared::answer::{Answer, Answering};
 use crate::shared::output::{Batch, print_json};
 use crate::shared::quantity::length_um;
+use crate::shared::refused::in_file;
 use crate::shared::sheet::{Named, Sheet, SheetFile, Subject};
 
 /// Evaluate positioning accuracy by ISO 230-2
@@ -51,17 +53,7 @@ const MOST_READINGS: usize = 10_000;
 impl Iso230 {
     /// Does it.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
-        // Eight-bit codes are of no use here: approaches come as errors.
-        let detector = Detector { pitch_mm: 2.0, lsb_um: 1.0 };
-        let samples = read_samples(&self.data, 0.0, &detector)?;
-        let errors = samples.iter().map(|sample| (*sample, sample.error_um));
-        let approaches = Approaches::new(targets(errors))
-            .map_err(|error| anyhow!("{}: {error}", self.data.display()))?;
-        let test = AxisTest {
-            sheet: self.sheet_of(&approaches)?,
-            found: approaches.found().clone(),
-            told: self.sheet.is_some(),
-        };
+        let test = self.test()?;
         let result = AxisTestJson::new(&test);
         if let Some(output) = &self.output {
             let inputs = self.sheet.iter().chain([&self.data]).cloned();
@@ -73,6 +65,19 @@ impl Iso230 {
             text::print_axis(out, &test)?;
         }
         Ok(if test.holds() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+    }
+
+    fn test(&self) -> anyhow::Result<AxisTest> {
+        // Eight-bit codes are of no use here: approaches come as errors.
+        let detector = Detector { pitch_mm: 2.0, lsb_um: 1.0 };
+        let samples = read_samples(&self.data, 0.0, &detector)?;
+        let errors = samples.iter().map(|sample| (*sample, sample.error_um));
+        let approaches = Approaches::new(targets(errors)).map_err(in_file(&self.data))?;
+        Ok(AxisTest {
+            sheet: self.sheet_of(&approaches)?,
+            found: approaches.found().clone(),
+            told: self.sheet.is_some(),
+        })
     }
 
     fn sheet_of(&self, approaches: &Approaches) -> anyhow::Result<Sheet> {
@@ -106,6 +111,12 @@ impl Iso230 {
             line.budget = Some(Budget::told(line.named.value_um, expanded_um));
         }
         Ok(sheet)
+    }
+}
+
+impl Answering for Iso230 {
+    fn answer(&self) -> anyhow::Result<Answer> {
+        Answer::new(&AxisTestJson::new(&self.test()?))
     }
 }
 

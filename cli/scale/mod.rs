@@ -19,11 +19,11 @@ use std::process::ExitCode;
 
 use clap::{Args, Subcommand};
 
-use self::apply::Apply;
-use self::build::Build;
+pub(crate) use self::apply::Apply;
+pub(crate) use self::build::Build;
 use self::export::Export;
-use self::iso230::Iso230;
-use self::model::Model;
+pub(crate) use self::iso230::Iso230;
+pub(crate) use self::model::Model;
 
 /// Build, apply and export a table of positioning errors
 ///

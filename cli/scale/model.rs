@@ -13,6 +13,7 @@ use helixlock_report::{Colour, Page, Panel, Part, Series, Style, Table};
 use helixlock_traces::csv::RowWriter;
 
 use super::json::ModelJson;
+use crate::shared::answer::{Answer, Answering};
 use crate::shared::output::{Batch, print_json};
 use crate::shared::page_pieces::{panel, picture};
 use crate::shared::quantity::{length_mm, length_um};
@@ -64,18 +65,9 @@ pub(crate) struct Model {
 impl Model {
     /// Models, writes, prints.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
-        if 1e6 < self.length / self.step {
-            bail!(
-                "`--length` holds {:.0} steps of `--step`, expected a million or fewer",
-                self.length / self.step
-            );
-        }
-        let (scale, detector) = (self.scale(), Detector { pitch_mm: PITCH_MM, lsb_um: self.lsb });
-        let check = scale.samples(self.step / 20.0, &detector, 2);
-        let before = Spread::of(&check.iter().map(|sample| sample.error_um).collect::<Vec<_>>());
-        let budget = residual_budget(&scale, &detector, self.step, self.step_size);
+        let (before, budget) = self.budget()?;
         if let Some(output) = &self.output {
-            self.write_files(output, &scale, &detector, &budget)?;
+            self.write_files(output, &budget)?;
         }
         if self.json {
             print_json(out, &ModelJson::new(&before, &budget))?;
@@ -92,6 +84,24 @@ impl Model {
         Ok(ExitCode::SUCCESS)
     }
 
+    /// Errors before compensation, and what is left of them.
+    fn budget(&self) -> anyhow::Result<(Spread, Vec<Residual>)> {
+        if 1e6 < self.length / self.step {
+            bail!(
+                "`--length` holds {:.0} steps of `--step`, expected a million or fewer",
+                self.length / self.step
+            );
+        }
+        let (scale, detector) = (self.scale(), self.detector());
+        let check = scale.samples(self.step / 20.0, &detector, 2);
+        let before = Spread::of(&check.iter().map(|sample| sample.error_um).collect::<Vec<_>>());
+        Ok((before, residual_budget(&scale, &detector, self.step, self.step_size)))
+    }
+
+    fn detector(&self) -> Detector {
+        Detector { pitch_mm: PITCH_MM, lsb_um: self.lsb }
+    }
+
     fn scale(&self) -> ModelledScale {
         ModelledScale {
             length_mm: self.length,
@@ -105,19 +115,14 @@ impl Model {
         }
     }
 
-    fn write_files(
-        &self,
-        output: &std::path::Path,
-        scale: &ModelledScale,
-        detector: &Detector,
-        budget: &[Residual],
-    ) -> anyhow::Result<()> {
-        let page = self.page(scale, budget);
+    fn write_files(&self, output: &std::path::Path, budget: &[Residual]) -> anyhow::Result<()> {
+        let (scale, detector) = (self.scale(), self.detector());
+        let page = self.page(&scale, budget);
         let mut files = Batch::new(output, [])?;
         for (name, step_mm, run) in
             [("table-run.csv", self.step, 1), ("check-run.csv", self.step / 10.0, 2)]
         {
-            let samples = scale.samples(step_mm, detector, run);
+            let samples = scale.samples(step_mm, &detector, run);
             files.write(name, |file| {
                 let mut rows = RowWriter::new(file, &["position_mm", "error_um", "direction"])?;
                 for sample in &samples {
@@ -170,5 +175,12 @@ impl Model {
             panel("the scale, forward", vec![line(self.length, self.length / 5000.0)]),
             panel("a few pitches: what the table sees is aliased", few),
         ]
+    }
+}
+
+impl Answering for Model {
+    fn answer(&self) -> anyhow::Result<Answer> {
+        let (before, budget) = self.budget()?;
+        Answer::new(&ModelJson::new(&before, &budget))
     }
 }

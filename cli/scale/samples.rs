@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use anyhow::bail;
+use anyhow::{anyhow, bail};
 use helixlock_metrology::Error;
 use helixlock_metrology::iso230::{AxisResult, Target, evaluate_axis};
 use helixlock_metrology::scale::{Detector, Direction, ErrorSample};
@@ -36,7 +36,7 @@ pub(crate) fn read_samples(
     for row in 0..position.len() {
         let way = direction.as_ref().map_or(1.0, |direction| direction[row]);
         let Some(direction) = direction_of(way) else {
-            bail!("{}: direction {way}, expected 1 or -1", series.place(row));
+            return Err(anyhow!("direction {way}, expected 1 or -1").context(series.place(row)));
         };
         let cutting = idle.as_ref().is_none_or(|idle| idle[row].abs() < 0.5);
         let known = position[row].is_finite() && error[row].is_finite();
@@ -67,7 +67,8 @@ fn decoded(series: &Series, codes: &[f64], detector: &Detector) -> anyhow::Resul
             let signed = (code - 128.0) as i8;
             errors_um.push(detector.difference_um(signed));
         } else {
-            bail!("{}: code {code}, expected a whole number from 0 to 255", series.place(row));
+            let refused = anyhow!("code {code}, expected a whole number from 0 to 255");
+            return Err(refused.context(series.place(row)));
         }
     }
     Ok(errors_um)

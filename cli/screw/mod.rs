@@ -10,19 +10,22 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use anyhow::{Context, anyhow, bail};
+use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
 use helixlock_metrology::Error;
 use helixlock_metrology::screw::{
     Characteristic, Curve, Estimate, Grading, ToleranceTable, Weighting, built_in_table,
     evaluate_travel, grade, helical_characteristics, pitch_characteristics, without_reading_noise,
 };
+use helixlock_traces::{Column, Table};
 
 use self::evaluation::Evaluation;
 use self::json::ScrewJson;
 use self::sheet::{Measured, reading_noise_um, sheet_of, with_budgets};
+use crate::shared::answer::{Answer, Answering};
 use crate::shared::output::{Batch, print_json};
 use crate::shared::quantity::{deviation_um, lead_mm, length_mm, length_um, position_mm};
+use crate::shared::refused::in_file;
 use crate::shared::series::Series;
 use crate::shared::sheet::{Sheet, SheetFile, Subject};
 
@@ -114,15 +117,8 @@ enum By {
 impl Screw {
     /// Evaluates, writes, prints.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
-        let table = self.tolerance_table()?;
-        if let Some(asked) = &self.grade
-            && !table.grades.contains(asked)
-        {
-            let (found, expected) = (asked.clone(), table.grades.join(", "));
-            bail!("`--grade`: {}", Error::UnknownGrade { found, expected });
-        }
-        let evaluation = self.evaluate(&table)?;
-        let asked = self.grade.as_ref().map(|grade| (grade.as_str(), evaluation.meets(grade)));
+        let evaluation = self.evaluate()?;
+        let asked = self.asked(&evaluation);
         let result = ScrewJson::new(&evaluation, asked);
         if let Some(output) = &self.output {
             let inputs = self.table.iter().chain(&self.sheet).chain([&self.data]).cloned();
@@ -145,14 +141,26 @@ impl Screw {
         };
         let text = std::fs::read_to_string(path)
             .with_context(|| format!("{}: cannot be read", path.display()))?;
-        ToleranceTable::parse(&text).map_err(|error| anyhow!("{}: {error}", path.display()))
+        ToleranceTable::parse(&text).map_err(in_file(path))
     }
 
-    fn evaluate(&self, table: &ToleranceTable) -> anyhow::Result<Evaluation> {
+    /// The grade asked for, and whether it is met.
+    fn asked(&self, evaluation: &Evaluation) -> Option<(&str, bool)> {
+        self.grade.as_ref().map(|grade| (grade.as_str(), evaluation.meets(grade)))
+    }
+
+    fn evaluate(&self) -> anyhow::Result<Evaluation> {
+        let table = self.tolerance_table()?;
+        if let Some(asked) = &self.grade
+            && !table.grades.contains(asked)
+        {
+            let (found, expected) = (asked.clone(), table.grades.join(", "));
+            bail!("`--grade`: {}", Error::UnknownGrade { found, expected });
+        }
         let series = Series::read(&self.data, self.pass)?;
         let (travel, deviation) = (series.column("position_mm")?, series.column("lead_error_um")?);
-        let whole = Curve::new(&travel, &deviation).map_err(|error| series.refused(&error))?;
-        let curve = self.useful(&whole).map_err(|error| series.refused(&error))?;
+        let whole = Curve::new(&travel, &deviation).map_err(|error| series.refused(error))?;
+        let curve = self.useful(&whole).map_err(|error| series.refused(error))?;
         let weighting = match self.weighting {
             By::Samples => Weighting::Samples,
             By::Travel => Weighting::Travel,
@@ -175,11 +183,11 @@ impl Screw {
         if let Some(sheet) = &sheet {
             estimates = with_budgets(sheet, &characteristics, estimates);
         }
-        let grading = grade(table, &characteristics, curve.length_mm(), &estimates);
+        let grading = grade(&table, &characteristics, curve.length_mm(), &estimates);
         let sheet = sheet.map(|sheet| self.with_limits_of_the_grade(sheet, &grading));
         Ok(Evaluation {
             path: self.data.clone(),
-            standard: table.standard.clone(),
+            standard: table.standard,
             lead_mm: self.lead,
             mean_line: variation.mean_line,
             samples_per_turn: variation.samples_per_turn,
@@ -244,6 +252,20 @@ impl Screw {
         let from_mm = self.from.unwrap_or(whole.first_mm()) + run_out_mm;
         let to_mm = self.to.unwrap_or(whole.last_mm()) - run_out_mm;
         whole.between(from_mm, to_mm)
+    }
+}
+
+impl Answering for Screw {
+    /// With the table `travel`: the useful travel with its deviation.
+    fn answer(&self) -> anyhow::Result<Answer> {
+        let evaluation = self.evaluate()?;
+        let answer = Answer::new(&ScrewJson::new(&evaluation, self.asked(&evaluation)))?;
+        let curve = &evaluation.curve;
+        let travel = Table::new(vec![
+            Column::new("position_mm", curve.travel_mm().to_vec()),
+            Column::new("lead_error_um", curve.deviation_um().to_vec()),
+        ]);
+        Ok(answer.with_table("travel", travel))
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, bail};
 use clap::Args;
 use helixlock_lab::{Measurement, Nominal, Problem, PulseTrains};
-use helixlock_plant::{MachineFile, Model};
+use helixlock_plant::{At, MachineFile, Model};
 
 use super::captured::Signals;
 use super::input::{Input, machine_files};
@@ -55,7 +55,8 @@ pub(crate) fn problem(
         Measurement::from_table(&table, &Nominal::of(machine))?
     };
     Problem::new(machine, &measurement)
-        .with_context(|| format!("{}: does not carry the machine's effects", data.display()))
+        .context("does not carry the machine's effects")
+        .context(At::file(data))
 }
 
 /// The samples of a capture.

@@ -1,6 +1,7 @@
 //! What the commands share: reading measurements, writing files, words, pieces of pages.
 
 pub(crate) mod angular;
+pub(crate) mod answer;
 pub(crate) mod captured;
 pub(crate) mod diagnosis_json;
 pub(crate) mod diagnosis_text;
@@ -12,7 +13,9 @@ pub(crate) mod output;
 pub(crate) mod page_pieces;
 pub(crate) mod progress;
 pub(crate) mod quantity;
+pub(crate) mod refused;
 pub(crate) mod residual_picture;
+pub(crate) mod residual_table;
 pub(crate) mod series;
 pub(crate) mod shards;
 pub(crate) mod sheet;

@@ -2,6 +2,8 @@
 
 use helixlock_lab::Problem;
 
+use super::residual_table::about_zero;
+
 /// What residuals are drawn over: travel, or time for a rotary chain.
 pub(crate) fn x_axis(problem: &Problem) -> &'static str {
     if problem.model.rotary { "time in s" } else { "position in mm" }
@@ -9,11 +11,9 @@ pub(crate) fn x_axis(problem: &Problem) -> &'static str {
 
 /// Values of one sensor about the zero of each pass, the passes apart.
 pub(crate) fn points(problem: &Problem, sensor: usize, values: &[f64]) -> Vec<[f64; 2]> {
+    let values = about_zero(problem, values);
     let mut points = Vec::new();
     for block in problem.layout.blocks.iter().filter(|block| block.sensor == sensor) {
-        let part = &values[block.rows.clone()];
-        #[expect(clippy::cast_precision_loss, reason = "a number of samples")]
-        let mean = part.iter().sum::<f64>() / part.len().max(1) as f64;
         for row in block.rows.clone() {
             let sample = problem.rows[row].sample;
             let x = if problem.model.rotary {
@@ -21,7 +21,7 @@ pub(crate) fn points(problem: &Problem, sensor: usize, values: &[f64]) -> Vec<[f
             } else {
                 problem.record.position_mm[sample]
             };
-            points.push([x, values[row] - mean]);
+            points.push([x, values[row]]);
         }
         points.push([f64::NAN, f64::NAN]);
     }

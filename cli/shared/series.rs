@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use anyhow::{anyhow, bail};
+use anyhow::{Error as Refusal, anyhow};
 use helixlock_metrology::Error;
-use helixlock_traces::{Table, read_table};
+use helixlock_traces::{At, Table, read_table};
 
 use super::input::Input;
 
@@ -53,30 +53,27 @@ impl Series {
         self.table.names().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
     }
 
-    /// The file and line of a row, for a message.
-    pub(crate) fn place(&self, row: usize) -> String {
-        self.rows.get(row).map_or_else(
-            || self.table.path.display().to_string(),
-            |row| self.table.at(*row).to_string(),
-        )
+    /// The file and line of a row.
+    pub(crate) fn place(&self, row: usize) -> At {
+        self.rows.get(row).map_or_else(|| At::file(&self.table.path), |row| self.table.at(*row))
     }
 
     /// What a library refused, with the file and the line it means.
-    pub(crate) fn refused(&self, error: &Error) -> anyhow::Error {
-        let row = match error {
+    pub(crate) fn refused(&self, error: Error) -> Refusal {
+        let row = match &error {
             Error::NotFinite { row, .. } | Error::TravelTurns { row, .. } => *row,
             _ => usize::MAX,
         };
-        anyhow!("{}: {error}", self.place(row))
+        Refusal::new(error).context(self.place(row))
     }
 }
 
 fn rows_of_pass(table: &Table, pass: Option<f64>) -> anyhow::Result<Vec<usize>> {
-    let place = table.path.display();
+    let refused = |why: Refusal| Err(why.context(At::file(&table.path)));
     let Some(passes) = table.column("pass") else {
         return match pass {
             None => Ok((0..table.rows()).collect()),
-            Some(_) => bail!("{place}: no column `pass`, expected one to choose a pass from"),
+            Some(_) => refused(anyhow!("no column `pass`, expected one to choose a pass from")),
         };
     };
     let mut known: Vec<f64> = passes.iter().copied().filter(|pass| !pass.is_nan()).collect();
@@ -85,13 +82,15 @@ fn rows_of_pass(table: &Table, pass: Option<f64>) -> anyhow::Result<Vec<usize>> 
     let list = || known.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
     let wanted = match (pass, known.as_slice()) {
         (Some(pass), _) if known.contains(&pass) => pass,
-        (Some(pass), _) => bail!("{place}: no pass {pass}, expected one of {}", list()),
+        (Some(pass), _) => return refused(anyhow!("no pass {pass}, expected one of {}", list())),
         (None, [only]) => *only,
-        (None, _) => bail!(
-            "{place}: {} passes, each with its own zero, expected a choice\nhint: `--pass` with one of {}",
-            known.len(),
-            list()
-        ),
+        (None, _) => {
+            return refused(anyhow!(
+                "{} passes, each with its own zero, expected a choice\nhint: `--pass` with one of {}",
+                known.len(),
+                list()
+            ));
+        }
     };
     let chosen = passes.iter().enumerate().filter(|(_, pass)| **pass <= wanted && wanted <= **pass);
     Ok(chosen.map(|(row, _)| row).collect())

@@ -9,12 +9,14 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use anyhow::Context;
 use clap::Args;
-use helixlock_plant::{Machine, Model};
+use helixlock_plant::{At, Machine, Model};
 use helixlock_sim::{Course, Error, Options, Simulation, simulate, write_vcd};
 use helixlock_traces::csv::write_csv;
 
 use self::summary::Summary;
+use crate::shared::answer::{Answer, Answering};
 use crate::shared::input::machine_files;
 use crate::shared::output::{Batch, print_json};
 use crate::shared::progress;
@@ -29,8 +31,8 @@ pub(crate) struct Sim {
     #[arg(value_name = "MACHINE.toml")]
     machine: PathBuf,
     /// Folder for the results
-    #[arg(short, long, value_name = "DIR")]
-    output: PathBuf,
+    #[arg(short, long, value_name = "DIR", required = true)]
+    output: Option<PathBuf>,
     /// What the waveform shows: `top`, `all`, an instance such as `phase_meter`, or a signal
     #[arg(long = "scope", value_name = "SCOPE", default_value = "top")]
     scopes: Vec<String>,
@@ -51,13 +53,8 @@ pub(crate) struct Sim {
 impl Sim {
     /// Simulates, writes, and prints the summary.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
-        let machine = Model::read(&self.machine)?;
-        let options = Options {
-            length_mm: self.length,
-            scopes: self.scopes.clone(),
-            from_s: self.from,
-            to_s: self.to,
-        };
+        let output = self.output.as_deref().context("no folder, expected `-o DIR`")?;
+        let (machine, options) = (Model::read(&self.machine)?, self.options());
         let place = |error| in_file(&self.machine, error);
         let course = Course::new(&machine, &options).map_err(place)?;
         let bar = progress::bar(course.clocks(), "clocks");
@@ -66,15 +63,35 @@ impl Sim {
         bar.finish_and_clear();
         let summary = Summary::new(&self.machine, &machine, &simulation, &simulation.findings());
         let inputs = machine_files(&self.machine, &machine);
-        let files = Batch::new(&self.output, inputs)?;
+        let files = Batch::new(output, inputs)?;
         write_files(files, &machine, &simulation, &summary)?;
         if self.json {
             print_json(out, &summary)?;
         } else {
             summary.print(out)?;
-            writeln!(out, "\n{}: report, trace, waveform", self.output.display())?;
+            writeln!(out, "\n{}: report, trace, waveform", output.display())?;
         }
         Ok(ExitCode::SUCCESS)
+    }
+
+    fn options(&self) -> Options {
+        Options {
+            length_mm: self.length,
+            scopes: self.scopes.clone(),
+            from_s: self.from,
+            to_s: self.to,
+        }
+    }
+}
+
+impl Answering for Sim {
+    /// With the table `trace`.
+    fn answer(&self) -> anyhow::Result<Answer> {
+        let machine = Model::read(&self.machine)?;
+        let simulation = simulate(&machine, &self.options(), &mut |_| ())
+            .map_err(|error| in_file(&self.machine, error))?;
+        let summary = Summary::new(&self.machine, &machine, &simulation, &simulation.findings());
+        Ok(Answer::new(&summary)?.with_table("trace", table::table(&machine, &simulation)))
     }
 }
 
@@ -82,7 +99,7 @@ impl Sim {
 fn in_file(file: &Path, error: Error) -> anyhow::Error {
     match error {
         Error::NoScope { .. } | Error::Window { .. } | Error::WaveformFull { .. } => error.into(),
-        _ => anyhow::Error::new(error).context(file.display().to_string()),
+        _ => anyhow::Error::new(error).context(At::file(file)),
     }
 }
 

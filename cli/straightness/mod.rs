@@ -11,20 +11,23 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use anyhow::{anyhow, bail};
+use anyhow::{Context, anyhow, bail};
 use clap::Args;
 use helixlock_metrology::straightness::{
-    Combined, CompensationModel, Readings, Separated, Spacing, correction_table, plan, propose,
-    separate_by_fourier, separate_by_least_squares, simulate_compensation,
+    Combined, CompensationModel, Plan, Readings, Separated, Spacing, correction_table, plan,
+    propose, separate_by_fourier, separate_by_least_squares, simulate_compensation,
 };
-use helixlock_traces::csv::RowWriter;
+use helixlock_traces::csv::write_csv;
+use helixlock_traces::{Column, Table};
 
 use self::evaluation::{By, Evaluation, Outcome};
 use self::json::{PlansJson, StraightnessJson};
 use self::readings::read_readings;
 use self::sheet::sheet_of;
+use crate::shared::answer::{Answer, Answering};
 use crate::shared::output::{Batch, print_json};
 use crate::shared::quantity::{length_mm, length_um};
+use crate::shared::refused::in_file;
 use crate::shared::sheet::{SheetFile, Subject};
 
 /// Separate a guideway and a workpiece by three probes
@@ -103,25 +106,8 @@ impl StraightnessCommand {
         if self.plan {
             return self.run_plan(out);
         }
-        let Some(path) = &self.data else { bail!("no data, expected a file") };
-        let readings = read_readings(path)?;
-        #[expect(clippy::cast_precision_loss, reason = "samples of a stroke are few")]
-        let stroke_mm = readings.samples() as f64 * readings.step_mm;
-        if 1e6 < stroke_mm / self.table_step {
-            bail!(
-                "`--table-step`: {} mm, expected a millionth of the stroke or more",
-                self.table_step
-            );
-        }
-        let spacing = self.spacing(readings.step_mm)?;
-        let mut evaluation = self
-            .evaluate(path, &readings, spacing)
-            .map_err(|error| anyhow!("{}: {error}", path.display()))?;
-        if let Some(path) = &self.sheet {
-            let file = SheetFile::read(path, Subject::Heights)?;
-            let file = file.with_tolerance("minimum_zone", self.limit)?;
-            evaluation.sheet = Some(sheet_of(file, &evaluation)?);
-        }
+        let path = self.data()?;
+        let evaluation = self.separated(path)?;
         let exceeded = !evaluation.holds(self.limit);
         let result = StraightnessJson::new(&evaluation, self.limit);
         if let Some(output) = &self.output {
@@ -137,6 +123,16 @@ impl StraightnessCommand {
     }
 
     fn run_plan(&self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+        let Plans { samples, step_mm, asked, proposals } = self.plans()?;
+        if self.json {
+            print_json(out, &PlansJson::new(samples, step_mm, asked.as_ref(), &proposals))?;
+        } else {
+            text::print_plan(out, step_mm, asked.as_ref(), &proposals)?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+
+    fn plans(&self) -> anyhow::Result<Plans> {
         let (samples, step_mm) = match &self.data {
             Some(path) => {
                 let readings = read_readings(path)?;
@@ -152,13 +148,32 @@ impl StraightnessCommand {
             Some(longest_mm) => whole_steps(longest_mm / step_mm).clamp(2, samples),
             None => (samples / 3).max(2),
         };
-        let proposals = propose(samples, longest, 5);
-        if self.json {
-            print_json(out, &PlansJson::new(samples, step_mm, asked.as_ref(), &proposals))?;
-        } else {
-            text::print_plan(out, step_mm, asked.as_ref(), &proposals)?;
+        Ok(Plans { samples, step_mm, asked, proposals: propose(samples, longest, 5) })
+    }
+
+    fn data(&self) -> anyhow::Result<&Path> {
+        self.data.as_deref().context("no data, expected a file")
+    }
+
+    /// What a file of readings gives.
+    fn separated(&self, path: &Path) -> anyhow::Result<Evaluation> {
+        let readings = read_readings(path)?;
+        #[expect(clippy::cast_precision_loss, reason = "samples of a stroke are few")]
+        let stroke_mm = readings.samples() as f64 * readings.step_mm;
+        if 1e6 < stroke_mm / self.table_step {
+            bail!(
+                "`--table-step`: {} mm, expected a millionth of the stroke or more",
+                self.table_step
+            );
         }
-        Ok(ExitCode::SUCCESS)
+        let spacing = self.spacing(readings.step_mm)?;
+        let mut evaluation = self.evaluate(path, &readings, spacing).map_err(in_file(path))?;
+        if let Some(path) = &self.sheet {
+            let file = SheetFile::read(path, Subject::Heights)?;
+            let file = file.with_tolerance("minimum_zone", self.limit)?;
+            evaluation.sheet = Some(sheet_of(file, &evaluation)?);
+        }
+        Ok(evaluation)
     }
 
     fn spacing(&self, step_mm: f64) -> anyhow::Result<Spacing> {
@@ -226,6 +241,28 @@ impl StraightnessCommand {
     }
 }
 
+/// What spacings do, and better ones.
+struct Plans {
+    samples: usize,
+    step_mm: f64,
+    asked: Option<Plan>,
+    proposals: Vec<Plan>,
+}
+
+impl Answering for StraightnessCommand {
+    /// With the tables `separated` and `correction`, unless it is a plan.
+    fn answer(&self) -> anyhow::Result<Answer> {
+        if self.plan {
+            let Plans { samples, step_mm, asked, proposals } = self.plans()?;
+            return Answer::new(&PlansJson::new(samples, step_mm, asked.as_ref(), &proposals));
+        }
+        let evaluation = self.separated(self.data()?)?;
+        Ok(Answer::new(&StraightnessJson::new(&evaluation, self.limit))?
+            .with_table("separated", separated_table(evaluation.chosen()))
+            .with_table("correction", correction_rows(&evaluation)))
+    }
+}
+
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -244,25 +281,32 @@ fn write_files(
     let page = page::page(evaluation);
     let mut files = Batch::new(output, inputs)?;
     files.write_report(&page::figure(evaluation), result, &page)?;
-    files.write("separated.csv", |file| write_separated(file, evaluation.chosen()))?;
-    files.write("correction.csv", |file| {
-        let mut rows = RowWriter::new(file, &["position_mm", "correction_um"])?;
-        for point in &evaluation.correction {
-            rows.row(&[point.position_mm, point.correction_um])?;
-        }
-        Ok(())
-    })?;
+    let tables = [
+        ("separated.csv", separated_table(evaluation.chosen())),
+        ("correction.csv", correction_rows(evaluation)),
+    ];
+    for (name, table) in &tables {
+        files.write(name, |mut file| Ok(write_csv(table, &mut file)?))?;
+    }
     files.keep()
 }
 
-fn write_separated(file: &mut dyn Write, outcome: &Outcome) -> anyhow::Result<()> {
+fn separated_table(outcome: &Outcome) -> Table {
     let found = &outcome.separated;
-    let names = ["position_mm", "workpiece_um", "carriage_um", "tilt_urad", "uncertainty_um"];
-    let mut rows = RowWriter::new(file, &names)?;
-    for (index, position) in found.position_mm.iter().enumerate() {
-        let uncertainty = found.uncertainty_um.as_ref().map_or(f64::NAN, |each| each[index]);
-        let (bar, carriage) = (found.workpiece_um[index], found.carriage_um[index]);
-        rows.row(&[*position, bar, carriage, found.tilt_urad[index], uncertainty])?;
-    }
-    Ok(())
+    let unknown = || vec![f64::NAN; found.position_mm.len()];
+    Table::new(vec![
+        Column::new("position_mm", found.position_mm.clone()),
+        Column::new("workpiece_um", found.workpiece_um.clone()),
+        Column::new("carriage_um", found.carriage_um.clone()),
+        Column::new("tilt_urad", found.tilt_urad.clone()),
+        Column::new("uncertainty_um", found.uncertainty_um.clone().unwrap_or_else(unknown)),
+    ])
+}
+
+fn correction_rows(evaluation: &Evaluation) -> Table {
+    let points = || evaluation.correction.iter();
+    Table::new(vec![
+        Column::new("position_mm", points().map(|point| point.position_mm).collect()),
+        Column::new("correction_um", points().map(|point| point.correction_um).collect()),
+    ])
 }

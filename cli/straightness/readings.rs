@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use anyhow::bail;
+use anyhow::{anyhow, bail};
 use helixlock_metrology::straightness::{Readings, Repeat};
 
 use crate::shared::series::Series;
@@ -22,10 +22,8 @@ pub(crate) fn read_readings(path: &Path) -> anyhow::Result<Readings> {
     for row in 0..position_mm.len() {
         let run = repeat.as_ref().map_or(0.0, |repeat| repeat[row]);
         if !position_mm[row].is_finite() || !run.is_finite() {
-            bail!(
-                "{}: no number, expected `position_mm` and `repeat` in every row",
-                series.place(row)
-            );
+            let refused = anyhow!("no number, expected `position_mm` and `repeat` in every row");
+            return Err(refused.context(series.place(row)));
         }
         runs.entry(ordered(run)).or_default().push(row);
     }
@@ -37,11 +35,11 @@ pub(crate) fn read_readings(path: &Path) -> anyhow::Result<Readings> {
         let first = grid.get_or_insert_with(|| positions.clone());
         if let Some(off) = off_grid(first, &positions) {
             let row = rows.get(off).or(rows.last()).copied().unwrap_or(0);
-            bail!(
-                "{}: this run leaves the positions of the first one, expected the same {} positions in every run",
-                series.place(row),
+            let refused = anyhow!(
+                "this run leaves the positions of the first one, expected the same {} positions in every run",
                 first.len()
             );
+            return Err(refused.context(series.place(row)));
         }
         let probes_um = [0, 1, 2].map(|probe| rows.iter().map(|row| probes[probe][*row]).collect());
         repeats.push(Repeat { probes_um });

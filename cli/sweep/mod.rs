@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Mutex;
 
-use anyhow::{anyhow, bail};
+use anyhow::{Context, anyhow, bail};
 use clap::Args;
 use helixlock_plant::{Formula, MachineFile, MeasuredCurve, Model};
 use helixlock_sim::sweep::{Axis, Case, DrawnAxis, FIGURES, MOST_CASES, Plan};
@@ -16,7 +16,9 @@ use helixlock_sim::{Options, parallel};
 use helixlock_traces::table::{Column, Table};
 
 use self::journal::{Journal, Row};
+use crate::shared::answer::{Answer, Answering};
 use crate::shared::input::machine_files;
+use crate::shared::keys::keys;
 use crate::shared::output::make_folder;
 use crate::shared::progress;
 use crate::shared::shards::{Format, PartName, Shard, write_cases};
@@ -31,8 +33,8 @@ pub(crate) struct Sweep {
     #[arg(value_name = "MACHINE.toml")]
     machine: PathBuf,
     /// Results, one row a case: `.csv` or `.parquet`; with `--shard` the folder of the parts
-    #[arg(short, long, value_name = "FILE|DIR")]
-    output: PathBuf,
+    #[arg(short, long, value_name = "FILE|DIR", required = true)]
+    output: Option<PathBuf>,
     /// Simulate only this part of so many, `2/8`, on one machine of many; `helixlock merge` joins them
     #[arg(long, value_name = "PART/PARTS")]
     shard: Option<Shard>,
@@ -59,7 +61,7 @@ impl Sweep {
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         let file = MachineFile::read(&self.machine)?;
         let plan = self.plan()?;
-        let options = Options { length_mm: self.length, ..Options::default() };
+        let options = self.options();
         let curves = curves(&file.model);
         let version = env!("CARGO_PKG_VERSION");
         let identity = format!("{version}\n{}\n{curves:?}\n{plan:?}\n{options:?}", file.text());
@@ -78,6 +80,10 @@ impl Sweep {
             writeln!(out, "{failure}")?;
         }
         Ok(if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+    }
+
+    fn options(&self) -> Options {
+        Options { length_mm: self.length, ..Options::default() }
     }
 
     fn plan(&self) -> anyhow::Result<Plan> {
@@ -114,13 +120,50 @@ impl Sweep {
 
     /// Where the results go.
     fn target(&self, plan: &Plan, fingerprint: u64) -> anyhow::Result<(PathBuf, Format)> {
+        let output = self.output.as_deref().context("no file, expected `-o FILE`")?;
         let Some(shard) = self.shard else {
-            return Ok((self.output.clone(), Format::of(&self.output)?));
+            return Ok((output.to_owned(), Format::of(output)?));
         };
-        make_folder(&self.output)?;
+        make_folder(output)?;
         let part = PartName { shard, cases: plan.cases(), fingerprint };
-        Ok((self.output.join(part.to_string()), Format::Parquet))
+        Ok((output.join(part.to_string()), Format::Parquet))
     }
+}
+
+impl Answering for Sweep {
+    /// With the table `cases`; nothing is kept for a later run.
+    fn answer(&self) -> anyhow::Result<Answer> {
+        let (file, plan, options) =
+            (MachineFile::read(&self.machine)?, self.plan()?, self.options());
+        let cases: Vec<u64> = self.cases(&plan).collect();
+        let rows = Mutex::new(Vec::new());
+        let lost = || anyhow!("another case has failed");
+        parallel(&cases, |index| {
+            let row = row(&plan.case(*index), &file, &options);
+            rows.lock().map_err(|_| lost())?.push(row);
+            anyhow::Ok(())
+        })?;
+        let mut rows = rows.into_inner().map_err(|_| lost())?;
+        rows.sort_by_key(|row| row.case);
+        Ok(Answer::new(&SweptJson::new(&rows))?.with_table("cases", table(&plan, &rows)))
+    }
+}
+
+keys! {
+    /// How many cases, and those that could not be run.
+    SweptJson<'a>(rows: &'a [Row]) {
+        cases: usize = rows.len(),
+        failures: Vec<FailureJson<'a>> = rows.iter().filter_map(failure).collect(),
+    }
+
+    FailureJson<'a>(case: u64, reason: &'a str) {
+        case: u64 = case,
+        reason: &'a str = reason,
+    }
+}
+
+fn failure(row: &Row) -> Option<FailureJson<'_>> {
+    Some(FailureJson::new(row.case, row.failure.as_deref()?))
 }
 
 /// The measured curves of a machine, which its file only names.

@@ -14,17 +14,20 @@ use std::process::ExitCode;
 use anyhow::{anyhow, bail};
 use clap::{Args, ValueEnum};
 use helixlock_metrology::transmission::{
-    Gearing, Method, Reading, Setup, Shaft, error_against, measure, order_spectrum, peaks,
+    Gearing, Method, Reading, Sample, Setup, Shaft, error_against, measure, order_spectrum, peaks,
 };
 use helixlock_plant::Model;
-use helixlock_traces::csv::RowWriter;
+use helixlock_traces::csv::{RowWriter, write_csv};
+use helixlock_traces::{Column, Table};
 
 use self::evaluation::{ARCSEC, Evaluation, Found, MethodResult};
 use self::json::TransmissionJson;
 use self::pulses::{Names, read_pulses};
 use self::truth::read_truth;
+use crate::shared::answer::{Answer, Answering};
 use crate::shared::output::{Batch, print_json};
 use crate::shared::quantity::{frequency_hz, lead_mm, time_s};
+use crate::shared::refused::in_file;
 
 /// Measure a transmission error from two pulse trains
 ///
@@ -139,9 +142,7 @@ impl TransmissionCommand {
             recorder_s: self.recorder,
         };
         let pulses = read_pulses(&self.capture, &names)?;
-        pulses
-            .check_ratio(&gearing)
-            .map_err(|error| anyhow!("{}: {error}", self.capture.display()))?;
+        pulses.check_ratio(&gearing).map_err(in_file(&self.capture))?;
         let shafts = self.named_shafts()?;
         let truth = self.truth.as_deref().map(read_truth).transpose()?;
         let evaluate = |method: Method| {
@@ -205,7 +206,8 @@ impl TransmissionCommand {
         let mut files = Batch::new(output, self.inputs())?;
         files.write_report(&page::figure(evaluation), result, &page)?;
         if let Some(best) = evaluation.best() {
-            files.write("error.csv", |file| write_error(file, &best.reading))?;
+            let error = error_table(&best.reading);
+            files.write("error.csv", |mut file| Ok(write_csv(&error, &mut file)?))?;
             files.write("compare.csv", |file| self.hand_over(file, &best.reading))?;
         }
         files.keep()
@@ -230,12 +232,28 @@ impl TransmissionCommand {
     }
 }
 
-fn write_error(file: &mut dyn Write, reading: &Reading) -> anyhow::Result<()> {
-    let mut rows = RowWriter::new(file, &["time_s", "output_turns", "delta_arcsec"])?;
-    for one in &reading.samples {
-        rows.row(&[one.time_s, one.output_turns, one.error_rad * ARCSEC])?;
+impl Answering for TransmissionCommand {
+    /// With the table `error`, by the best method that worked.
+    fn answer(&self) -> anyhow::Result<Answer> {
+        let evaluation = self.evaluate()?;
+        let answer = Answer::new(&TransmissionJson::new(&evaluation))?;
+        Ok(match evaluation.best() {
+            Some(best) => answer.with_table("error", error_table(&best.reading)),
+            None => answer,
+        })
     }
-    Ok(())
+}
+
+/// The error along the run.
+fn error_table(reading: &Reading) -> Table {
+    let column = |name: &str, value: fn(&Sample) -> f64| {
+        Column::new(name, reading.samples.iter().map(value).collect())
+    };
+    Table::new(vec![
+        column("time_s", |one| one.time_s),
+        column("output_turns", |one| one.output_turns),
+        column("delta_arcsec", |one| one.error_rad * ARCSEC),
+    ])
 }
 
 /// `36`, `5/2` or `2.5` as numerator and denominator.

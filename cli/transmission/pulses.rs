@@ -6,6 +6,7 @@ use anyhow::{anyhow, bail};
 use helixlock_metrology::transmission::Pulses;
 
 use crate::shared::input::Input;
+use crate::shared::refused::in_file;
 use crate::shared::series::Series;
 
 /// Names of the two signals or columns, when the user gave them.
@@ -25,7 +26,7 @@ pub(crate) fn read_pulses(path: &Path, names: &Names<'_>) -> anyhow::Result<Puls
     let input = Input::read(path)?;
     let (input_s, output_s) =
         if input.is_dump() { dump(path, input, names)? } else { table(input, names)? };
-    Pulses::new(input_s, output_s).map_err(|error| anyhow!("{}: {error}", path.display()))
+    Pulses::new(input_s, output_s).map_err(in_file(path))
 }
 
 fn dump(path: &Path, input: Input, names: &Names<'_>) -> anyhow::Result<(Vec<f64>, Vec<f64>)> {
@@ -77,7 +78,8 @@ fn by_channel(
             1.0 => input_s.push(at),
             2.0 => output_s.push(at),
             _ => {
-                bail!("{}: channel {channel}, expected 1 (input) or 2 (output)", series.place(row))
+                let refused = anyhow!("channel {channel}, expected 1 (input) or 2 (output)");
+                return Err(refused.context(series.place(row)));
             }
         }
     }

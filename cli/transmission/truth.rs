@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use anyhow::bail;
+use anyhow::{anyhow, bail};
 
 use super::evaluation::ARCSEC;
 use crate::shared::series::Series;
@@ -31,12 +31,9 @@ pub(crate) fn read_truth(path: &Path) -> anyhow::Result<Truth> {
     }
     let falls = |pair: &[f64]| pair[1].partial_cmp(&pair[0]) != Some(std::cmp::Ordering::Greater);
     if let Some(row) = turns.windows(2).position(falls) {
-        bail!(
-            "{}: {} turns after {}, expected increasing turns",
-            series.place(row + 1),
-            turns[row + 1],
-            turns[row]
-        );
+        let (found, before) = (turns[row + 1], turns[row]);
+        let refused = anyhow!("{found} turns after {before}, expected increasing turns");
+        return Err(refused.context(series.place(row + 1)));
     }
     Ok(Truth { turns, error_rad: error.iter().map(|arcsec| arcsec / ARCSEC).collect() })
 }

@@ -132,15 +132,19 @@ pub enum MachineError {
 impl MachineError {
     /// One error of all that is wrong with a file.
     pub(crate) fn all(mut errors: Vec<Self>) -> Self {
-        errors.sort_by_key(|error| error.at().map(|at| (at.line, at.column)));
+        errors.sort_by_key(|error| {
+            let at = error.at();
+            (at.line, at.column)
+        });
         match errors.pop() {
             Some(only) if errors.is_empty() => only,
             last => Self::Several(errors.into_iter().chain(last).collect()),
         }
     }
 
-    /// Where in the file it is.
-    fn at(&self) -> Option<&At> {
+    /// Where in which file; of several, the first.
+    #[must_use]
+    pub fn at(&self) -> At {
         match self {
             Self::Syntax { at, .. }
             | Self::UnknownKey { at, .. }
@@ -148,7 +152,25 @@ impl MachineError {
             | Self::Value { at, .. }
             | Self::Conflict { at, .. }
             | Self::Effect { at, .. }
-            | Self::Companion { at, .. } => Some(at),
+            | Self::Companion { at, .. } => at.clone(),
+            Self::Read(error) => error.at(),
+            Self::Encoding { path, line } => At::file(path).on_line(*line),
+            Self::NoSuchKey { path, .. } | Self::NoSuchEffect { path, .. } => At::file(path),
+            Self::Several(all) => all.first().map_or_else(At::default, Self::at),
+        }
+    }
+
+    /// The key it is about; of several, the first's.
+    #[must_use]
+    pub fn key(&self) -> Option<&str> {
+        match self {
+            Self::UnknownKey { found: key, .. }
+            | Self::Missing { key, .. }
+            | Self::Value { key, .. }
+            | Self::Conflict { key, .. }
+            | Self::Companion { key, .. }
+            | Self::NoSuchKey { key, .. } => Some(key),
+            Self::Several(all) => all.first().and_then(Self::key),
             _ => None,
         }
     }

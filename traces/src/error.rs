@@ -223,6 +223,47 @@ pub enum TraceError {
     },
 }
 
+impl TraceError {
+    /// Where in which file.
+    #[must_use]
+    pub fn at(&self) -> At {
+        match self {
+            Self::Read { path, .. }
+            | Self::TooLong { path, .. }
+            | Self::Kind { path, .. }
+            | Self::ColumnType { path, .. }
+            | Self::TooLarge { path, .. }
+            | Self::Compression { path, .. }
+            | Self::Parquet { path, .. }
+            | Self::NoColumn { path, .. }
+            | Self::NoSignal { path, .. } => At::file(path),
+            Self::Empty { at, .. }
+            | Self::TooMany { at, .. }
+            | Self::Header { at, .. }
+            | Self::DuplicateColumn { at, .. }
+            | Self::Ragged { at, .. }
+            | Self::OpenQuote { at }
+            | Self::Cell { at, .. }
+            | Self::Dump { at, .. } => at.clone(),
+        }
+    }
+
+    /// The column or signal it is about.
+    #[must_use]
+    pub fn column(&self) -> Option<&str> {
+        match self {
+            Self::DuplicateColumn { name, .. }
+            | Self::Cell { name, .. }
+            | Self::ColumnType { name, .. }
+            | Self::TooLarge { name, .. }
+            | Self::Compression { name, .. }
+            | Self::NoColumn { name, .. }
+            | Self::NoSignal { name, .. } => Some(name),
+            _ => None,
+        }
+    }
+}
+
 fn cells(count: usize) -> String {
     if count == 1 { "1 cell".into() } else { format!("{count} cells") }
 }

@@ -20,6 +20,13 @@ pub struct Column {
     pub values: Vec<f64>,
 }
 
+impl Column {
+    /// A column made in memory.
+    pub fn new(name: impl Into<String>, values: Vec<f64>) -> Self {
+        Self { name: name.into(), values }
+    }
+}
+
 /// A column that was left out because it holds words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TextColumn {

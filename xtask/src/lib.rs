@@ -2,6 +2,7 @@
 //! the tools that the checks need, what the command is made of; nothing a user needs.
 
 pub mod prove;
+pub mod python;
 pub mod same_output;
 pub mod sbom;
 pub mod setup;

@@ -8,6 +8,7 @@ use anyhow::Context;
 use clap::Parser;
 use xtask::prove::rows::{self, Extent};
 use xtask::prove::{Sources, document};
+use xtask::python;
 use xtask::same_output::SameOutput;
 use xtask::sbom::sbom;
 use xtask::setup::Tools;
@@ -15,7 +16,7 @@ use xtask::setup::Tools;
 /// Work on the project itself
 #[derive(Debug, Parser)]
 enum Task {
-    /// Install what is missing of tools; then format, lints, documentation and all tests
+    /// Install what is missing of tools; then format, lints, documentation, all tests and the Python package
     Check {
         /// Say what is missing and stop
         #[arg(long)]
@@ -89,7 +90,7 @@ fn check(root: &Path, no_install: bool, out: &mut impl Write) -> anyhow::Result<
             return Ok(false);
         }
     }
-    deny(&path, out)
+    Ok(python::check(root, &path)? && deny(&path, out)?)
 }
 
 /// Licences, bans and origins by `cargo deny`, where it is installed; `tests/licences.rs` holds to

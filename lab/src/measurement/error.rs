@@ -1,6 +1,6 @@
 //! What can be wrong with a measurement or an analysis.
 
-use helixlock_traces::TraceError;
+use helixlock_traces::{At, TraceError};
 
 /// Why a measurement cannot be analysed.
 #[derive(Debug, thiserror::Error)]
@@ -40,10 +40,15 @@ pub enum LabError {
         hint: &'static str,
     },
     /// A cell holds a value its column cannot have.
-    #[error("{at}: column `{column}`: found `{found}`, expected {expected}{hint}")]
+    #[error(
+        "{at}{}: column `{column}`: found `{found}`, expected {expected}{hint}",
+        row_of(at, *row)
+    )]
     Cell {
-        /// File and line, or row.
-        at: String,
+        /// File and line.
+        at: At,
+        /// The row, from 1, by which a file without lines is told.
+        row: usize,
         /// Name of the column.
         column: String,
         /// The value.
@@ -88,4 +93,35 @@ pub enum LabError {
         /// B/A, or 1 behind the dividers.
         expected: f64,
     },
+}
+
+impl LabError {
+    /// Where in which file.
+    #[must_use]
+    pub fn at(&self) -> At {
+        match self {
+            Self::Trace(error) => error.at(),
+            Self::Cell { at, .. } => at.clone(),
+            Self::NoObservation { path, .. }
+            | Self::NoCoordinate { path, .. }
+            | Self::OtherKind { path, .. }
+            | Self::TooFew { path, .. }
+            | Self::FewPulses { path, .. }
+            | Self::PulseRatio { path, .. } => At::file(path),
+        }
+    }
+
+    /// The column it is about.
+    #[must_use]
+    pub fn column(&self) -> Option<&str> {
+        match self {
+            Self::Trace(error) => error.column(),
+            Self::Cell { column, .. } => Some(column),
+            _ => None,
+        }
+    }
+}
+
+fn row_of(at: &At, row: usize) -> String {
+    if at.line.is_some() { String::new() } else { format!(": row {row}") }
 }

@@ -17,7 +17,8 @@ pub(super) fn check(table: &Table) -> Result<(), LabError> {
         let there = || values.iter().enumerate().filter(|(_, value)| value.is_finite());
         let refused = |(row, value): (usize, &f64), expected, hint| {
             Err(LabError::Cell {
-                at: place(table, row),
+                at: table.at(row),
+                row: row + 1,
                 column: (*name).to_owned(),
                 found: *value,
                 expected,
@@ -33,12 +34,6 @@ pub(super) fn check(table: &Table) -> Result<(), LabError> {
         }
     }
     Ok(())
-}
-
-/// File and line; the row, from 1, of a file without lines.
-fn place(table: &Table, row: usize) -> String {
-    let at = table.at(row);
-    if at.line.is_some() { at.to_string() } else { format!("{at}: row {}", row + 1) }
 }
 
 #[cfg(test)]

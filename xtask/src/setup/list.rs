@@ -38,6 +38,8 @@ pub const PACKAGES: &[Package] = &[
     debian("make", &["make"]),
     debian("mawk", &["awk"]),
     debian("strace", &["strace"]),
+    debian("python3", &["python3"]),
+    debian("python3-venv", &["../share/python-wheels", "pip3"]),
     debian("chromium", &["chromium"]),
     debian("nodejs", &["node"]),
     debian("npm", &["npm"]),

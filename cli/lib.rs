@@ -1,0 +1,145 @@
+//! The `helixlock` command: reads files, calls the libraries, prints and writes what they say.
+//!
+//! [`main`] is the command. [`functions`] are those of its words that answer in memory instead of
+//! on paper and in files: what `import helixlock` is made of.
+
+mod add;
+mod certify;
+mod challenge;
+mod compare;
+mod completions;
+mod diagnose;
+mod discover;
+mod dividers;
+mod effects;
+mod faults;
+mod functions;
+mod r#gen;
+mod import;
+mod init;
+mod learn;
+mod man;
+mod merge;
+mod scale;
+mod screw;
+mod serve;
+mod shared;
+mod sim;
+mod straightness;
+mod sweep;
+mod transmission;
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser};
+use helixlock_plant::MachineError;
+
+pub use crate::functions::{Function, functions};
+pub use crate::shared::answer::{Answer, Part};
+pub use crate::shared::refused::Refused;
+pub use helixlock_traces::{Column, Table};
+
+use crate::shared::terminal::{Terminal, shown};
+
+/// Laser correction of a lead-screw grinder: simulate it, build it, compare it with measurements
+#[derive(Debug, Parser)]
+#[command(name = "helixlock", version, arg_required_else_help = true)]
+enum Command {
+    Add(add::Add),
+    Certify(certify::Certify),
+    Challenge(challenge::Challenge),
+    Compare(compare::Compare),
+    Completions(completions::Completions),
+    Diagnose(diagnose::Diagnose),
+    Discover(discover::Discover),
+    Dividers(dividers::Dividers),
+    Effects(effects::Effects),
+    Faults(faults::FaultsCommand),
+    Gen(r#gen::Gen),
+    Import(import::Import),
+    Init(init::Init),
+    Learn(learn::Learn),
+    Man(man::Manual),
+    Merge(merge::Merge),
+    Scale(Box<scale::ScaleCommand>),
+    Screw(screw::Screw),
+    Serve(serve::Serve),
+    Sim(sim::Sim),
+    Straightness(Box<straightness::StraightnessCommand>),
+    Sweep(sweep::Sweep),
+    Transmission(Box<transmission::TransmissionCommand>),
+}
+
+/// Runs the words that the process was given.
+///
+/// Exit status: 0 done, 1 the answer is no, 2 the input or the words are wrong.
+#[must_use]
+pub fn main() -> ExitCode {
+    let command = match Command::try_parse() {
+        Ok(command) => command,
+        Err(words) if words.use_stderr() => {
+            // Nothing is left to tell the user if this fails, here and below.
+            let _ = write!(io::stderr(), "{}", shown(&words.render().to_string()));
+            return ExitCode::from(2);
+        }
+        Err(help) => help.exit(),
+    };
+    match run(command, &mut Terminal(io::stdout().lock())) {
+        Ok(code) => code,
+        Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
+        Err(error) => {
+            let error = format!("{error:#}{}", hint(&error));
+            let _ = writeln!(io::stderr(), "helixlock: {}", shown(&error));
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// What to try where something else was read as a machine file.
+fn hint(error: &anyhow::Error) -> &'static str {
+    let mut causes = error.chain().filter_map(|cause| cause.downcast_ref::<MachineError>());
+    let other = causes.find_map(MachineError::other_kind_of_file);
+    let table = other.is_some_and(|path| path.extension().is_none_or(|tail| tail != "toml"));
+    if table {
+        "\n\nhint: the machine file comes first, the data behind it; `helixlock init` writes a machine file"
+    } else {
+        ""
+    }
+}
+
+fn run(command: Command, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+    match command {
+        Command::Add(command) => command.run(out),
+        Command::Certify(command) => command.run(out),
+        Command::Challenge(command) => command.run(out),
+        Command::Compare(command) => command.run(out),
+        Command::Completions(command) => command.run(Command::command(), out),
+        Command::Diagnose(command) => command.run(out),
+        Command::Discover(command) => command.run(out),
+        Command::Dividers(command) => command.run(out),
+        Command::Effects(command) => command.run(out),
+        Command::Faults(faults) => faults.run(out),
+        Command::Gen(command) => command.run(out),
+        Command::Import(command) => command.run(out),
+        Command::Init(command) => command.run(out),
+        Command::Learn(command) => command.run(out),
+        Command::Man(command) => command.run(Command::command(), out),
+        Command::Merge(command) => command.run(out),
+        Command::Scale(scale) => scale.run(out),
+        Command::Screw(screw) => screw.run(out),
+        Command::Serve(serve) => serve.run(out),
+        Command::Sim(sim) => sim.run(out),
+        Command::Straightness(straightness) => straightness.run(out),
+        Command::Sweep(sweep) => sweep.run(out),
+        Command::Transmission(transmission) => transmission.run(out),
+    }
+}
+
+/// True when the reader of our output has gone, as in `helixlock effects | head -1`.
+fn is_broken_pipe(error: &anyhow::Error) -> bool {
+    error
+        .chain()
+        .filter_map(|cause| cause.downcast_ref::<io::Error>())
+        .any(|cause| cause.kind() == io::ErrorKind::BrokenPipe)
+}
