@@ -1,7 +1,9 @@
 """The compiled part of helixlock."""
 
 from pathlib import Path
-from typing import Any
+from typing import Any, final
+
+__all__ = ["Column", "Error", "Table", "answer"]
 
 class Error(ValueError):
     """Input that was refused, and its place."""
@@ -15,6 +17,7 @@ class Error(ValueError):
     key: str | None
     """Key of the machine file, column of the data, or option of the function."""
 
+@final
 class Column:
     """One column of a table."""
 
@@ -24,6 +27,7 @@ class Column:
     def __array_interface__(self) -> dict[str, Any]: ...
     def __arrow_c_array__(self, requested_schema: object | None = None) -> tuple[object, object]: ...
 
+@final
 class Table:
     """Samples: named columns of numbers, each name ending in the unit. A missing value is NaN.
 
@@ -38,5 +42,5 @@ class Table:
     def __getitem__(self, name: str, /) -> Column: ...
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object: ...
 
-def answer(function: str, words: list[str], /) -> tuple[str, dict[str, Table | str]]:
+def answer(function: str, words: list[str]) -> tuple[str, dict[str, Table | str]]:
     """What a function answers to the words of its command: JSON, and tables and texts by name."""
