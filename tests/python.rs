@@ -44,10 +44,12 @@ fn the_python_functions_have_the_words_of_the_commands() {
     let mut text = HEAD.to_owned();
     text.push_str("\n__all__ = [\n");
     for function in functions() {
-        writeln!(text, "    \"{}\",", function.name).unwrap();
+        let _ = writeln!(text, "    \"{}\",", function.name);
     }
     text.push_str("]\n");
-    functions().iter().for_each(|function| write_function(&mut text, function));
+    for function in functions() {
+        write_function(&mut text, function);
+    }
     expect_file!["../python/helixlock/_functions.py"].assert_eq(&text);
 }
 
@@ -69,6 +71,7 @@ fn result(function: &str) -> &'static str {
     }
 }
 
+/// Writing to a string cannot fail.
 fn write_function(text: &mut String, function: &Function) {
     let command = function.command();
     let of_waveform =
@@ -76,31 +79,31 @@ fn write_function(text: &mut String, function: &Function) {
     let shown = || command.get_arguments().filter(|word| !word.is_hide_set() && !of_waveform(word));
     let (operands, options): (Vec<_>, Vec<_>) = shown().partition(|word| word.is_positional());
     let kind = result(function.name);
-    write!(text, "\n\ndef {}(\n", function.name).unwrap();
+    let _ = write!(text, "\n\ndef {}(\n", function.name);
     for word in &operands {
         // Only a plan of spacings needs no data.
         let none = if function.name == "straightness" { " | None" } else { "" };
-        writeln!(text, "    {}: {}{none},", name(word), plain_type(word)).unwrap();
+        let _ = writeln!(text, "    {}: {}{none},", name(word), plain_type(word));
     }
     if !options.is_empty() {
         text.push_str("    *,\n");
     }
     for word in &options {
-        writeln!(text, "    {}: {},", name(word), option_type(word)).unwrap();
+        let _ = writeln!(text, "    {}: {},", name(word), option_type(word));
     }
     let about = command.get_about().expect("a command says what it does");
-    writeln!(text, ") -> {kind}:\n    \"\"\"{about}.\n").unwrap();
+    let _ = writeln!(text, ") -> {kind}:\n    \"\"\"{about}.\n");
     for word in operands.iter().chain(&options) {
-        writeln!(text, "    {}:\n{}", name(word), wrapped(&help(word))).unwrap();
+        let _ = writeln!(text, "    {}:\n{}", name(word), wrapped(&help(word)));
     }
     let words = function.words;
-    writeln!(text, "\n    The keys are those of `helixlock {words} --json`.\n    \"\"\"").unwrap();
+    let _ = writeln!(text, "\n    The keys are those of `helixlock {words} --json`.\n    \"\"\"");
     let operands: Vec<String> = operands.iter().map(|word| name(word)).collect();
-    writeln!(text, "    return ask(\n        {kind},\n        \"{}\",", function.name).unwrap();
-    writeln!(text, "        [{}],\n        {{", operands.join(", ")).unwrap();
+    let _ = writeln!(text, "    return ask(\n        {kind},\n        \"{}\",", function.name);
+    let _ = writeln!(text, "        [{}],\n        {{", operands.join(", "));
     for word in options {
         let long = word.get_long().expect("an option has a long name");
-        writeln!(text, "            \"{long}\": {},", name(word)).unwrap();
+        let _ = writeln!(text, "            \"{long}\": {},", name(word));
     }
     text.push_str("        },\n    )\n");
 }

@@ -56,7 +56,9 @@ pub(crate) fn about_zero(problem: &Problem, values: &[f64]) -> Vec<f64> {
     for block in &problem.layout.blocks {
         let part = &mut about_zero[block.rows.clone()];
         let mean = part.iter().sum::<f64>() / number(part.len().max(1));
-        part.iter_mut().for_each(|value| *value -= mean);
+        for value in part {
+            *value -= mean;
+        }
     }
     about_zero
 }

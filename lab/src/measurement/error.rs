@@ -46,7 +46,7 @@ pub enum LabError {
     )]
     Cell {
         /// File and line.
-        at: At,
+        at: Box<At>,
         /// The row, from 1, by which a file without lines is told.
         row: usize,
         /// Name of the column.
@@ -101,7 +101,7 @@ impl LabError {
     pub fn at(&self) -> At {
         match self {
             Self::Trace(error) => error.at(),
-            Self::Cell { at, .. } => at.clone(),
+            Self::Cell { at, .. } => At::clone(at),
             Self::NoObservation { path, .. }
             | Self::NoCoordinate { path, .. }
             | Self::OtherKind { path, .. }

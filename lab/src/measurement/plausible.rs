@@ -17,7 +17,7 @@ pub(super) fn check(table: &Table) -> Result<(), LabError> {
         let there = || values.iter().enumerate().filter(|(_, value)| value.is_finite());
         let refused = |(row, value): (usize, &f64), expected, hint| {
             Err(LabError::Cell {
-                at: table.at(row),
+                at: Box::new(table.at(row)),
                 row: row + 1,
                 column: (*name).to_owned(),
                 found: *value,
