@@ -81,8 +81,10 @@ fn write_function(text: &mut String, function: &Function) {
     let kind = result(function.name);
     let _ = write!(text, "\n\ndef {}(\n", function.name);
     for word in &operands {
-        // Only a plan of spacings needs no data.
-        let none = if function.name == "straightness" { " | None" } else { "" };
+        // A plan of spacings needs no data, and a formula no name of an effect.
+        let left_out = [("straightness", "data"), ("add", "effect")];
+        let may_be_none = left_out.contains(&(function.name, word.get_id().as_str()));
+        let none = if may_be_none { " | None" } else { "" };
         let _ = writeln!(text, "    {}: {}{none},", name(word), plain_type(word));
     }
     if !options.is_empty() {

@@ -148,8 +148,11 @@ def diagnose(
 
 def add(
     machine: StrPath,
-    effect: str,
+    effect: str | None,
     *,
+    formula: str | None = None,
+    entry: str | None = None,
+    name: str | None = None,
     fit: StrPath | None = None,
     refit: bool = False,
     keep: int | None = None,
@@ -166,6 +169,13 @@ def add(
     effect:
         Name of an effect of the catalogue, or a TOML file with one `[[effect]]`, such as a custom
         one
+    formula:
+        A formula as a `custom` effect, such as `k*ramp(position_mm - at_mm)`: words that are no
+        columns are its parameters
+    entry:
+        Where the formula enters [default: motion]
+    name:
+        What the formula is called [default: formula]
     fit:
         Measured data to fit its parameters to
     refit:
@@ -173,7 +183,7 @@ def add(
     keep:
         With `--refit`, leave the first N effects of the machine file as they are [default: 0]
     set:
-        A parameter, such as `amplitude="1.5 um"`; only without `--fit`
+        A parameter, such as `amplitude="1.5 um"`; with `--fit` only where a formula's search begins
     grating_signal:
         In a VCD capture, the signal of the grating lines
     laser_signal:
@@ -190,6 +200,9 @@ def add(
         "add",
         [machine, effect],
         {
+            "formula": formula,
+            "entry": entry,
+            "name": name,
             "fit": fit,
             "refit": refit,
             "keep": keep,
