@@ -111,7 +111,7 @@ impl StraightnessCommand {
         let exceeded = !evaluation.holds(self.limit);
         let result = StraightnessJson::new(&evaluation, self.limit);
         if let Some(output) = &self.output {
-            let inputs = self.sheet.iter().chain([path]).cloned();
+            let inputs = self.sheet.as_deref().into_iter().chain([path]).map(Path::to_owned);
             write_files(output, inputs.collect(), &evaluation, &result)?;
         }
         if self.json {
