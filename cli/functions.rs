@@ -9,7 +9,9 @@ use clap::{Args, Command};
 
 use crate::shared::answer::{Answer, Answering};
 use crate::shared::refused::Refused;
-use crate::{add, compare, diagnose, learn, scale, screw, sim, straightness, sweep, transmission};
+use crate::{
+    add, compare, diagnose, discover, learn, scale, screw, sim, straightness, sweep, transmission,
+};
 
 /// Words of a command that have no meaning without files and text.
 const OF_FILES: &[&str] = &["force", "json", "output", "shard", "undo"];
@@ -54,6 +56,7 @@ pub const fn functions() -> &'static [Function] {
             Function::new::<sim::Sim>("simulate", "sim"),
             Function::new::<compare::Compare>("compare", "compare"),
             Function::new::<diagnose::Diagnose>("diagnose", "diagnose"),
+            Function::new::<discover::Discover>("discover", "discover"),
             Function::new::<add::Add>("add", "add"),
             Function::new::<learn::Learn>("learn", "learn"),
             Function::new::<sweep::Sweep>("sweep", "sweep"),

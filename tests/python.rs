@@ -22,6 +22,7 @@ from ._answers import (
     Applied,
     Comparison,
     Diagnosis,
+    Discovery,
     Image,
     Learned,
     Quantity,
@@ -59,6 +60,7 @@ fn result(function: &str) -> &'static str {
         "simulate" => "Simulation",
         "compare" => "Comparison",
         "diagnose" => "Diagnosis",
+        "discover" => "Discovery",
         "learn" => "Learned",
         "add" => "Added",
         "sweep" => "Sweep",
@@ -115,7 +117,7 @@ fn name(word: &Arg) -> String {
     let name = word.get_long().unwrap_or_else(|| word.get_id().as_str());
     let name = name.replace('-', "_");
     // Words of Python itself.
-    if ["from", "pass"].contains(&name.as_str()) { name + "_" } else { name }
+    if ["from", "pass", "with"].contains(&name.as_str()) { name + "_" } else { name }
 }
 
 fn option_type(word: &Arg) -> String {

@@ -8,11 +8,12 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use helixlock_lab::{Discovery, Found, discover};
+use helixlock_lab::{Discovery, Found, Problem, discover};
 use helixlock_plant::MachineFile;
 
 use self::json::DiscoveryJson;
 use crate::shared::angular::in_unit;
+use crate::shared::answer::{Answer, Answering};
 use crate::shared::measured::Files;
 use crate::shared::output::{print_json, write_content};
 
@@ -33,8 +34,7 @@ impl Discover {
     /// Prints the proposals; exit status 1 when the input itself is doubted, or nothing was
     /// proposed that could be written.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
-        let (file, problem) = self.files.read()?;
-        let discovery = discover(&problem);
+        let (file, problem, discovery) = self.found()?;
         let written = match &self.output {
             Some(path) if !discovery.proposals.is_empty() => {
                 let new = with_proposals(&file, &discovery)?;
@@ -56,6 +56,22 @@ impl Discover {
         }
         let doubted = discovery.found == Found::DoubtfulInput;
         Ok(if doubted || !written { ExitCode::from(1) } else { ExitCode::SUCCESS })
+    }
+
+    fn found(&self) -> anyhow::Result<(MachineFile, Problem, Discovery)> {
+        let (file, problem) = self.files.read()?;
+        let discovery = discover(&problem);
+        Ok((file, problem, discovery))
+    }
+}
+
+impl Answering for Discover {
+    /// With the text `machine`, the proposals and the named effects beside them in it.
+    fn answer(&self) -> anyhow::Result<Answer> {
+        let (file, problem, discovery) = self.found()?;
+        let unit = problem.measurement.unit_word();
+        let answer = Answer::in_unit(&DiscoveryJson::new(&discovery, unit), unit)?;
+        Ok(answer.with_text("machine", with_proposals(&file, &discovery)?.text().clone()))
     }
 }
 

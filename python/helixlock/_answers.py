@@ -48,6 +48,13 @@ class Diagnosis(Answer):
     or `angle_rev`, `before_…` and `after_…` the effects that were found, in um or arcsec."""
 
 
+class Discovery(Answer):
+    """Formulas for what no effect of the catalogue explains."""
+
+    machine: str
+    """The machine file with them, and with the effects that were named beside them."""
+
+
 class Learned(Diagnosis):
     """What a machine file lacked, and the better file."""
 

@@ -9,6 +9,7 @@ from ._answers import (
     Applied,
     Comparison,
     Diagnosis,
+    Discovery,
     Image,
     Learned,
     Quantity,
@@ -25,6 +26,7 @@ __all__ = [
     "simulate",
     "compare",
     "diagnose",
+    "discover",
     "add",
     "learn",
     "sweep",
@@ -110,7 +112,7 @@ def diagnose(
     laser_signal: str | None = None,
     step_signal: str | None = None,
     forward_signal: str | None = None,
-    custom: StrPath | None = None,
+    with_: StrPath | None = None,
 ) -> Diagnosis:
     """Name the effects that a machine file lacks, with evidence, rivals, and the experiment that tells.
 
@@ -127,7 +129,7 @@ def diagnose(
         In a VCD capture, the signal of the motor's steps
     forward_signal:
         In a VCD capture, the signal that is high when a step goes forward
-    custom:
+    with_:
         TOML file with custom effects to try beside the catalogue
 
     The keys are those of `helixlock diagnose --json`.
@@ -141,7 +143,47 @@ def diagnose(
             "laser-signal": laser_signal,
             "step-signal": step_signal,
             "forward-signal": forward_signal,
-            "custom": custom,
+            "with": with_,
+        },
+    )
+
+
+def discover(
+    machine: StrPath,
+    data: StrPath,
+    *,
+    grating_signal: str | None = None,
+    laser_signal: str | None = None,
+    step_signal: str | None = None,
+    forward_signal: str | None = None,
+) -> Discovery:
+    """Propose a formula for what no effect of the catalogue explains.
+
+    machine:
+        Machine file
+    data:
+        Measured data: CSV or Parquet with `error_um`, `lead_error_um`, `steps` or `error_arcsec`
+        over `position_mm`, `time_s` or `angle_rev`; or a VCD capture of grating and laser
+    grating_signal:
+        In a VCD capture, the signal of the grating lines
+    laser_signal:
+        In a VCD capture, the signal of the laser fringes
+    step_signal:
+        In a VCD capture, the signal of the motor's steps
+    forward_signal:
+        In a VCD capture, the signal that is high when a step goes forward
+
+    The keys are those of `helixlock discover --json`.
+    """
+    return ask(
+        Discovery,
+        "discover",
+        [machine, data],
+        {
+            "grating-signal": grating_signal,
+            "laser-signal": laser_signal,
+            "step-signal": step_signal,
+            "forward-signal": forward_signal,
         },
     )
 
@@ -219,7 +261,7 @@ def learn(
     machine: StrPath,
     data: StrPath,
     *,
-    custom: StrPath | None = None,
+    with_: StrPath | None = None,
     accept: bool = False,
     grating_signal: str | None = None,
     laser_signal: str | None = None,
@@ -232,7 +274,7 @@ def learn(
         Machine file
     data:
         Measured data
-    custom:
+    with_:
         TOML file with custom effects to try beside the catalogue
     accept:
         Add what was found even if something is left that no effect accounts for
@@ -252,7 +294,7 @@ def learn(
         "learn",
         [machine, data],
         {
-            "custom": custom,
+            "with": with_,
             "accept": accept,
             "grating-signal": grating_signal,
             "laser-signal": laser_signal,
@@ -314,6 +356,7 @@ def screw(
     compensation: Quantity | None = None,
     uncertainty: Quantity | None = None,
     reading_noise: Quantity | None = None,
+    sheet: StrPath | None = None,
     seed: int | None = None,
     grade: str | None = None,
     weighting: Literal["samples", "travel"] | None = None,
@@ -342,6 +385,9 @@ def screw(
         Standard deviation of a single reading, independent from reading to reading, µm: takes off
         what noise adds to each characteristic, and gives it an uncertainty and every grade a
         probability
+    sheet:
+        What is known of the measurement, tolerances, and what is printed on the sheet: gives every
+        figure its uncertainty, and the grade asked for is decided by ISO 14253-1
     seed:
         Seed of the noise that `--reading-noise` tries; equal seeds give equal results [default: 1]
     grade:
@@ -368,6 +414,7 @@ def screw(
             "compensation": compensation,
             "uncertainty": uncertainty,
             "reading-noise": reading_noise,
+            "sheet": sheet,
             "seed": seed,
             "grade": grade,
             "weighting": weighting,
@@ -389,6 +436,7 @@ def straightness(
     zeros_matched: bool = False,
     accept_lost_harmonics: bool = False,
     limit: Quantity | None = None,
+    sheet: StrPath | None = None,
     table_step: Quantity | None = None,
     simulate: bool = False,
     unrepeatable: Quantity | None = None,
@@ -419,6 +467,9 @@ def straightness(
         Go on although the spacings lose harmonics; those are left at zero
     limit:
         Straightness of the bar (minimum zone) that must not be exceeded, µm
+    sheet:
+        What is known of the measurement, tolerances, and what is printed on the sheet: gives the
+        straightness its uncertainty, and decides tolerances by ISO 14253-1
     table_step:
         Step of the correction table, mm [default: 1 mm]
     simulate:
@@ -448,6 +499,7 @@ def straightness(
             "zeros-matched": zeros_matched,
             "accept-lost-harmonics": accept_lost_harmonics,
             "limit": limit,
+            "sheet": sheet,
             "table-step": table_step,
             "simulate": simulate,
             "unrepeatable": unrepeatable,
@@ -627,6 +679,7 @@ def scale_iso230(
     *,
     limit: Quantity | None = None,
     expanded_uncertainty: Quantity | None = None,
+    sheet: StrPath | None = None,
 ) -> Answer:
     """Evaluate positioning accuracy by ISO 230-2.
 
@@ -636,6 +689,8 @@ def scale_iso230(
         Accuracy A that must not be exceeded, µm; exit status 1 beyond
     expanded_uncertainty:
         Expanded uncertainty of A (k = 2), µm: the limit is then decided by ISO 14253-1
+    sheet:
+        What is known of the measurement, tolerances, and what is printed on the sheet
 
     The keys are those of `helixlock scale iso230 --json`.
     """
@@ -646,6 +701,7 @@ def scale_iso230(
         {
             "limit": limit,
             "expanded-uncertainty": expanded_uncertainty,
+            "sheet": sheet,
         },
     )
 

@@ -54,6 +54,20 @@ def test_diagnose_and_learn(example: Path, printed: Printed, tmp_path: Path) -> 
     assert np.std(after) < 0.01 * np.std(before)
 
 
+def test_discover(example: Path, printed: Printed, tmp_path: Path) -> None:
+    files = [example / "outside-the-catalogue" / name for name in ("machine.toml", "data.csv")]
+    new = tmp_path / "new.toml"
+    found = helixlock.discover(*files)
+    assert found == printed("discover", *files, "-o", new)
+    assert found.machine == new.read_text()
+
+
+def test_diagnose_with_own_formula(example: Path, printed: Printed) -> None:
+    files = [example / "outside-the-catalogue" / name for name in ("machine.toml", "data.csv")]
+    own = example / "outside-the-catalogue/rack.toml"
+    assert helixlock.diagnose(*files, with_=own) == printed("diagnose", *files, "--with", own)
+
+
 def test_add(example: Path, printed: Printed, tmp_path: Path) -> None:
     machine, data = example / "hidden-gear/machine.toml", example / "hidden-gear/data.csv"
     new = tmp_path / "new.toml"
