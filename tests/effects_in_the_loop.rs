@@ -124,12 +124,12 @@ fn predicted(machine: &Model, trace: &Trace, sensor: Sensor, shift_s: f64) -> Ve
     let rows = trace.time_s.len() + 1;
     let constants = machine.environment.readings.iter();
     let mut covariates: Vec<_> =
-        constants.map(|(name, value)| (name.clone(), vec![*value; rows])).collect();
-    covariates.push(("initial_phase".into(), vec![150.0; rows]));
-    covariates.push(("steps".into(), from_start(&steps(trace), 0.0)));
+        constants.map(|(name, value)| (name.clone(), vec![*value; rows].into())).collect();
+    covariates.push(("initial_phase".into(), vec![150.0; rows].into()));
+    covariates.push(("steps".into(), from_start(&steps(trace), 0.0).into()));
     let samples = Samples {
-        time_s: Some(from_start(&trace.time_s, shift_s)),
-        position_mm: Some(from_start(&trace.position_mm, TRAVEL_MM_S * shift_s)),
+        time_s: Some(from_start(&trace.time_s, shift_s).into()),
+        position_mm: Some(from_start(&trace.position_mm, TRAVEL_MM_S * shift_s).into()),
         covariates,
         ..Samples::default()
     };

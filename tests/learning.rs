@@ -30,6 +30,22 @@ fn ledger(folder: &Path) -> Value {
     serde_json::from_str(&text).expect("JSON")
 }
 
+/// `diagnose` shows what `learn` shows, and writes nothing else.
+#[test]
+fn a_diagnosis_has_the_page_of_learn() {
+    let folder = scratch();
+    let [diagnosed, learned] = ["diagnosed", "learned"].map(|name| word(&folder, name));
+    let files = ["examples/hidden-gear/machine.toml", "examples/hidden-gear/data.csv"];
+    let run = helixlock(&[&["diagnose"], &files[..], &["-o", &diagnosed.1]].concat());
+    assert_eq!((run.status, run.stderr.as_str()), (0, ""));
+    helixlock(&[&["learn"], &files[..], &["-o", &learned.1]].concat());
+    let page = |folder: &Path| fs::read_to_string(folder.join("report.html")).expect("a report");
+    assert_eq!(page(&diagnosed.0), page(&learned.0));
+    assert_eq!(fs::read_dir(&diagnosed.0).expect("a folder").count(), 1);
+    let over_data = helixlock(&["diagnose", files[0], files[1], "-o", files[1]]);
+    assert_eq!(over_data.status, 2, "{}", over_data.stdout);
+}
+
 /// Two effects are found one after the other; each round can be gone back to.
 #[test]
 fn rounds_are_kept_and_can_be_taken_back() {
@@ -189,7 +205,7 @@ fn doubtful_input_teaches_nothing() {
 fn turned(machine: &Path, data: &Path) {
     let model = Model::read(machine).expect("a machine");
     let places: Vec<f64> = (0..800).map(|row| 0.5 * f64::from(row)).collect();
-    let samples = Samples { position_mm: Some(places.clone()), ..Samples::default() };
+    let samples = Samples { position_mm: Some(places.clone().into()), ..Samples::default() };
     let record = Record::new(&model, &samples).expect("a record");
     let shown = predict(&model, &record).expect("a prediction").error_um;
     let mut text = "position_mm,error_um\n".to_owned();

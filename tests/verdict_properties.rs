@@ -159,10 +159,13 @@ frequency = "160 Hz"
             ("bed_pitch_arcsec".to_owned(), wave(&position_mm, 13.0, 0.0, 1.0)),
         ];
         let samples = Samples {
-            time_s: Some(time_s.clone()),
-            position_mm: Some(position_mm.clone()),
-            pass: Some(pass.clone()),
-            covariates: covariates.clone(),
+            time_s: Some(time_s.clone().into()),
+            position_mm: Some(position_mm.clone().into()),
+            pass: Some(pass.clone().into()),
+            covariates: covariates
+                .iter()
+                .map(|(name, log)| (name.clone(), log.clone().into()))
+                .collect(),
             ..Samples::default()
         };
         let record = Record::new(&truth, &samples).expect("coordinates");

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use helixlock_lab::Problem;
+use helixlock_plant::Column;
 use serde::Serialize;
 
 use super::opened::{Opened, about_zero, count};
@@ -20,7 +21,7 @@ struct Axis {
     /// The name of a shaft or a column.
     name: String,
     unit: &'static str,
-    values: Vec<f64>,
+    values: Column,
 }
 
 /// An axis in bins.
@@ -88,7 +89,7 @@ pub(crate) fn curve(opened: &Opened, key: &str, sensor: usize, without: &[f64]) 
 fn axes(problem: &Problem) -> Vec<Axis> {
     let record = &problem.record;
     let mut axes = Vec::new();
-    let mut push = |kind: &'static str, name: &str, unit, values: Vec<f64>| {
+    let mut push = |kind: &'static str, name: &str, unit, values: Column| {
         let key = if name.is_empty() { kind.to_owned() } else { format!("{kind}:{name}") };
         axes.push(Axis { key, kind, name: name.to_owned(), unit, values });
     };
@@ -114,7 +115,7 @@ fn axes(problem: &Problem) -> Vec<Axis> {
 }
 
 /// The angle of something that turns `order` times a unit of the coordinate, degrees.
-fn angles(coordinate: &[f64], order: f64) -> Vec<f64> {
+fn angles(coordinate: &[f64], order: f64) -> Column {
     coordinate.iter().map(|value| 360.0 * (value * order).rem_euclid(1.0)).collect()
 }
 

@@ -43,7 +43,7 @@ pub use nature::Nature;
 pub use play::Play;
 pub use rationalisation::rationalisation_um_per_m;
 pub use record::{
-    Bridging, COVARIATES, Columns, Covariate, HeaderUnit, Instant, LOGGED_COLUMNS, LoggedColumn,
-    Record, Samples, Setting,
+    Bridging, COVARIATES, Column, Columns, Covariate, HeaderUnit, Instant, LOGGED_COLUMNS,
+    LoggedColumn, Record, Samples, Setting,
 };
 pub use term::{Estimate, Formula, Sum, Term};

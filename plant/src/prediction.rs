@@ -91,21 +91,32 @@ pub fn predict(model: &Model, record: &Record) -> Result<Prediction, EffectError
         .iter()
         .map(|term| Ok((term.entry, term.effect(machine, &record.columns)?)))
         .collect::<Result<Vec<_>, EffectError>>()?;
-    let record = Record { error_um: meter_um(machine, record, &effects), ..record.clone() };
-    let mut shown = Sensor::ALL.map(|sensor| implied(machine, &record, sensor));
-    for (entry, effect) in &effects {
-        let deltas = effect.deltas_um(&record);
-        for (sensor, shown) in Sensor::ALL.into_iter().zip(&mut shown) {
-            let factor = gain(machine, *entry, sensor);
-            if factor != 0.0 {
-                shown.iter_mut().zip(&deltas).for_each(|(sum, delta)| *sum += factor * delta);
-            }
+    let record = Record { error_um: meter_um(machine, record, &effects).into(), ..record.clone() };
+    let shown = |sensor| shown(machine, &record, &effects, sensor);
+    Ok(Prediction {
+        error_um: shown(Sensor::Recorder),
+        steps: shown(Sensor::Counter),
+        lead_error_um: shown(Sensor::Thread),
+    })
+}
+
+/// What one sensor shows of effects on a record that has the error at the meter ([`meter_um`]).
+#[must_use]
+pub fn shown(
+    machine: &Machine,
+    record: &Record,
+    effects: &[(Entry, Sum)],
+    sensor: Sensor,
+) -> Vec<f64> {
+    let mut shown = implied(machine, record, sensor);
+    for (entry, effect) in effects {
+        let factor = gain(machine, *entry, sensor);
+        if factor != 0.0 {
+            let deltas = effect.deltas_um(record);
+            shown.iter_mut().zip(&deltas).for_each(|(sum, delta)| *sum += factor * delta);
         }
     }
-    let [recorder, counter, thread] =
-        [(0, Sensor::Recorder), (1, Sensor::Counter), (2, Sensor::Thread)]
-            .map(|(index, sensor)| settle(machine, &record, sensor, &shown[index]));
-    Ok(Prediction { error_um: recorder, steps: counter, lead_error_um: thread })
+    settle(machine, record, sensor, shown)
 }
 
 /// A design column: what `sensor` shows of an effect whose δ is `deltas_um`.
@@ -125,7 +136,7 @@ pub fn observe(
         return vec![0.0; record.len()];
     }
     let scaled: Vec<_> = deltas_um.iter().map(|delta| factor * delta).collect();
-    settle(machine, record, sensor, &scaled)
+    settle(machine, record, sensor, scaled)
 }
 
 /// Error at the meter without the effects that depend on it, each pass from its own zero, µm.
@@ -144,7 +155,7 @@ pub fn meter_um(machine: &Machine, record: &Record, effects: &[(Entry, Sum)]) ->
             error_um.iter_mut().zip(&deltas).for_each(|(sum, delta)| *sum += factor * delta);
         }
     }
-    zeroed(record, &error_um)
+    zeroed(record, error_um)
 }
 
 /// What the machine file itself implies, before zero and filter: the slope that the dividers leave
@@ -174,7 +185,7 @@ pub fn implied(machine: &Machine, record: &Record, sensor: Sensor) -> Vec<f64> {
 }
 
 /// Zero of each pass, and the recorder's filter.
-fn settle(machine: &Machine, record: &Record, sensor: Sensor, shown: &[f64]) -> Vec<f64> {
+fn settle(machine: &Machine, record: &Record, sensor: Sensor, shown: Vec<f64>) -> Vec<f64> {
     let zeroed = zeroed(record, shown);
     let cutoff_hz = machine.filter_cutoff_hz.filter(|_| sensor == Sensor::Recorder);
     let Some(cutoff_hz) = cutoff_hz else { return zeroed };
@@ -187,12 +198,13 @@ fn settle(machine: &Machine, record: &Record, sensor: Sensor, shown: &[f64]) -> 
 }
 
 /// Values counted from the first sample of each pass that has one.
-fn zeroed(record: &Record, values: &[f64]) -> Vec<f64> {
-    let mut zeroed = Vec::with_capacity(values.len());
+fn zeroed(record: &Record, mut values: Vec<f64>) -> Vec<f64> {
     for rows in record.passes() {
-        let pass = &values[rows];
+        let pass = &mut values[rows];
         let zero = pass.iter().copied().find(|value| value.is_finite()).unwrap_or_default();
-        zeroed.extend(pass.iter().map(|value| value - zero));
+        for value in pass {
+            *value -= zero;
+        }
     }
-    zeroed
+    values
 }

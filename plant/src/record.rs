@@ -1,5 +1,6 @@
 //! Where and when: one instant of a run, or a whole record of samples.
 
+mod column;
 mod logged;
 mod refined;
 mod samples;
@@ -7,6 +8,7 @@ mod samples;
 use std::f64::consts::TAU;
 
 use crate::Machine;
+pub use column::Column;
 pub use logged::{Bridging, COVARIATES, HeaderUnit, LOGGED_COLUMNS, LoggedColumn, Setting};
 
 /// Index of [`COVARIATES`], for effects to read `now.covariates`.
@@ -136,49 +138,53 @@ impl Instant<'_> {
     }
 }
 
+/// What an instant knows where nothing was logged.
+static UNLOGGED: [f64; COVARIATES.len()] = [f64::NAN; COVARIATES.len()];
+
 /// Samples of one or more passes, as columns of equal length, ordered as they were taken.
 #[derive(Clone, Debug, Default)]
 pub struct Record {
     /// Time since the start of the record, s.
-    pub time_s: Vec<f64>,
+    pub time_s: Column,
     /// Nominal travel, mm.
-    pub position_mm: Vec<f64>,
+    pub position_mm: Column,
     /// Spindle angle, rad.
-    pub spindle_rad: Vec<f64>,
+    pub spindle_rad: Column,
     /// Spindle speed, turns a minute.
-    pub speed_rpm: Vec<f64>,
+    pub speed_rpm: Column,
     /// +1 or −1.
-    pub direction: Vec<f64>,
+    pub direction: Column,
     /// Pass, from 0, in blocks: a number never comes back.
-    pub pass: Vec<usize>,
+    pub pass: Column<usize>,
     /// Way since the start of the pass, mm; see [`Self::begun_at_zero`] for where that is.
-    pub travelled_mm: Vec<f64>,
+    pub travelled_mm: Column,
     /// Way since the last reversal inside the pass, mm; infinite before the first.
-    pub since_reversal_mm: Vec<f64>,
+    pub since_reversal_mm: Column,
     /// What the meter would show without the effects that depend on it, µm; zeros until set.
-    pub error_um: Vec<f64>,
+    pub error_um: Column,
     /// Names behind the covariates.
     pub columns: Columns,
-    pub(crate) covariates: Vec<f64>,
+    /// Row by row; empty where nothing was logged.
+    pub(crate) covariates: Column,
 }
 
 /// What is known of where each sample was taken; at least one of the first three is needed.
 #[derive(Clone, Debug, Default)]
 pub struct Samples {
     /// Time, s, any zero.
-    pub time_s: Option<Vec<f64>>,
+    pub time_s: Option<Column>,
     /// Travel, mm.
-    pub position_mm: Option<Vec<f64>>,
+    pub position_mm: Option<Column>,
     /// Spindle angle, turns.
-    pub angle_rev: Option<Vec<f64>>,
+    pub angle_rev: Option<Column>,
     /// Spindle speed, turns a minute; the machine file's when absent.
-    pub speed_rpm: Option<Vec<f64>>,
+    pub speed_rpm: Option<Column>,
     /// +1 or −1; from the travel when absent.
-    pub direction: Option<Vec<f64>>,
+    pub direction: Option<Column>,
     /// Pass numbers as logged; one pass when absent.
-    pub pass: Option<Vec<f64>>,
+    pub pass: Option<Column>,
     /// Any other columns, with their names; all as long as the first ones.
-    pub covariates: Vec<(String, Vec<f64>)>,
+    pub covariates: Vec<(String, Column)>,
 }
 
 impl Record {
@@ -211,7 +217,6 @@ impl Record {
     /// When `index` is not below [`Self::len`].
     #[must_use]
     pub fn instant(&self, index: usize) -> Instant<'_> {
-        let width = self.columns.len();
         Instant {
             time_s: self.time_s[index],
             position_mm: self.position_mm[index],
@@ -222,14 +227,13 @@ impl Record {
             travelled_mm: self.travelled_mm[index],
             since_reversal_mm: self.since_reversal_mm[index],
             error_um: self.error_um[index],
-            covariates: &self.covariates[index * width..(index + 1) * width],
+            covariates: self.logged(index),
         }
     }
 
     /// All samples as instants.
     pub fn instants(&self) -> impl Iterator<Item = Instant<'_>> {
         let rows = self.len();
-        let width = self.columns.len();
         // Of equal length beyond doubt, so that no sample asks again.
         let (time_s, position_mm) = (&self.time_s[..rows], &self.position_mm[..rows]);
         let (spindle_rad, speed_rpm) = (&self.spindle_rad[..rows], &self.speed_rpm[..rows]);
@@ -247,8 +251,14 @@ impl Record {
             travelled_mm: travelled_mm[row],
             since_reversal_mm: since_reversal_mm[row],
             error_um: error_um[row],
-            covariates: &self.covariates[row * width..(row + 1) * width],
+            covariates: self.logged(row),
         })
+    }
+
+    /// Logged quantities of one sample.
+    fn logged(&self, row: usize) -> &[f64] {
+        let width = self.columns.len();
+        self.covariates.get(row * width..(row + 1) * width).unwrap_or(&UNLOGGED)
     }
 
     /// A logged column, or `None` when it is not there.
@@ -260,16 +270,18 @@ impl Record {
 
     /// Sets logged columns; each is as long as the record.
     #[must_use]
-    pub fn with_covariates(mut self, columns: &[(String, Vec<f64>)]) -> Self {
+    pub fn with_covariates(mut self, columns: &[(String, Column)]) -> Self {
         self.columns = Columns::new(columns.iter().map(|(name, _)| name.as_str()));
         let width = self.columns.len();
-        self.covariates = vec![f64::NAN; width * self.len()];
+        let rows = if columns.is_empty() { 0 } else { self.len() };
+        let mut logged = vec![f64::NAN; width * rows];
         for (name, values) in columns {
             let Some(column) = self.columns.index(name) else { continue };
-            for (row, value) in self.covariates.chunks_exact_mut(width).zip(values) {
+            for (row, value) in logged.chunks_exact_mut(width).zip(values.iter()) {
                 row[column] = *value;
             }
         }
+        self.covariates = logged.into();
         self
     }
 

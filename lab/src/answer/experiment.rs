@@ -248,7 +248,7 @@ fn later(measurement: &mut Measurement) {
 
 fn repeat_with(measurement: &mut Measurement, column: &str, value: f64) {
     let rows = measurement.len();
-    measurement.covariates.insert(column.to_owned(), vec![value; rows]);
+    measurement.covariates.insert(column.to_owned(), vec![value; rows].into());
 }
 
 /// Longest travel of a pass over the shortest.
@@ -290,7 +290,7 @@ fn uneven(measurement: &mut Measurement) {
     let steps = distances_mm(measurement);
     let mean = steps.iter().sum::<f64>() / count(steps.len().max(1));
     let turns_a_mm = spread(&measurement.angle_rev) / spread(&measurement.position_mm);
-    let with_angle = measurement.position_mm.iter_mut().zip(&mut measurement.angle_rev);
+    let with_angle = measurement.position_mm.iter_mut().zip(measurement.angle_rev.iter_mut());
     for (row, (place, angle)) in with_angle.enumerate() {
         let part = GOLDEN * count(row);
         let by = 0.5 * mean * (part - part.floor() - 0.5);

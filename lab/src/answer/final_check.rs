@@ -3,8 +3,8 @@
 //! A search fits closed forms, which take the loop to be perfect. The run has the loop's hunting,
 //! lag and slew in it, and shows whether the learned effects do in the machine what the fit says.
 
-use helixlock_plant::Model;
 use helixlock_plant::prediction::Sensor;
+use helixlock_plant::{Column, Model};
 use helixlock_sim::{Error, Options, Simulation, Trace, simulate};
 
 use crate::model::Problem;
@@ -57,7 +57,7 @@ pub fn final_check(
     let end_mm = problem.measurement.position_mm[rows.end - 1];
     let before = run(file, end_mm)?;
     let after = run(learned, end_mm)?;
-    let check = |(sensor, values): (Sensor, Vec<f64>)| {
+    let check = |(sensor, values): (Sensor, Column)| {
         let series = Series { problem, rows: rows.clone(), values: &values };
         let step_um = learned.drive.step_um;
         let points = series.against(&shown(&after.closed.trace, sensor, step_um));
@@ -99,7 +99,7 @@ fn forward_pass(problem: &Problem) -> Option<std::ops::Range<usize>> {
 }
 
 /// Values of each sensor in µm; steps that a capture knows count as a counter.
-fn measured(problem: &Problem) -> Vec<(Sensor, Vec<f64>)> {
+fn measured(problem: &Problem) -> Vec<(Sensor, Column)> {
     let measurement = &problem.measurement;
     if let Some(steps) = measurement.covariates.get("steps") {
         let step_um = problem.model.drive.step_um;

@@ -102,13 +102,13 @@ pub(super) fn record(machine: &Machine, recipe: &Recipe, chance: &mut ChaCha8Rng
         covariates.push(("grating_index_deg".to_owned(), of(5)));
     }
     let samples = Samples {
-        time_s: Some(of(0)),
-        position_mm: Some(of(1)),
+        time_s: Some(of(0).into()),
+        position_mm: Some(of(1).into()),
         angle_rev: None,
-        speed_rpm: Some(of(2)),
-        direction: Some(of(3)),
-        pass: Some(of(4)),
-        covariates,
+        speed_rpm: Some(of(2).into()),
+        direction: Some(of(3).into()),
+        pass: Some(of(4).into()),
+        covariates: covariates.into_iter().map(|(name, log)| (name, log.into())).collect(),
     };
     Record::new(machine, &samples).unwrap_or_default()
 }
@@ -157,11 +157,11 @@ pub(super) fn measured(
 ) -> Result<(Table, f64), ChallengeError> {
     let (shown, expected) = (predict(truth, record)?, predict(known, record)?);
     let mut columns = vec![
-        column("position_mm", record.position_mm.clone()),
-        column("time_s", record.time_s.clone()),
+        column("position_mm", record.position_mm.to_vec()),
+        column("time_s", record.time_s.to_vec()),
         column("pass", record.pass.iter().map(|&pass| count(pass + 1)).collect()),
-        column("direction", record.direction.clone()),
-        column("speed_rpm", record.speed_rpm.clone()),
+        column("direction", record.direction.to_vec()),
+        column("speed_rpm", record.speed_rpm.to_vec()),
     ];
     for name in record.columns.present() {
         columns.extend(record.column(name).map(|values| column(name, values)));

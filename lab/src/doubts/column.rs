@@ -77,7 +77,7 @@ fn converted(measurement: &Measurement, column: &str, unit: &HeaderUnit) -> Meas
             convert(&mut mended.position_mm);
             convert(&mut mended.angle_rev);
         }
-        name => mended.covariates.get_mut(name).into_iter().for_each(convert),
+        name => mended.covariates.get_mut(name).into_iter().for_each(|values| convert(values)),
     }
     mended
 }

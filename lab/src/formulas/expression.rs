@@ -5,6 +5,8 @@ use std::f64::consts::PI;
 use std::ops::{Add, Div, Mul, Sub};
 use std::sync::Arc;
 
+use helixlock_plant::Column;
+
 use super::dimension::Dimension;
 
 /// What a sample knows: a coordinate or a logged column, by the name it has in formulas.
@@ -15,7 +17,7 @@ pub(crate) struct Quantity {
     /// Its unit.
     pub(crate) dimension: Dimension,
     /// One value a sample.
-    pub(crate) values: Vec<f64>,
+    pub(crate) values: Column,
 }
 
 /// A number that is looked for.

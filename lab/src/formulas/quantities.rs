@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use helixlock_plant::Column;
+
 use super::dimension::Dimension;
 use super::expression::{Expression, Quantity, number};
 use crate::model::Problem;
@@ -26,7 +28,7 @@ pub(crate) struct Quantities {
 impl Quantities {
     pub(crate) fn of(problem: &Problem) -> Self {
         let record = &problem.record;
-        let quantity = |name: &str, unit: Dimension, values: Vec<f64>| {
+        let quantity = |name: &str, unit: Dimension, values: Column| {
             Arc::new(Quantity { name: name.to_owned(), dimension: unit, values })
         };
         let unit = Dimension::unit;

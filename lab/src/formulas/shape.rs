@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use helixlock_plant::{EffectError, Entry, Parameter, Term};
+use helixlock_plant::{Column, EffectError, Entry, Parameter, Term};
 use rayon::prelude::*;
 
 use super::dimension::Dimension;
@@ -37,7 +37,7 @@ pub(crate) struct Shape {
 #[derive(Debug, Clone)]
 pub(crate) struct Band {
     /// Cyclic coordinate, one value a sample.
-    pub(crate) over: Vec<f64>,
+    pub(crate) over: Column,
     /// Lowest and highest frequency.
     pub(crate) ends: [f64; 2],
 }
@@ -298,7 +298,7 @@ impl Placed<'_> {
 
 impl Band {
     /// From so many waves over the coordinate up to a frequency; `None` when nothing is between.
-    pub(crate) fn new(over: Vec<f64>, ends: [f64; 2]) -> Option<Self> {
+    pub(crate) fn new(over: Column, ends: [f64; 2]) -> Option<Self> {
         (ends[0] < ends[1]).then_some(Self { over, ends })
     }
 

@@ -10,6 +10,8 @@ use super::repeatability::repeatability;
 use super::slow_noise::taken_for_noise;
 use super::tails::chance_with_tails;
 use super::waves;
+use helixlock_plant::Column;
+
 use crate::model::{Columns, Fit, Problem, Row, Stage, settle};
 use crate::noise::{rms, swift_rms};
 use crate::numerics::{chi_squared_tail, count, spread};
@@ -329,7 +331,7 @@ fn quantiles(values: &[f64], points: usize) -> Vec<f64> {
 /// A straight relation to every logged covariate, to direction and to speed.
 fn covariates(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
     let measured = &problem.measurement;
-    let mut columns: Vec<(&str, &Vec<f64>)> =
+    let mut columns: Vec<(&str, &Column)> =
         measured.covariates.iter().map(|(name, values)| (name.as_str(), values)).collect();
     columns.push(("direction", &measured.direction));
     columns.push(("speed_rpm", &measured.speed_rpm));

@@ -1,6 +1,8 @@
 //! Waves that a fit leaves: lines, and bands of frequencies that are none.
 
 use super::probes::{Structure, matters, probes};
+use helixlock_plant::Column;
+
 use crate::model::{Columns, Fit, Problem, settle};
 use crate::policy::chance::SIGNIFICANCE;
 use crate::policy::extent::LISTED_LINES;
@@ -73,7 +75,7 @@ pub(super) fn bands(problem: &Problem, fit: &Fit) -> Vec<Structure> {
 }
 
 /// Name, values and highest frequency of every coordinate that lines are looked for in.
-fn cyclic(problem: &Problem) -> Vec<(&'static str, Vec<f64>, f64)> {
+fn cyclic(problem: &Problem) -> Vec<(&'static str, Column, f64)> {
     let mut axes = vec![("spindle order", problem.record.turns().collect(), problem.highest_order)];
     if 1 < problem.record.passes().len() && problem.measurement.timed {
         axes.push(("frequency in time", problem.record.time_s.clone(), problem.highest_hz));

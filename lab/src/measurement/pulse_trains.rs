@@ -262,7 +262,7 @@ mod tests {
                 ..PulseTrains::default()
             };
             let (table, _) = trains.table(&machine).expect("two good trains");
-            let position_mm = table.column("position_mm").map(<[f64]>::to_vec);
+            let position_mm = table.column("position_mm").map(|places| places.to_vec().into());
             let samples = Samples { position_mm, ..Samples::default() };
             let record = Record::new(&machine, &samples).expect("positions");
             let implied = predict(&machine, &record).expect("no effects").error_um;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use helixlock_plant::prediction::Sensor;
-use helixlock_plant::{COVARIATES, LoggedColumn, Machine, Part};
+use helixlock_plant::{COVARIATES, Column, LoggedColumn, Machine, Part};
 use helixlock_traces::{Table, TextColumn};
 
 use super::error::LabError;
@@ -60,26 +60,26 @@ pub struct Measurement {
     /// True when the unit is arcsec instead of µm.
     pub rotary: bool,
     /// Time, s, from the start of the record.
-    pub time_s: Vec<f64>,
+    pub time_s: Column,
     /// Travel, mm; for rotary chains the angle of the output in degrees is not travel and this is 0.
-    pub position_mm: Vec<f64>,
+    pub position_mm: Column,
     /// Spindle angle in turns, growing with position.
-    pub angle_rev: Vec<f64>,
+    pub angle_rev: Column,
     /// Spindle speed, rpm.
-    pub speed_rpm: Vec<f64>,
+    pub speed_rpm: Column,
     /// +1 forward, −1 reverse.
-    pub direction: Vec<f64>,
+    pub direction: Column,
     /// Index of the pass, from 0.
-    pub pass: Vec<usize>,
+    pub pass: Column<usize>,
     /// Names of the passes as in the file.
     pub pass_names: Vec<f64>,
     /// Per sensor one value a sample, NaN where the cell is missing; the counter in µm.
-    pub observations: BTreeMap<Sensor, Vec<f64>>,
+    pub observations: BTreeMap<Sensor, Column>,
     /// Standard deviations of the recorder's values, where the file tells them (`error_um_sd`);
     /// their sizes against each other weigh the samples.
-    pub deviations: Option<Vec<f64>>,
+    pub deviations: Option<Column>,
     /// Logged covariates, known and unknown; gaps are bridged from their neighbours.
-    pub covariates: BTreeMap<String, Vec<f64>>,
+    pub covariates: BTreeMap<String, Column>,
     /// Of covariates that were rounded to steps: standard deviation of what they may be off by where
     /// they passed from one step to the next, in their unit.
     pub off_by: BTreeMap<String, f64>,
@@ -206,14 +206,14 @@ impl Measurement {
         for (name, values) in &more.covariates {
             // What is set anew was at its zero before.
             let own = both.covariates.entry(name.clone());
-            own.or_insert_with(|| vec![0.0; self.len()]).extend(values);
+            own.or_insert_with(|| vec![0.0; self.len()].into()).extend(values);
         }
         both
     }
 
     /// Leaves out the samples that are not kept.
     pub(crate) fn keep(&mut self, kept: &[bool]) {
-        let of = |values: &mut Vec<f64>| {
+        let of = |values: &mut Column| {
             let mut kept = kept.iter();
             values.retain(|_| kept.next().copied().unwrap_or(true));
         };
@@ -318,11 +318,11 @@ fn assemble(
     mut notes: Vec<String>,
 ) -> Measurement {
     let rows = &passes.rows;
-    let pick = |values: &[f64]| -> Vec<f64> { rows.iter().map(|&row| values[row]).collect() };
+    let pick = |values: &[f64]| -> Column { rows.iter().map(|&row| values[row]).collect() };
     let mut observations = BTreeMap::new();
     for (sensor, values) in observed_columns(table, nominal) {
         let factor = if sensor == Sensor::Counter { nominal.step_um } else { 1.0 };
-        observations.insert(sensor, pick(values).iter().map(|value| value * factor).collect());
+        observations.insert(sensor, rows.iter().map(|&row| values[row] * factor).collect());
     }
     let deviations = deviations(table, nominal).map(pick);
     if deviations.is_none() && table.column(deviation_column(nominal)).is_some() {
@@ -340,9 +340,9 @@ fn assemble(
         time_s: pick(&coordinates.time_s),
         position_mm: pick(&coordinates.position_mm),
         angle_rev: pick(&coordinates.angle_rev),
-        speed_rpm: passes.speed_rpm,
-        direction: passes.direction,
-        pass: passes.pass,
+        speed_rpm: passes.speed_rpm.into(),
+        direction: passes.direction.into(),
+        pass: passes.pass.into(),
         pass_names: passes.names,
         observations,
         deviations,
@@ -358,7 +358,7 @@ fn covariates(
     nominal: &Nominal,
     passes: &passes::Passes,
     notes: &mut Vec<String>,
-) -> BTreeMap<String, Vec<f64>> {
+) -> BTreeMap<String, Column> {
     let mut known = BTreeMap::new();
     let covariate = |name: &str| {
         if name == deviation_column(nominal) {
@@ -381,7 +381,7 @@ fn covariates(
         if !COVARIATES.contains(&column.name.as_str()) {
             notes.push(format!("column `{}` is not known and kept as a covariate", column.name));
         }
-        known.insert(column.name.clone(), passes::bridged(&values, &passes.pass));
+        known.insert(column.name.clone(), passes::bridged(&values, &passes.pass).into());
     }
     known
 }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use helixlock_plant::Column;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -21,7 +22,7 @@ impl Measurement {
     /// Means of groups of neighbours.
     #[must_use]
     pub(crate) fn averaged(&self, groups: &[Range<usize>]) -> Self {
-        let mean = |values: &[f64]| means(values, groups);
+        let mean = |values: &[f64]| Column::from(means(values, groups));
         let observations: BTreeMap<_, _> = self
             .observations
             .iter()

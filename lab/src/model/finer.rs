@@ -2,7 +2,6 @@
 
 use std::ops::Range;
 
-use helixlock_plant::prediction::Prediction;
 use helixlock_plant::{Machine, Part, Record};
 
 use crate::measurement::means;
@@ -50,16 +49,6 @@ impl Finer {
         let Some(measured) = &self.measured else { return means(values, &self.groups) };
         let measured: Vec<f64> = measured.iter().map(|&sample| values[sample]).collect();
         means(&measured, &self.groups)
-    }
-
-    /// Means of a prediction for all samples.
-    #[must_use]
-    pub(crate) fn mean_of(&self, whole: &Prediction) -> Prediction {
-        Prediction {
-            error_um: self.means(&whole.error_um),
-            steps: self.means(&whole.steps),
-            lead_error_um: self.means(&whole.lead_error_um),
-        }
     }
 }
 

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use helixlock_plant::prediction::{Sensor, gain, meter_um, observe, predict};
+use helixlock_plant::prediction::{Sensor, gain, meter_um, observe, shown};
 use helixlock_plant::{Effect, EffectError, Entry, Machine, Model, Part, Record, Samples, Term};
 
 use super::designs::Designs;
@@ -114,7 +114,9 @@ impl Problem {
         problem.highest_order = highest_frequency(&turns);
         problem.highest_hz = highest_frequency(&problem.record.time_s);
         problem.stack_rows();
-        problem.predict()?;
+        let (mut record, mut finer) = (problem.record.clone(), problem.finer.clone());
+        problem.predicted = problem.predicted(&mut record, &mut finer)?;
+        (problem.record, problem.finer) = (record, finer);
         if whole {
             problem.find_start()?;
         }
@@ -126,6 +128,10 @@ impl Problem {
 
     /// Weighs outliers down, as they stand out of what a model leaves.
     pub(crate) fn mark_outliers(&mut self, left: &[f64]) {
+        if self.measurement.deviations.is_none() {
+            self.layout.inflation = outlier_inflation(&self.layout, left);
+            return;
+        }
         let told = self.told_variances();
         let scaled: Vec<f64> =
             left.iter().zip(&told).map(|(left, variance)| left / variance.sqrt()).collect();
@@ -254,7 +260,6 @@ impl Problem {
             }
         }
         self.layout.inflation = vec![1.0; self.rows.len()];
-        self.predicted = vec![0.0; self.rows.len()];
     }
 
     /// Where the compensator began to count is not in the file: at the first sample of each pass,
@@ -265,47 +270,49 @@ impl Problem {
         {
             return Ok(());
         }
-        let mut other = Self { record: self.record.begun_at_zero(), ..self.clone() };
-        if let Some(finer) = other.finer.as_mut().map(Arc::make_mut) {
+        let mut record = self.record.begun_at_zero();
+        let mut finer = self.finer.clone();
+        if let Some(finer) = finer.as_mut().map(Arc::make_mut) {
             finer.record = finer.record.begun_at_zero();
         }
-        other.predict()?;
-        if other.roughness() < self.roughness() {
-            *self = other;
+        let predicted = self.predicted(&mut record, &mut finer)?;
+        if self.roughness(&predicted) < self.roughness(&self.predicted) {
+            (self.record, self.finer, self.predicted) = (record, finer, predicted);
         }
         Ok(())
     }
 
-    /// Sum of the squares of what is left from neighbour to neighbour, µm².
-    fn roughness(&self) -> f64 {
-        let left = self.residual();
+    /// Sum of the squares of what a prediction leaves from neighbour to neighbour, µm².
+    fn roughness(&self, predicted: &[f64]) -> f64 {
+        let left = |row: usize| self.observed[row] - predicted[row];
         let blocks = self.layout.blocks.iter();
-        let steps = blocks.flat_map(|block| left[block.rows.clone()].windows(2));
-        steps.map(|pair| (pair[1] - pair[0]) * (pair[1] - pair[0])).sum()
+        let steps = blocks.flat_map(|block| {
+            let pairs = block.rows.start..block.rows.end.saturating_sub(1);
+            pairs.map(|row| left(row + 1) - left(row))
+        });
+        steps.map(|step| step * step).sum()
     }
 
-    fn predict(&mut self) -> Result<(), EffectError> {
-        // Effects that depend on the error get the predicted one: what was measured carries the
-        // noise, and a column made of the noise explains it.
-        let effects = self
-            .model
-            .effects
-            .iter()
-            .map(|term| Ok((term.entry, term.effect(&self.model, &self.record.columns)?)))
+    /// What the model says of every row, each pass from its own zero. The records get the error
+    /// that it predicts, for effects that depend on it: what was measured carries the noise, and a
+    /// column made of the noise explains it.
+    fn predicted(
+        &self,
+        record: &mut Record,
+        finer: &mut Option<Arc<Finer>>,
+    ) -> Result<Vec<f64>, EffectError> {
+        let effects = self.model.effects.iter();
+        let effects = effects
+            .map(|term| Ok((term.entry, term.effect(&self.model, &record.columns)?)))
             .collect::<Result<Vec<_>, EffectError>>()?;
-        self.record.error_um = meter_um(&self.model, &self.record, &effects);
-        if let Some(finer) = self.finer.as_mut().map(Arc::make_mut) {
-            finer.record.error_um = meter_um(&self.model, &finer.record, &effects);
+        record.error_um = meter_um(&self.model, record, &effects).into();
+        if let Some(finer) = finer.as_mut().map(Arc::make_mut) {
+            finer.record.error_um = meter_um(&self.model, &finer.record, &effects).into();
         }
-        let shown = match &self.finer {
-            None => predict(&self.model, &self.record)?,
-            Some(finer) => finer.mean_of(&predict(&self.model, &finer.record)?),
-        };
-        for (slot, row) in self.predicted.iter_mut().zip(&self.rows) {
-            let factor = if row.sensor == Sensor::Counter { self.model.drive.step_um } else { 1.0 };
-            *slot = factor * shown.of(row.sensor)[row.sample];
-        }
-        Ok(())
+        Ok(self.stacked(|sensor| match &*finer {
+            None => shown(&self.model, record, &effects, sensor),
+            Some(finer) => finer.means(&shown(&self.model, &finer.record, &effects, sensor)),
+        }))
     }
 }
 

@@ -3,6 +3,8 @@
 //! Restricted: the offsets of the passes are projected out and counted, so that short passes do
 //! not make the noise look smaller than it is (Patterson and Thompson 1971).
 
+use std::ops::Range;
+
 use nalgebra::SVector;
 
 use super::kernel::{Noise, SlowPart};
@@ -149,16 +151,17 @@ fn longest_block(layout: &Layout) -> f64 {
 pub(crate) fn outlier_inflation(layout: &Layout, residual: &[f64]) -> Vec<f64> {
     let mut inflation = vec![1.0; residual.len()];
     for sensor in 0..layout.sensors() {
+        let blocks = || layout.blocks.iter().filter(|block| block.sensor == sensor);
+        let mut near = Vec::new();
         let mut departures = Vec::new();
-        for block in layout.blocks.iter().filter(|block| block.sensor == sensor) {
-            for row in block.rows.clone() {
-                departures.push((row, departure(residual, row, &block.rows)));
-            }
+        for block in blocks() {
+            let rows = block.rows.clone();
+            departures.extend(rows.map(|row| departure(residual, row, &block.rows, &mut near)));
         }
-        let mut sizes: Vec<f64> = departures.iter().map(|(_, value)| value.abs()).collect();
+        let mut sizes: Vec<f64> = departures.iter().map(|value| value.abs()).collect();
         let deviation = 1.4826 * median(&mut sizes);
         if 0.0 < deviation {
-            for (row, value) in departures {
+            for (row, value) in blocks().flat_map(|block| block.rows.clone()).zip(departures) {
                 let size = value.abs() / (OUTLIER_DEVIATIONS * deviation);
                 inflation[row] = (size * size).max(1.0);
             }
@@ -167,9 +170,11 @@ pub(crate) fn outlier_inflation(layout: &Layout, residual: &[f64]) -> Vec<f64> {
     inflation
 }
 
-fn departure(residual: &[f64], row: usize, rows: &std::ops::Range<usize>) -> f64 {
+/// What a value differs by from the median of those about it, for whose copy there is room.
+fn departure(residual: &[f64], row: usize, rows: &Range<usize>, near: &mut Vec<f64>) -> f64 {
     let from = row.saturating_sub(OUTLIER_NEIGHBOURS).max(rows.start);
     let to = (row + OUTLIER_NEIGHBOURS + 1).min(rows.end);
-    let mut near: Vec<f64> = residual[from..to].to_vec();
-    residual[row] - median(&mut near)
+    near.clear();
+    near.extend_from_slice(&residual[from..to]);
+    residual[row] - median(near)
 }

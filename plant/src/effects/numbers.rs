@@ -120,8 +120,8 @@ fn turbulence_is_noise_of_the_size_it_says() {
 
 fn ramp(machine: &Machine, steps: Option<Vec<f64>>) -> Record {
     let time_s: Vec<_> = (0..200).map(f64::from).collect();
-    let covariates = steps.map(|steps| ("steps".to_owned(), steps)).into_iter().collect();
-    let samples = Samples { time_s: Some(time_s), covariates, ..Samples::default() };
+    let covariates = steps.map(|steps| ("steps".to_owned(), steps.into())).into_iter().collect();
+    let samples = Samples { time_s: Some(time_s.into()), covariates, ..Samples::default() };
     Record::new(machine, &samples).expect("times")
 }
 

@@ -1,6 +1,6 @@
 //! Samples between the samples of a record, for what has a memory.
 
-use crate::Record;
+use crate::{Column, Record};
 
 /// Most parts of the way from one sample to the next: what lies further back is forgotten, or too
 /// slow to ask for more.
@@ -22,16 +22,15 @@ impl Record {
         if all <= self.len() || MOST_SAMPLES < all {
             return None;
         }
-        let mut finer = Self { columns: self.columns.clone(), ..Self::default() };
         let mut own = Vec::with_capacity(self.len());
+        let mut places = Vec::with_capacity(all);
         for (row, parts) in parts.into_iter().enumerate() {
-            for part in 1..parts {
-                finer.push_between(self, row, f64::from(part) / f64::from(parts));
-            }
-            own.push(finer.len());
-            finer.push_between(self, row, 1.0);
+            let shares = (1..parts).map(|part| f64::from(part) / f64::from(parts));
+            places.extend(shares.map(|share| (row, share)));
+            own.push(places.len());
+            places.push((row, 1.0));
         }
-        Some((finer, own))
+        Some((self.between(&places), own))
     }
 
     /// Parts of the way to a sample from the one before it.
@@ -49,25 +48,40 @@ impl Record {
         parts
     }
 
-    /// Adds what lies at a share of the way to a row of a record.
-    fn push_between(&mut self, record: &Self, row: usize, share: f64) {
-        let last = row.saturating_sub(1);
-        let run = |values: &[f64]| between(values[last], values[row], share);
-        self.time_s.push(run(&record.time_s));
-        self.position_mm.push(run(&record.position_mm));
-        self.spindle_rad.push(run(&record.spindle_rad));
-        self.speed_rpm.push(record.speed_rpm[row]);
-        self.direction.push(record.direction[row]);
-        self.pass.push(record.pass[row]);
-        self.travelled_mm.push(run(&record.travelled_mm));
-        self.since_reversal_mm.push(run(&record.since_reversal_mm));
-        self.error_um.push(run(&record.error_um));
-        let width = record.columns.len();
-        for column in 0..width {
-            let of = |row: usize| record.covariates.get(row * width + column).copied();
-            let [from, to] = [last, row].map(|row| of(row).unwrap_or(f64::NAN));
-            self.covariates.push(between(from, to, share));
+    /// What lies at each share of the way to a row from the one before it.
+    fn between(&self, places: &[(usize, f64)]) -> Self {
+        let straight = |values: &Column| -> Column {
+            let at = |&(row, share): &(usize, f64)| {
+                between(values[row.saturating_sub(1)], values[row], share)
+            };
+            places.iter().map(at).collect()
+        };
+        let kept =
+            |values: &Column| -> Column { places.iter().map(|&(row, _)| values[row]).collect() };
+        Self {
+            time_s: straight(&self.time_s),
+            position_mm: straight(&self.position_mm),
+            spindle_rad: straight(&self.spindle_rad),
+            speed_rpm: kept(&self.speed_rpm),
+            direction: kept(&self.direction),
+            pass: places.iter().map(|&(row, _)| self.pass[row]).collect(),
+            travelled_mm: straight(&self.travelled_mm),
+            since_reversal_mm: straight(&self.since_reversal_mm),
+            error_um: straight(&self.error_um),
+            columns: self.columns.clone(),
+            covariates: self.covariates_between(places),
         }
+    }
+
+    fn covariates_between(&self, places: &[(usize, f64)]) -> Column {
+        if self.covariates.is_empty() {
+            return Column::default();
+        }
+        let at = |&(row, share): &(usize, f64)| {
+            let pairs = self.logged(row.saturating_sub(1)).iter().zip(self.logged(row));
+            pairs.map(move |(from, to)| between(*from, *to, share))
+        };
+        places.iter().flat_map(at).collect()
     }
 }
 

@@ -3,18 +3,18 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use crate::{Machine, Record, Samples};
+use crate::{Column, Machine, Record, Samples};
 
 /// See [`Record::new`].
 pub(crate) fn complete(machine: &Machine, samples: &Samples) -> Option<Record> {
     let count = [&samples.position_mm, &samples.angle_rev, &samples.time_s]
         .into_iter()
         .flatten()
-        .map(Vec::len)
+        .map(|values| values.len())
         .next()?;
-    let pass = numbered(samples.pass.as_deref(), count);
+    let pass = numbered(samples.pass.as_ref(), count);
     let speed_rpm =
-        samples.speed_rpm.clone().unwrap_or_else(|| vec![machine.spindle.speed_rpm; count]);
+        samples.speed_rpm.clone().unwrap_or_else(|| vec![machine.spindle.speed_rpm; count].into());
     let turns = turns(machine, samples, &speed_rpm, &pass)?;
     let lead_mm = machine.workpiece.lead.mm();
     let position_mm = samples
@@ -25,7 +25,7 @@ pub(crate) fn complete(machine: &Machine, samples: &Samples) -> Option<Record> {
         time_s: times(samples, &turns, &speed_rpm, &pass),
         direction: samples.direction.clone().unwrap_or_else(|| directions(&position_mm, &pass)),
         spindle_rad: turns.iter().map(|turn| turn * TAU).collect(),
-        error_um: vec![0.0; count],
+        error_um: vec![0.0; count].into(),
         position_mm,
         speed_rpm,
         pass,
@@ -36,15 +36,15 @@ pub(crate) fn complete(machine: &Machine, samples: &Samples) -> Option<Record> {
 }
 
 /// Pass numbers as logged, counted anew from 0 in the order they come.
-fn numbered(pass: Option<&[f64]>, count: usize) -> Vec<usize> {
-    let Some(logged) = pass else { return vec![0; count] };
+fn numbered(pass: Option<&Column>, count: usize) -> Column<usize> {
+    let Some(logged) = pass else { return vec![0; count].into() };
     let mut number = 0;
     let mut numbers = Vec::with_capacity(count);
     for (row, value) in logged.iter().enumerate() {
         number += usize::from(0 < row && value.to_bits() != logged[row - 1].to_bits());
         numbers.push(number);
     }
-    numbers
+    numbers.into()
 }
 
 /// Spindle turns of each sample, from angle, else travel, else time at speed and direction.
@@ -53,7 +53,7 @@ fn turns(
     samples: &Samples,
     speed_rpm: &[f64],
     pass: &[usize],
-) -> Option<Vec<f64>> {
+) -> Option<Column> {
     if let Some(angle_rev) = &samples.angle_rev {
         return Some(angle_rev.clone());
     }
@@ -75,13 +75,16 @@ fn turns(
         }
         turns.push(turn);
     }
-    Some(turns)
+    Some(turns.into())
 }
 
 /// Time since the first sample, s; at constant speed over the turns where it was not logged.
-fn times(samples: &Samples, turns: &[f64], speed_rpm: &[f64], pass: &[usize]) -> Vec<f64> {
+fn times(samples: &Samples, turns: &[f64], speed_rpm: &[f64], pass: &[usize]) -> Column {
     if let Some(time_s) = &samples.time_s {
         let start_s = time_s.iter().copied().fold(f64::INFINITY, f64::min);
+        if start_s == 0.0 {
+            return time_s.clone();
+        }
         return time_s.iter().map(|time| time - start_s).collect();
     }
     let mut now_s = 0.0;
@@ -92,11 +95,11 @@ fn times(samples: &Samples, turns: &[f64], speed_rpm: &[f64], pass: &[usize]) ->
         }
         times.push(now_s);
     }
-    times
+    times.into()
 }
 
 /// +1 or −1 by the next move within the pass; the last sample goes on as before.
-fn directions(position_mm: &[f64], pass: &[usize]) -> Vec<f64> {
+fn directions(position_mm: &[f64], pass: &[usize]) -> Column {
     let mut directions = vec![1.0; position_mm.len()];
     for row in (0..position_mm.len()).rev() {
         let next = row + 1;
@@ -108,7 +111,7 @@ fn directions(position_mm: &[f64], pass: &[usize]) -> Vec<f64> {
             directions[row] = if move_mm < 0.0 { -1.0 } else { 1.0 };
         }
     }
-    directions
+    directions.into()
 }
 
 /// Way since the start of the pass and since the last reversal in it, mm.
@@ -116,7 +119,7 @@ fn directions(position_mm: &[f64], pass: &[usize]) -> Vec<f64> {
 /// A reversal is where the direction changes, so that what turns with the direction and what winds
 /// up anew turn together. The turning point lies between two samples, as far beyond them as the
 /// table had time for.
-fn ways(record: &Record, machine: &Machine) -> (Vec<f64>, Vec<f64>) {
+fn ways(record: &Record, machine: &Machine) -> (Column, Column) {
     let lead_mm = machine.workpiece.lead.mm();
     let mut travelled = Vec::with_capacity(record.len());
     let mut since_reversal = Vec::with_capacity(record.len());
@@ -144,7 +147,7 @@ fn ways(record: &Record, machine: &Machine) -> (Vec<f64>, Vec<f64>) {
             since_reversal.push(since_mm);
         }
     }
-    (travelled, since_reversal)
+    (travelled.into(), since_reversal.into())
 }
 
 /// Way of a pass before its first sample, mm.
@@ -203,9 +206,9 @@ drive = { step = "0.0125 um", frequency = "160 Hz" }
             time_s.iter().map(|time_s| value(&motion.at(*time_s))).collect::<Vec<f64>>()
         };
         let samples = Samples {
-            time_s: Some(time_s.clone()),
-            position_mm: Some(of(|now| now.position_mm)),
-            direction: Some(of(|now| now.direction)),
+            time_s: Some(time_s.clone().into()),
+            position_mm: Some(of(|now| now.position_mm).into()),
+            direction: Some(of(|now| now.direction).into()),
             ..Samples::default()
         };
         let record = complete(&machine, &samples).unwrap();
@@ -222,9 +225,9 @@ drive = { step = "0.0125 um", frequency = "160 Hz" }
     fn a_rest_at_the_turn_is_no_way() {
         let machine = Model::parse(MACHINE, Path::new("machine.toml")).unwrap();
         let samples = Samples {
-            time_s: Some(vec![0.0, 1.0, 2.0, 62.0, 63.0, 64.0]),
-            position_mm: Some(vec![0.0, 0.6, 1.2, 1.2, 0.6, 0.0]),
-            direction: Some(vec![1.0, 1.0, 1.0, -1.0, -1.0, -1.0]),
+            time_s: Some(vec![0.0, 1.0, 2.0, 62.0, 63.0, 64.0].into()),
+            position_mm: Some(vec![0.0, 0.6, 1.2, 1.2, 0.6, 0.0].into()),
+            direction: Some(vec![1.0, 1.0, 1.0, -1.0, -1.0, -1.0].into()),
             ..Samples::default()
         };
         let record = complete(&machine, &samples).unwrap();
