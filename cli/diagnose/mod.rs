@@ -6,14 +6,16 @@ use std::process::ExitCode;
 
 use clap::Args;
 use helixlock_lab::{Diagnosis, Problem, diagnose};
+use helixlock_plant::MachineFile;
 
 use crate::shared::angular::in_unit;
 use crate::shared::answer::{Answer, Answering};
 use crate::shared::diagnosis_json::DiagnosisJson;
+use crate::shared::diagnosis_page::page;
 use crate::shared::diagnosis_text::print;
 use crate::shared::effect_file::own_effects;
 use crate::shared::measured::Files;
-use crate::shared::output::print_json;
+use crate::shared::output::{Batch, print_json};
 use crate::shared::residual_table::residual_table;
 use crate::shared::words::status;
 
@@ -25,6 +27,9 @@ pub(crate) struct Diagnose {
     /// TOML file with custom effects to try beside the catalogue
     #[arg(long = "with", visible_alias = "custom", value_name = "EFFECTS")]
     custom: Option<PathBuf>,
+    /// Folder for `report.html`
+    #[arg(short, long)]
+    output: Option<PathBuf>,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -33,7 +38,14 @@ pub(crate) struct Diagnose {
 impl Diagnose {
     /// Prints the diagnosis; exit status 1 when the input itself is doubted, else 0.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
-        let (problem, diagnosis) = self.found()?;
+        let (file, problem, diagnosis) = self.found()?;
+        if let Some(folder) = &self.output {
+            let mut inputs = self.files.inputs(&file.model);
+            inputs.extend(self.custom.clone());
+            let mut files = Batch::new(folder, inputs)?;
+            files.write_content("report.html", page(&problem, &diagnosis, Vec::new()).html())?;
+            files.keep()?;
+        }
         if self.json {
             let json = DiagnosisJson::new(&diagnosis, &problem.measurement);
             print_json(out, &in_unit(&json, problem.measurement.unit_word())?)?;
@@ -43,20 +55,20 @@ impl Diagnose {
         Ok(status(diagnosis.verdict))
     }
 
-    fn found(&self) -> anyhow::Result<(Problem, Diagnosis)> {
+    fn found(&self) -> anyhow::Result<(MachineFile, Problem, Diagnosis)> {
         let (file, mut problem) = self.files.read()?;
         if let Some(custom) = &self.custom {
             problem.extra = own_effects(&file, custom)?;
         }
         let diagnosis = diagnose(&problem);
-        Ok((problem, diagnosis))
+        Ok((file, problem, diagnosis))
     }
 }
 
 impl Answering for Diagnose {
     /// With the table `residual`, before and after the effects that were found.
     fn answer(&self) -> anyhow::Result<Answer> {
-        let (problem, found) = self.found()?;
+        let (_, problem, found) = self.found()?;
         let json = DiagnosisJson::new(&found, &problem.measurement);
         let answer = Answer::in_unit(&json, problem.measurement.unit_word())?;
         let residual =

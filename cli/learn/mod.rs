@@ -1,10 +1,9 @@
 //! `helixlock learn`: compare, name, add, until nothing significant is left.
 
 mod closed_loop_check;
+mod closed_loop_pictures;
 mod json;
 mod kept;
-mod page;
-mod pictures;
 mod undone_page;
 
 use std::io::Write;
@@ -13,16 +12,14 @@ use std::process::ExitCode;
 
 use anyhow::{Context, bail};
 use clap::Args;
-use helixlock_lab::{
-    Diagnosis, Ledger, Problem, Verdict, diagnose, fingerprint, ledger, lines_left, spectra,
-    written,
-};
+use helixlock_lab::{Diagnosis, Ledger, Problem, Verdict, diagnose, fingerprint, ledger, written};
 use helixlock_plant::MachineFile;
 use helixlock_report::Page;
 use helixlock_traces::{LONGEST_BYTES, read_bytes};
 use serde_json::Value;
 
 use self::closed_loop_check::Checked;
+use self::closed_loop_pictures::closed_loop;
 use self::json::{LearnJson, LedgerJson};
 use self::kept::{edited_aside, is_taken_back, keep_aside};
 use crate::shared::angular::in_unit;
@@ -33,7 +30,7 @@ use crate::shared::input::{Input, machine_files};
 use crate::shared::output::{self, Batch, print_json};
 use crate::shared::residual_table::residual_table;
 use crate::shared::words::status;
-use crate::shared::{diagnosis_text, measured};
+use crate::shared::{diagnosis_page, diagnosis_text, measured};
 
 /// Name of the ledger in its folder.
 const LEDGER: &str = "ledger.json";
@@ -91,8 +88,7 @@ impl Learn {
         let Learned { problem, diagnosis, check, book, .. } = &learned;
         let mut kept = None;
         if let Some(folder) = folder {
-            let spectra = (spectra(problem, diagnosis), lines_left(problem));
-            let page = page::page(problem, diagnosis, &spectra, check);
+            let page = diagnosis_page::page(problem, diagnosis, closed_loop(check));
             let mut inputs = machine_files(machine, &learned.file.model);
             inputs.extend(self.custom.iter().cloned().chain([data.to_owned()]));
             let mut files = Batch::new(folder, inputs)?;

@@ -3,8 +3,8 @@
 use helixlock_report::{Page, Part, Table};
 use serde_json::Value;
 
-use super::pictures::{Left, falling};
 use crate::shared::angular::key_in;
+use crate::shared::diagnosis_page::{Left, falling};
 
 /// The page of a ledger whose last standing round has been taken back.
 pub(crate) fn page(book: &Value) -> Page {

@@ -4,6 +4,7 @@ pub(crate) mod angular;
 pub(crate) mod answer;
 pub(crate) mod captured;
 pub(crate) mod diagnosis_json;
+pub(crate) mod diagnosis_page;
 pub(crate) mod diagnosis_text;
 pub(crate) mod effect_file;
 pub(crate) mod input;

@@ -1,19 +1,17 @@
-//! Report of `helixlock learn`: the verdict, the error falling, before and after, what to do next.
+//! Page of a diagnosis: the verdict, the error falling, before and after, what to do next.
 
-use helixlock_lab::{Diagnosis, FittedEffect, Problem, Verdict};
+mod pictures;
+
+use helixlock_lab::{Diagnosis, FittedEffect, Problem, Verdict, lines_left, spectra};
 use helixlock_report::{Page, Part, Table};
 
-use super::closed_loop_check::Checked;
-use super::pictures::{Left, Spectra, before_and_after, closed_loop, falling};
+use self::pictures::before_and_after;
+pub(crate) use self::pictures::{Left, falling};
 use crate::shared::words::{chance, doubted};
 
-/// The page.
-pub(crate) fn page(
-    problem: &Problem,
-    diagnosis: &Diagnosis,
-    spectra: &Spectra,
-    check: &Checked,
-) -> Page {
+/// The page, with what else is known of the model behind the pictures of the data.
+pub(crate) fn page(problem: &Problem, diagnosis: &Diagnosis, more: Vec<Part>) -> Page {
+    let spectra = (spectra(problem, diagnosis), lines_left(problem));
     let unit = problem.measurement.unit();
     let mut parts = vec![Part::Numbers(numbers(diagnosis, unit))];
     parts.extend(diagnosis.doubts.iter().map(|doubt| Part::Note(doubted(doubt))));
@@ -30,9 +28,9 @@ pub(crate) fn page(
     let left: Vec<Left> = diagnosis.rounds.iter().map(Left::from).collect();
     parts.push(falling(&left, unit));
     parts.extend(
-        (0..problem.sensors.len()).map(|i| before_and_after(problem, diagnosis, spectra, i)),
+        (0..problem.sensors.len()).map(|i| before_and_after(problem, diagnosis, &spectra, i)),
     );
-    parts.extend(closed_loop(check));
+    parts.extend(more);
     parts.extend(next(diagnosis, unit));
     parts.push(Part::Heading("Rounds".into()));
     parts.push(Part::Table(rounds(diagnosis, unit).without_empty_columns()));

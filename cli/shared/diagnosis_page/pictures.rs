@@ -1,9 +1,8 @@
-//! Pictures of `helixlock learn`: the error falling, the model on the data, before and after.
+//! Pictures of a diagnosis: the error falling, the model on the data, before and after.
 
 use helixlock_lab::{Diagnosis, NamedLine, Problem, Round, sensor_column};
 use helixlock_report::{Axis, Colour, Label, Panel, Part, Series, Style};
 
-use super::closed_loop_check::Checked;
 use crate::shared::page_pieces::{panel, picture};
 use crate::shared::residual_picture::{points, x_axis};
 use crate::shared::spectrum;
@@ -126,27 +125,4 @@ fn spectrum(problem: &Problem, (sensors, lines): &Spectra, sensor: usize) -> Pan
     let unit = format!("amplitude in {}", problem.measurement.unit());
     let panel = panel("Order spectrum of the residual", "", &unit, series);
     spectrum::named(panel, lines, sensor, problem.model.rotary)
-}
-
-/// Measured and simulated over each other, where the loop is closed.
-pub(crate) fn closed_loop(check: &Checked) -> Vec<Part> {
-    let mut parts: Vec<Part> = check.sentences().into_iter().map(Part::Text).collect();
-    if !parts.is_empty() {
-        parts.insert(0, Part::Heading("In the closed loop".into()));
-    }
-    let Checked::Done(check) = check else { return parts };
-    for one in &check.sensors {
-        let column = |index: usize| one.points.iter().map(move |p| [p[0], p[index]]);
-        let series = vec![
-            Series::new("measured", Colour::Orange, Style::Dots, column(1)),
-            Series::new("simulated", Colour::Blue, Style::Line, column(2)),
-        ];
-        let title = format!("{}, pass {}", sensor_column(one.sensor, false), check.pass);
-        let panel = panel(&title, "position in mm", "µm", series);
-        parts.push(picture(
-            vec![panel],
-            "The learned machine run clock by clock with its loop closed, and what was measured.",
-        ));
-    }
-    parts
 }
