@@ -25,7 +25,9 @@ pub(crate) fn flow(top: &str, sources: &[String], board: &Board) -> Vec<Step> {
     let words = |line: &str| line.split_ascii_whitespace().map(str::to_owned).collect::<Vec<_>>();
     let (device, package, pcf) = (&board.device, &board.package, &board.file);
     let mut yosys = words(&format!("-q -l build/{top}.yosys.log -p"));
-    yosys.push(format!("synth_ice40 -top {top} -json {json}"));
+    // Eight flip-flops of a tile share their clock enable: many small groups with one each find no
+    // place on a small FPGA that has room for all cells.
+    yosys.push(format!("synth_ice40 -dffe_min_ce_use 4 -top {top} -json {json}"));
     yosys.extend(sources.iter().cloned());
     let nextpnr = format!(
         "-q --{device} --package {package} --pcf {pcf} --json {json} --asc {asc} --seed 1 \

@@ -29,7 +29,8 @@ fn gates(design: &Design, netlist: &Netlist) -> Program {
         put(folder.path(), &format!("{name}.v"), &text);
         read = read + " " + &name + ".v";
     }
-    let script = format!("{read}; synth_ice40 -top {top}; write_verilog -noattr gates.v");
+    let script =
+        format!("{read}; synth_ice40 -dffe_min_ce_use 4 -top {top}; write_verilog -noattr gates.v");
     let synthesised = Command::new("yosys")
         .args(["-q", "-p", &script])
         .current_dir(folder.path())

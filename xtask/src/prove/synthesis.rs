@@ -51,7 +51,8 @@ pub fn synthesised(sources: &Sources, built: &Sources, block: &str) -> anyhow::R
     };
     // Registers are called `*_q`; what else has kept its name in the gates may serve another end.
     let script = format!(
-        "{source} splitnets; design -stash source; {built} synth_ice40 -top {block}; stat; \
+        "{source} splitnets; design -stash source; {built} \
+         synth_ice40 -dffe_min_ce_use 4 -top {block}; stat; \
          read_verilog -icells -overwrite -D EQUIV +/ice40/cells_sim.v; hierarchy -top {block}; \
          proc; flatten; rename -hide w:* w:*_q %d; splitnets; opt_clean -purge; \
          design -stash gates; design -copy-from source -as source {block}; \
