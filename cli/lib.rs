@@ -4,6 +4,7 @@
 //! on paper and in files: what `import helixlock` is made of.
 
 mod add;
+mod board;
 mod certify;
 mod challenge;
 mod compare;
@@ -47,6 +48,7 @@ use crate::shared::terminal::{Terminal, shown};
 #[command(name = "helixlock", version, arg_required_else_help = true)]
 enum Command {
     Add(add::Add),
+    Board(board::BoardCommand),
     Certify(certify::Certify),
     Challenge(challenge::Challenge),
     Compare(compare::Compare),
@@ -111,6 +113,7 @@ fn hint(error: &anyhow::Error) -> &'static str {
 fn run(command: Command, out: &mut impl Write) -> anyhow::Result<ExitCode> {
     match command {
         Command::Add(command) => command.run(out),
+        Command::Board(board) => board.run(out),
         Command::Certify(command) => command.run(out),
         Command::Challenge(command) => command.run(out),
         Command::Compare(command) => command.run(out),

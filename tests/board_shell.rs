@@ -101,6 +101,7 @@ const BUSY: Conditioning = Conditioning {
     debounce_ticks: 10,
     tick_period: 20,
     watchdog_ticks: 50,
+    bit_clocks: 4,
     active_low: true,
     range_pin: false,
     enable_pin: false,

@@ -3,6 +3,7 @@
 mod bad_data;
 mod bad_input;
 mod blocks_apart;
+mod board;
 mod board_shell;
 mod boards;
 mod calibrator;
@@ -67,7 +68,9 @@ mod support;
 mod sweep;
 mod synchronisers;
 mod tables;
+mod telemetry;
 mod templates;
+mod uart_transmitter;
 mod uncertainty;
 mod verdict_properties;
 mod waveform_readers;

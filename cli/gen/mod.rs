@@ -2,7 +2,6 @@
 
 mod bench;
 mod device_vectors;
-mod options;
 mod summary;
 mod vectors;
 mod written;
@@ -14,21 +13,17 @@ use std::process::ExitCode;
 use anyhow::bail;
 use clap::Args;
 use helixlock_gen::{Bench, Board, Project, Synthesis, prefix, project, synthesise};
-use helixlock_netlist::{Design, Netlist, elaborate};
+use helixlock_netlist::{Design, Netlist};
 use helixlock_plant::{Machine, Model};
-use helixlock_rtl::board_shell::BoardShell;
 use helixlock_rtl::settings::{Conditioning, Settings};
-use helixlock_sim::{library, settings_for};
+use helixlock_sim::settings_for;
 
 use self::device_vectors::device_vectors;
-use self::options::Options;
 use self::summary::Summary;
 use self::vectors::vectors;
 use self::written::Written;
+use crate::shared::board_design::{Front, TOP};
 use crate::shared::output::{Batch, print_json};
-
-/// Name of the top module.
-const TOP: &str = "board_shell";
 
 /// Verilog, constraints, test bench and Makefile for an FPGA board
 ///
@@ -50,8 +45,11 @@ pub(crate) struct Gen {
     /// Run yosys, nextpnr-ice40, icetime and icepack; exit 1 if the clock is too fast for it
     #[arg(long)]
     synth: bool,
+    /// Name all modules with this before their name, for use in a larger design
+    #[arg(long, value_name = "PREFIX", default_value = "")]
+    prefix: String,
     #[command(flatten)]
-    options: Options,
+    front: Front,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -76,19 +74,19 @@ impl Gen {
         let file_clock_hz = machine.fpga.clock_hz;
         machine.fpga.clock_hz = 1e6 * f64::from(board.clock_mhz);
         let dialled = settings_for(&machine)?;
-        let conditioning = self.options.conditioning(&board)?;
-        let mut design = design(&dialled.settings, &conditioning, &self.options)?;
+        let conditioning = self.front.conditioning(&board)?;
+        let mut design = self.front.design(&dialled.settings, &conditioning)?;
         describe(&mut design, &machine, &board);
         let netlist = Netlist::new(&design)?;
-        prefix(&mut design, &self.options.prefix);
+        prefix(&mut design, &self.prefix);
         let benches = [
             Bench {
-                module: format!("{}{TOP}", self.options.prefix),
+                module: format!("{}{TOP}", self.prefix),
                 vectors: vectors(netlist, &dialled.settings, &conditioning),
                 constants: constants(&dialled.settings, &conditioning)?,
             },
             Bench {
-                module: format!("{}device", self.options.prefix),
+                module: format!("{}device", self.prefix),
                 vectors: device_vectors()?,
                 constants: vec![],
             },
@@ -160,18 +158,6 @@ impl Gen {
         files.keep()?;
         Ok(synthesis)
     }
-}
-
-/// The board shell with these settings, and the pins that are asked for.
-fn design(
-    settings: &Settings,
-    conditioning: &Conditioning,
-    options: &Options,
-) -> anyhow::Result<Design> {
-    let shell = BoardShell::connected(settings, conditioning)?;
-    let mut design = elaborate(TOP, &shell, &library())?;
-    options.leave_out_pins(&mut design)?;
-    Ok(design)
 }
 
 /// Levels of the device's settings for ever, but of a range that is a switch.

@@ -2,6 +2,7 @@
 
 pub(crate) mod angular;
 pub(crate) mod answer;
+pub(crate) mod board_design;
 pub(crate) mod captured;
 pub(crate) mod diagnosis_json;
 pub(crate) mod diagnosis_page;

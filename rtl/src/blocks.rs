@@ -114,6 +114,13 @@ pub const BLOCKS: &[BlockCard] = &[
     card!(supervisor::Supervisor(clock, clear, tick, limit, wrap_watched, measuring, line, fringe,
             opening, shutting, enable, stop)
         "Watchdogs of lines, fringes and meter, enable and emergency stop"),
+    card!(frame_check::FrameCheck(clock, clear, take, level)
+        "CRC of a frame, bit by bit"),
+    card!(telemetry::Telemetry(clock, clear, measuring, opening, meter, forward, count,
+            count_forward, fault, alarm, ready)
+        "A frame for every comparison: width, period, steps"),
+    card!(uart_transmitter::UartTransmitter(clock, clear, bit_clocks, send, data)
+        "Bytes out on one wire"),
     BlockCard {
         name: "board_shell",
         summary: "The device with its wheels set, and the pins a builder wires",
@@ -153,6 +160,7 @@ const HASTY: Conditioning = Conditioning {
     debounce_ticks: 3,
     tick_period: 5,
     watchdog_ticks: 40,
+    bit_clocks: 2,
     active_low: false,
     range_pin: true,
     enable_pin: true,

@@ -23,7 +23,8 @@
 //! | `zero`                | out | lamp: the motor stands where it began                    |
 //! | `fault`               | out | lamp: out of steps, 4095 from zero                       |
 //! | `measuring`           | out | lamp: the initial phase is selected                      |
-//! | `alarm`               | out | * lamp: a signal is missing, the meter wrapped, or a stop |
+//! | `alarm`               | out | lamp: a signal is missing, the meter wrapped, or a stop  |
+//! | `tx`                  | out | serial port: a frame for every comparison                |
 //!
 //! # Sequence
 //!
@@ -53,6 +54,8 @@ use crate::settings::{Conditioning, Settings, SettingsError};
 use crate::step_clock::StepClock;
 use crate::step_driver::{PULSE_CLOCKS, StepDriver};
 use crate::supervisor::Supervisor;
+use crate::telemetry::Telemetry;
+use crate::uart_transmitter::UartTransmitter;
 
 /// The device on a board; see the [module](self) for pins.
 #[derive(Debug, LogicBlock)]
@@ -103,10 +106,14 @@ pub struct BoardShell {
     pub measuring: Signal<Out, Bit>,
     /// A signal is missing, the meter wrapped, or a stop.
     pub alarm: Signal<Out, Bit>,
+    /// A frame for every comparison.
+    pub tx: Signal<Out, Bit>,
     device: Device,
     step_driver: StepDriver,
     milliseconds: StepClock,
     supervisor: Supervisor,
+    telemetry: Telemetry,
+    transmitter: UartTransmitter,
     grating_input: InputConditioner,
     laser_input: InputConditioner,
     start_input: InputConditioner,
@@ -138,6 +145,7 @@ pub struct BoardShell {
     tick_period: Constant<Bits<24>>,
     watchdog_ticks: Constant<Bits<12>>,
     active_low: Constant<Bit>,
+    bit_clocks: Constant<Bits<12>>,
     calibrate_inverted: Constant<Bits<2>>,
 }
 
@@ -182,10 +190,13 @@ impl BoardShell {
             fault: Signal::default(),
             measuring: Signal::default(),
             alarm: Signal::default(),
+            tx: Signal::default(),
             device: Device::default(),
             step_driver: StepDriver::default(),
             milliseconds: StepClock::default(),
             supervisor: Supervisor::default(),
+            telemetry: Telemetry::default(),
+            transmitter: UartTransmitter::default(),
             grating_input: InputConditioner::default(),
             laser_input: InputConditioner::default(),
             start_input: InputConditioner::default(),
@@ -217,6 +228,7 @@ impl BoardShell {
             tick_period: Constant::new(u64::from(conditioning.tick_period).into()),
             watchdog_ticks: Constant::new(u64::from(conditioning.watchdog_ticks).into()),
             active_low: Constant::new(conditioning.active_low),
+            bit_clocks: Constant::new(u64::from(conditioning.bit_clocks).into()),
             calibrate_inverted: Constant::new(if conditioning.active_low { 3 } else { 0 }.into()),
         })
     }
@@ -356,6 +368,25 @@ impl Logic for BoardShell {
         self.step_driver.clear.next = self.reset.val();
         self.step_driver.step.next = self.device.step.val();
         self.step_driver.forward.next = self.device.forward.val();
+
+        // Telemetry.
+        self.telemetry.clock.next = self.clock.val();
+        self.telemetry.clear.next = self.reset.val();
+        self.telemetry.measuring.next = self.device.measuring.val();
+        self.telemetry.opening.next = self.device.grating_divided.val();
+        self.telemetry.meter.next = self.device.t1.val();
+        self.telemetry.forward.next = self.device.q.val();
+        self.telemetry.count.next = self.device.count.val();
+        self.telemetry.count_forward.next = self.device.count_forward.val();
+        self.telemetry.fault.next = self.device.fault.val();
+        self.telemetry.alarm.next = self.supervisor.alarm.val();
+        self.telemetry.ready.next = self.transmitter.ready.val();
+        self.transmitter.clock.next = self.clock.val();
+        self.transmitter.clear.next = self.reset.val();
+        self.transmitter.bit_clocks.next = self.bit_clocks.val();
+        self.transmitter.send.next = self.telemetry.send.val();
+        self.transmitter.data.next = self.telemetry.data.val();
+        self.tx.next = self.transmitter.line.val();
 
         self.t1.next = self.device.t1.val();
         self.t2.next = self.device.t2.val();

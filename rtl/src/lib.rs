@@ -12,6 +12,7 @@ pub mod decade_counter;
 pub mod device;
 pub mod digital_comparison;
 pub mod direction_discriminator;
+pub mod frame_check;
 pub mod initial_phase_selector;
 pub mod input_conditioner;
 pub mod input_synchroniser;
@@ -29,6 +30,8 @@ pub mod step_driver;
 pub mod step_selector;
 pub mod subdivided_comparison;
 pub mod supervisor;
+pub mod telemetry;
+pub mod uart_transmitter;
 
 mod blocks;
 

@@ -76,6 +76,8 @@ pub struct Conditioning {
     pub tick_period: u32,
     /// Ticks without a line or a fringe after which the loop stops, 0 to 4095; 0 is off.
     pub watchdog_ticks: u32,
+    /// Clocks of a bit of the serial port, 2 to 4095.
+    pub bit_clocks: u32,
     /// Switches connect their pins to ground.
     pub active_low: bool,
     /// The range is a switch, and not that of the settings.
@@ -91,6 +93,7 @@ impl Conditioning {
         debounce_ticks: 0,
         tick_period: 1,
         watchdog_ticks: 0,
+        bit_clocks: 104,
         active_low: false,
         range_pin: false,
         enable_pin: false,
@@ -105,7 +108,8 @@ impl Conditioning {
         in_range("glitch filter", self.glitch_clocks, 0, 15)?;
         in_range("debouncing", self.debounce_ticks, 0, 15)?;
         in_range("tick period", self.tick_period, 1, 0xff_ffff)?;
-        in_range("watchdog", self.watchdog_ticks, 0, 4095)
+        in_range("watchdog", self.watchdog_ticks, 0, 4095)?;
+        in_range("bit of the serial port", self.bit_clocks, 2, 4095)
     }
 }
 

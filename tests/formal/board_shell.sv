@@ -6,13 +6,14 @@ module board_shell_proof(
     input [1:0] calibrate, input manual_step, input manual_forward, input range_x2, input enable,
     input emergency_stop
 );
-    wire t1, t2, phase_a, phase_b, phase_c, step, direction, zero, fault, measuring, alarm;
+    wire t1, t2, phase_a, phase_b, phase_c, step, direction, zero, fault, measuring, alarm,
+        tx;
     board_shell dut(.clock(clock), .grating(grating), .laser(laser), .start(start),
         .correct(correct), .playback(playback), .calibrate(calibrate), .manual_step(manual_step),
         .manual_forward(manual_forward), .range_x2(range_x2), .enable(enable),
         .emergency_stop(emergency_stop), .t1(t1), .t2(t2), .phase_a(phase_a), .phase_b(phase_b),
         .phase_c(phase_c), .step(step), .direction(direction), .zero(zero), .fault(fault),
-        .measuring(measuring), .alarm(alarm));
+        .measuring(measuring), .alarm(alarm), .tx(tx));
 
     (* hierconn *) wire [3:0] \dut.power_up_q ;
     (* hierconn *) wire \dut.reset ;

@@ -48,8 +48,10 @@ module board_shell (
     output wire         fault,
     // measuring: lamp: the initial phase is selected
     output wire         measuring,
-    // alarm: * lamp: a signal is missing, the meter wrapped, or a stop
-    output wire         alarm
+    // alarm: lamp: a signal is missing, the meter wrapped, or a stop
+    output wire         alarm,
+    // tx: serial port: a frame for every comparison
+    output wire         tx
 );
 
     wire [3:0] power_up_next;
@@ -71,6 +73,7 @@ module board_shell (
     localparam [23:0] tick_period = 24'h5;
     localparam [11:0] watchdog_ticks = 12'h28;
     localparam active_low = 1'b0;
+    localparam [11:0] bit_clocks = 12'h2;
     localparam [1:0] calibrate_inverted = 2'd0;
     wire device_correct;
     wire device_playback;
@@ -111,6 +114,10 @@ module board_shell (
     wire supervisor_fringes_missing;
     wire supervisor_wrapped;
     wire supervisor_alarm;
+    wire telemetry_send;
+    wire [7:0] telemetry_data;
+    wire transmitter_line;
+    wire transmitter_ready;
     wire grating_input_level;
     wire grating_input_steady;
     wire laser_input_level;
@@ -209,6 +216,32 @@ module board_shell (
         .fringes_missing(supervisor_fringes_missing),
         .wrapped(supervisor_wrapped),
         .alarm(supervisor_alarm)
+    );
+
+    telemetry telemetry (
+        .clock(clock),
+        .clear(reset),
+        .measuring(device_measuring),
+        .opening(device_grating_divided),
+        .meter(device_t1),
+        .forward(device_q),
+        .count(device_count),
+        .count_forward(device_count_forward),
+        .fault(device_fault),
+        .alarm(supervisor_alarm),
+        .ready(transmitter_ready),
+        .send(telemetry_send),
+        .data(telemetry_data)
+    );
+
+    uart_transmitter transmitter (
+        .clock(clock),
+        .clear(reset),
+        .bit_clocks(bit_clocks),
+        .send(telemetry_send),
+        .data(telemetry_data),
+        .line(transmitter_line),
+        .ready(transmitter_ready)
     );
 
     input_conditioner grating_input (
@@ -331,6 +364,7 @@ module board_shell (
     assign device_manual_step = manual_step_input_level & supervisor_may_step;
     assign device_manual_forward = manual_forward ^ active_low;
     assign device_range_x2 = range_set | (range_input_steady & range_wired);
+    assign tx = transmitter_line;
     assign t1 = device_t1;
     assign t2 = device_t2;
     assign phase_a = device_phase_a & ~supervisor_stopped;
@@ -352,7 +386,7 @@ module board_shell (
     end
 
     // Without a reader here; named so that linters know it is meant.
-    wire unused_bits = &{1'b0, device_standard, device_cp1, device_cp2, device_q, device_q_bar, device_reverse, device_count, device_count_forward, supervisor_lines_missing, supervisor_fringes_missing, supervisor_wrapped, manual_step_input_steady, range_input_level, enable_input_level};
+    wire unused_bits = &{1'b0, device_standard, device_cp1, device_cp2, device_q_bar, device_reverse, supervisor_lines_missing, supervisor_fringes_missing, supervisor_wrapped, manual_step_input_steady, range_input_level, enable_input_level};
 endmodule
 
 `default_nettype wire

@@ -71,6 +71,7 @@ const WORTHS: &[(&[&str], Worth)] = &[
     (&["manual_step_input", "manual_forward_input", "power_up_q"], Worth::Switch),
     (&["calibrate_low_input", "calibrate_high_input", "range_input"], Worth::Switch),
     (&["enable_input", "stop_input", "supervisor", "alarm", "milliseconds"], Worth::Switch),
+    (&["telemetry", "transmitter", "uart_transmitter", "frame_check", "tx"], Worth::Apart),
     (&["scale_lookup", "digital_comparison", "subdivided_comparison"], Worth::Apart),
 ];
 

@@ -155,19 +155,31 @@ pub(super) fn declare(kind: &str, ports: &[Port]) -> String {
     ports.iter().map(declare).collect::<Vec<_>>().join(" ")
 }
 
+/// Clocks without a reset, so that what power-up left behind shows before the first.
+const UNTOUCHED: usize = 4000;
+
 /// What an input does next: wheels are turned now and then and to small numbers, switches thrown
 /// seldom, resets are rare, and pulses come in bursts of changing density.
 fn next_level(input: &Port, now: u64, clock: usize, random: &mut ChaCha8Rng) -> u64 {
     let mut one_in = |n: u32| random.random_range(0..n) == 0;
     let seldom = clock > 0 && !one_in(512);
     match input.name.as_str() {
+        "data" => random.random_range(0..=mask(input.width)),
+        "count" if input.width > 1 => random.random_range(0..=mask(input.width)),
+        "ready" => u64::from(!one_in(3)),
+        "send" | "take" | "level" => u64::from(one_in(3)),
         "stop" => u64::from(one_in(4096)),
-        "clear" | "master_reset" => u64::from(clock < 4 || one_in(4096)),
+        "clear" | "master_reset" => {
+            u64::from(UNTOUCHED <= clock && (clock < UNTOUCHED + 4 || one_in(4096)))
+        }
         "divide_a" | "divide_b" | "preset" | "initial_phase" | "compensation" if !seldom => {
             wheel(input, random)
         }
-        "step_period" | "period" | "ticks" | "limit" if !seldom => random.random_range(1..12),
-        "start" | "enable" | "measuring" => u64::from(clock > 8 && !one_in(2048)),
+        "step_period" | "period" | "bit_clocks" | "ticks" | "limit" if !seldom => {
+            random.random_range(1..12)
+        }
+        "measuring" => u64::from(!one_in(2048)),
+        "start" | "enable" => u64::from(clock > 8 && !one_in(2048)),
         "calibrate"
         | "range_x2"
         | "insert"
@@ -179,6 +191,9 @@ fn next_level(input: &Port, now: u64, clock: usize, random: &mut ChaCha8Rng) -> 
         | "compensation_insert"
         | "active_low"
         | "wrap_watched"
+        | "fault"
+        | "alarm"
+        | "count_forward"
             if !seldom =>
         {
             random.random_range(0..=mask(input.width))

@@ -41,6 +41,10 @@ const DAY: &[Scene] = &[
     scene(700, &["enable", "start", "correct"]),
     without("laser", 700, &["enable", "start", "correct"]),
     scene(150, &["enable"]),
+    // Without correction a meter may wrap: only the watchdogs see what is missing.
+    scene(700, &["enable", "start"]),
+    without("laser", 700, &["enable", "start"]),
+    scene(150, &["enable"]),
     // A stop is remembered as long as any of the three switches is on.
     scene(900, &["enable", "start", "correct"]),
     scene(60, &["enable", "start", "correct", "emergency_stop"]),

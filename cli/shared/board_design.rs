@@ -1,16 +1,21 @@
-//! What is between the pins and the device, and how the modules are called.
+//! The device on a board: what is between its pins and the logic, and the design that comes of it.
 
 use clap::{Args, ValueEnum};
 use helixlock_gen::{Board, leave_out};
-use helixlock_netlist::Design;
-use helixlock_rtl::settings::Conditioning;
+use helixlock_netlist::{Design, elaborate};
+use helixlock_rtl::board_shell::BoardShell;
+use helixlock_rtl::settings::{Conditioning, Settings};
+use helixlock_sim::library;
 
-/// Options of the emitted design.
+/// Name of the top module.
+pub(crate) const TOP: &str = "board_shell";
+
+/// Bits a second on the serial port.
+pub(crate) const BAUD: u32 = 115_200;
+
+/// What is between the pins and the device.
 #[derive(Debug, Args)]
-pub(super) struct Options {
-    /// Name all modules with this before their name, for use in a larger design
-    #[arg(long, value_name = "PREFIX", default_value = "")]
-    pub(super) prefix: String,
+pub(crate) struct Front {
     /// Further pins, separated by commas
     #[arg(long, value_name = "PINS", value_delimiter = ',')]
     pins: Vec<Pin>,
@@ -47,14 +52,15 @@ impl Pin {
     ];
 }
 
-impl Options {
+impl Front {
     /// The conditioning they ask for on a board, whose ticks are milliseconds.
-    pub(super) fn conditioning(&self, board: &Board) -> anyhow::Result<Conditioning> {
+    pub(crate) fn conditioning(&self, board: &Board) -> anyhow::Result<Conditioning> {
         let conditioning = Conditioning {
             glitch_clocks: self.glitch_clocks,
             debounce_ticks: self.debounce,
             tick_period: 1000 * board.clock_mhz,
             watchdog_ticks: self.watchdog,
+            bit_clocks: (1_000_000 * board.clock_mhz + BAUD / 2) / BAUD,
             active_low: !self.active_high,
             range_pin: self.pins.contains(&Pin::Range),
             enable_pin: self.pins.contains(&Pin::Enable),
@@ -63,13 +69,20 @@ impl Options {
         Ok(conditioning)
     }
 
-    /// Takes the pins from the design that nobody asked for; their levels say nothing then.
-    pub(super) fn leave_out_pins(&self, design: &mut Design) -> anyhow::Result<()> {
+    /// The board shell with these settings, without the pins that nobody asked for: their levels
+    /// say nothing then.
+    pub(crate) fn design(
+        &self,
+        settings: &Settings,
+        conditioning: &Conditioning,
+    ) -> anyhow::Result<Design> {
+        let shell = BoardShell::connected(settings, conditioning)?;
+        let mut design = elaborate(TOP, &shell, &library())?;
         for (pin, port) in Pin::ALL {
             if !self.pins.contains(&pin) {
-                leave_out(design, port, 0)?;
+                leave_out(&mut design, port, 0)?;
             }
         }
-        Ok(())
+        Ok(design)
     }
 }
