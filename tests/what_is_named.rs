@@ -121,3 +121,34 @@ fn shaking_far_above_the_comparisons_is_unfolded_by_two_speeds() {
     let frequency = effects[0].parameters.iter().find(|p| p.key == "frequency_hz").unwrap();
     assert!((frequency.value - 31.7).abs() < 1e-3, "{}", frequency.value);
 }
+
+/// Every second reading is twenty times as uncertain, and the file says so: what it says weighs.
+///
+/// The best that can be had of a wave of known length in N rows of σ is σ·√(2/N); the uncertain
+/// rows add next to nothing.
+#[test]
+fn what_the_file_tells_of_its_readings_weighs() {
+    const SURE_UM: f64 = 0.02;
+    const SIZE_UM: f64 = 0.1;
+    let told = |time_s: f64| SURE_UM * if time_s % 2.0 < 1.0 { 1.0 } else { 20.0 };
+    let best_um = SURE_UM * f64::sqrt(2.0 / 900.0);
+    for seed in 20..23 {
+        let mut chance = ChaCha8Rng::seed_from_u64(seed);
+        let rows: Vec<[f64; 5]> = (0..1800_u16)
+            .map(|row| {
+                let (time_s, x) = (f64::from(row), 0.37 * f64::from(row));
+                let fresh: f64 = StandardNormal.sample(&mut chance);
+                let wave = SIZE_UM * libm::sin(TAU * x / 12.0 + 0.7);
+                [1.0, time_s, x, 1.0, wave + told(time_s) * fresh]
+            })
+            .collect();
+        let passes = Passes::of_rows(rows.into_iter()).logging("error_um_sd", &told);
+        let diagnosis = diagnose(&passes.problem());
+        assert_eq!(names(&diagnosis), ["screw-periodic"], "seed {seed}");
+        let wave = &diagnosis.rounds[diagnosis.rounds.len() - 1].effects[0];
+        let size = wave.parameters.iter().find(|what| what.key == "amplitude_um").unwrap();
+        let stderr = size.stderr.expect("a standard error");
+        assert!((0.8..1.25).contains(&(stderr / best_um)), "seed {seed}: {stderr}, best {best_um}");
+        assert!((size.value - SIZE_UM).abs() < 4.0 * best_um, "seed {seed}: {}", size.value);
+    }
+}
