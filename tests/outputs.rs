@@ -247,3 +247,32 @@ fn what_was_taken_back_survives_another_run() {
     assert_eq!(helixlock(&learn).status, 0);
     assert!(!out.join("ledger-2.json").exists(), "nothing was taken back in between");
 }
+
+/// Whatever a command leaves in its folder, it says.
+#[test]
+fn what_is_written_is_said() {
+    let commands = [
+        "compare examples/hidden-gear/machine.toml examples/hidden-gear/data.csv",
+        "diagnose examples/hidden-gear/machine.toml examples/hidden-gear/data.csv",
+        "learn examples/hidden-gear/machine.toml examples/hidden-gear/data.csv",
+        "screw examples/ball-screw-grade/screw.csv --lead 2 --run-out 30",
+        "straightness examples/lathe-straightness/probes.csv --spacing 45,40",
+        "transmission examples/transmission-error/pulses.csv --input-lines 200 --output-lines 720 --ratio 36",
+        "scale iso230 examples/inductosyn-scale/axis.csv",
+        "scale model",
+        "challenge --seed 6",
+    ];
+    for command in commands {
+        let folder = scratch();
+        let (out, out_word) = word(&folder, "out");
+        let mut words: Vec<&str> = command.split(' ').collect();
+        words.extend(["-o", &out_word]);
+        let run = helixlock(&words);
+        assert_eq!((run.status, run.stderr.as_str()), (0, ""), "{command}");
+        let place = format!("{}: ", out.display());
+        let said = run.stdout.lines().find_map(|line| line.strip_prefix(&place));
+        let mut said: Vec<&str> = said.unwrap_or_default().split(", ").collect();
+        said.sort_unstable();
+        assert_eq!(said, listing(&out), "{command}");
+    }
+}

@@ -15,7 +15,7 @@ use self::json::ComparisonJson;
 use crate::shared::angular::in_unit;
 use crate::shared::answer::{Answer, Answering};
 use crate::shared::measured::Files;
-use crate::shared::output::{Batch, print_json};
+use crate::shared::output::{Batch, Written, print_json};
 use crate::shared::residual_table::{residual_table, spectrum_table};
 
 /// Show where a machine file and a measurement part
@@ -36,17 +36,19 @@ impl Compare {
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         let (file, problem) = self.files.read()?;
         let comparison = compare(&problem);
+        let mut written = Written::default();
         if let Some(folder) = &self.output {
             let page = page::page(&problem, &comparison).html();
             let mut files = Batch::new(folder, self.files.inputs(&file.model))?;
             files.write_content("report.html", page)?;
-            files.keep()?;
+            written = files.kept()?;
         }
         if self.json {
             let json = ComparisonJson::new(&comparison, &problem.measurement);
             print_json(out, &in_unit(&json, problem.measurement.unit_word())?)?;
         } else {
             text::print(out, &comparison, &problem.measurement)?;
+            written.print(out)?;
         }
         Ok(ExitCode::SUCCESS)
     }

@@ -15,7 +15,7 @@ use crate::shared::diagnosis_page::page;
 use crate::shared::diagnosis_text::print;
 use crate::shared::effect_file::own_effects;
 use crate::shared::measured::Files;
-use crate::shared::output::{Batch, print_json};
+use crate::shared::output::{Batch, Written, print_json};
 use crate::shared::residual_table::residual_table;
 use crate::shared::words::status;
 
@@ -39,18 +39,20 @@ impl Diagnose {
     /// Prints the diagnosis; exit status 1 when the input itself is doubted, else 0.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         let (file, problem, diagnosis) = self.found()?;
+        let mut written = Written::default();
         if let Some(folder) = &self.output {
             let mut inputs = self.files.inputs(&file.model);
             inputs.extend(self.custom.clone());
             let mut files = Batch::new(folder, inputs)?;
             files.write_content("report.html", page(&problem, &diagnosis, Vec::new()).html())?;
-            files.keep()?;
+            written = files.kept()?;
         }
         if self.json {
             let json = DiagnosisJson::new(&diagnosis, &problem.measurement);
             print_json(out, &in_unit(&json, problem.measurement.unit_word())?)?;
         } else {
             print(out, &diagnosis, problem.measurement.unit())?;
+            written.print(out)?;
         }
         Ok(status(diagnosis.verdict))
     }

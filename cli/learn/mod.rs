@@ -27,7 +27,7 @@ use crate::shared::answer::{Answer, Answering};
 use crate::shared::captured::Signals;
 use crate::shared::effect_file::own_effects;
 use crate::shared::input::{Input, machine_files};
-use crate::shared::output::{self, Batch, print_json};
+use crate::shared::output::{self, Batch, Written, print_json};
 use crate::shared::residual_table::residual_table;
 use crate::shared::words::status;
 use crate::shared::{diagnosis_page, diagnosis_text, measured};
@@ -86,14 +86,14 @@ impl Learn {
     ) -> anyhow::Result<ExitCode> {
         let learned = self.learned(machine, data)?;
         let Learned { problem, diagnosis, check, book, .. } = &learned;
-        let mut kept = None;
+        let (mut kept, mut written) = (None, Written::default());
         if let Some(folder) = folder {
             let page = diagnosis_page::page(problem, diagnosis, closed_loop(check));
             let mut inputs = machine_files(machine, &learned.file.model);
             inputs.extend(self.custom.iter().cloned().chain([data.to_owned()]));
             let mut files = Batch::new(folder, inputs)?;
             kept = keep_aside(&mut files, &[learned.machine(), &learned.text])?;
-            write_folder(files, learned.machine(), &learned.ledger(data)?, &page)?;
+            written = write_folder(files, learned.machine(), &learned.ledger(data)?, &page)?;
         }
         if self.json {
             let json = LearnJson::new(diagnosis, book, check, problem);
@@ -102,6 +102,7 @@ impl Learn {
             diagnosis_text::print(out, diagnosis, problem.measurement.unit())?;
             check.print(out)?;
             print_offer(out, book)?;
+            written.print(out)?;
             write!(out, "{}", kept::note(kept.as_deref()))?;
         }
         Ok(status(diagnosis.verdict))
@@ -186,11 +187,16 @@ fn print_offer(out: &mut impl Write, book: &Ledger) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn write_folder(mut files: Batch, learned: &str, json: &Value, page: &Page) -> anyhow::Result<()> {
+fn write_folder(
+    mut files: Batch,
+    learned: &str,
+    json: &Value,
+    page: &Page,
+) -> anyhow::Result<Written> {
     files.write_json(LEDGER, json)?;
     files.write_content(MACHINE, learned)?;
     files.write_content("report.html", page.html())?;
-    files.keep()
+    files.kept()
 }
 
 /// The learned machine in the closed loop, where the machine file says that the loop is closed.

@@ -15,7 +15,7 @@ use super::json::AppliedJson;
 use super::samples::read_samples;
 use super::{page, text};
 use crate::shared::answer::{Answer, Answering};
-use crate::shared::output::{Batch, print_json};
+use crate::shared::output::{Batch, Written, print_json};
 use crate::shared::quantity::{length_um, position_mm};
 
 /// Take the errors off measured ones, by a table
@@ -67,13 +67,15 @@ impl Apply {
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         let comparison = self.compared()?;
         let result = AppliedJson::new(&comparison, self.limit);
-        if let Some(output) = &self.output {
-            write_applied(output, [self.image, self.data], &comparison, &result)?;
-        }
+        let written = match &self.output {
+            Some(output) => write_applied(output, [self.image, self.data], &comparison, &result)?,
+            None => Written::default(),
+        };
         if self.json {
             print_json(out, &result)?;
         } else {
             text::print_applied(out, &comparison, self.limit)?;
+            written.print(out)?;
         }
         let exceeded = self.limit.is_some_and(|limit| !comparison.keeps(limit));
         Ok(if exceeded { ExitCode::from(1) } else { ExitCode::SUCCESS })
@@ -107,13 +109,13 @@ fn write_applied(
     inputs: [PathBuf; 2],
     comparison: &Comparison,
     result: &AppliedJson<'_>,
-) -> anyhow::Result<()> {
+) -> anyhow::Result<Written> {
     let page = page::page(comparison);
     let mut files = Batch::new(output, inputs)?;
     files.write_report(&page::figure(comparison), result, &page)?;
     let corrected = corrected_table(comparison);
     files.write("corrected.csv", |mut file| Ok(write_csv(&corrected, &mut file)?))?;
-    files.keep()
+    files.kept()
 }
 
 fn corrected_table(comparison: &Comparison) -> Table {

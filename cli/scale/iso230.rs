@@ -15,7 +15,7 @@ use super::json::AxisTestJson;
 use super::samples::{read_samples, targets};
 use super::{axis_page, text};
 use crate::shared::answer::{Answer, Answering};
-use crate::shared::output::{Batch, print_json};
+use crate::shared::output::{Batch, Written, print_json};
 use crate::shared::quantity::length_um;
 use crate::shared::refused::in_file;
 use crate::shared::sheet::{Named, Sheet, SheetFile, Subject};
@@ -55,14 +55,16 @@ impl Iso230 {
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         let test = self.test()?;
         let result = AxisTestJson::new(&test);
-        if let Some(output) = &self.output {
-            let inputs = self.sheet.iter().chain([&self.data]).cloned();
-            write_files(output, inputs.collect(), &self.data, &test, &result)?;
-        }
+        let inputs = self.sheet.iter().chain([&self.data]).cloned();
+        let written = match &self.output {
+            Some(output) => write_files(output, inputs.collect(), &self.data, &test, &result)?,
+            None => Written::default(),
+        };
         if self.json {
             print_json(out, &result)?;
         } else {
             text::print_axis(out, &test)?;
+            written.print(out)?;
         }
         Ok(if test.holds() { ExitCode::SUCCESS } else { ExitCode::from(1) })
     }
@@ -135,8 +137,8 @@ fn write_files(
     data: &Path,
     test: &AxisTest,
     result: &AxisTestJson<'_>,
-) -> anyhow::Result<()> {
+) -> anyhow::Result<Written> {
     let mut files = Batch::new(output, inputs)?;
     files.write_report(&axis_page::figure(test), result, &axis_page::page(data, test))?;
-    files.keep()
+    files.kept()
 }

@@ -14,7 +14,7 @@ use helixlock_traces::csv::RowWriter;
 
 use super::json::ModelJson;
 use crate::shared::answer::{Answer, Answering};
-use crate::shared::output::{Batch, print_json};
+use crate::shared::output::{Batch, Written, print_json};
 use crate::shared::page_pieces::{panel, picture};
 use crate::shared::quantity::{length_mm, length_um};
 
@@ -66,9 +66,10 @@ impl Model {
     /// Models, writes, prints.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         let (before, budget) = self.budget()?;
-        if let Some(output) = &self.output {
-            self.write_files(output, &budget)?;
-        }
+        let written = match &self.output {
+            Some(output) => self.write_files(output, &budget)?,
+            None => Written::default(),
+        };
         if self.json {
             print_json(out, &ModelJson::new(&before, &budget))?;
             return Ok(ExitCode::SUCCESS);
@@ -81,6 +82,7 @@ impl Model {
                 one.left.largest_um, one.left.rms_um, one.without
             )?;
         }
+        written.print(out)?;
         Ok(ExitCode::SUCCESS)
     }
 
@@ -115,7 +117,11 @@ impl Model {
         }
     }
 
-    fn write_files(&self, output: &std::path::Path, budget: &[Residual]) -> anyhow::Result<()> {
+    fn write_files(
+        &self,
+        output: &std::path::Path,
+        budget: &[Residual],
+    ) -> anyhow::Result<Written> {
         let (scale, detector) = (self.scale(), self.detector());
         let page = self.page(&scale, budget);
         let mut files = Batch::new(output, [])?;
@@ -133,7 +139,7 @@ impl Model {
             })?;
         }
         files.write_content("report.html", page.html())?;
-        files.keep()
+        files.kept()
     }
 
     /// The budget as a page.

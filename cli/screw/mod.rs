@@ -23,7 +23,7 @@ use self::evaluation::Evaluation;
 use self::json::ScrewJson;
 use self::sheet::{Measured, reading_noise_um, sheet_of, with_budgets};
 use crate::shared::answer::{Answer, Answering};
-use crate::shared::output::{Batch, print_json};
+use crate::shared::output::{Batch, Written, print_json};
 use crate::shared::quantity::{deviation_um, lead_mm, length_mm, length_um, position_mm};
 use crate::shared::refused::in_file;
 use crate::shared::series::Series;
@@ -120,14 +120,16 @@ impl Screw {
         let evaluation = self.evaluate()?;
         let asked = self.asked(&evaluation);
         let result = ScrewJson::new(&evaluation, asked);
-        if let Some(output) = &self.output {
-            let inputs = self.table.iter().chain(&self.sheet).chain([&self.data]).cloned();
-            write_files(output, inputs.collect(), &evaluation, &result)?;
-        }
+        let inputs = self.table.iter().chain(&self.sheet).chain([&self.data]).cloned();
+        let written = match &self.output {
+            Some(output) => write_files(output, inputs.collect(), &evaluation, &result)?,
+            None => Written::default(),
+        };
         if self.json {
             print_json(out, &result)?;
         } else {
             text::print(out, &evaluation, asked)?;
+            written.print(out)?;
         }
         Ok(if evaluation.holds(asked) { ExitCode::SUCCESS } else { ExitCode::from(1) })
     }
@@ -274,9 +276,9 @@ fn write_files(
     inputs: Vec<PathBuf>,
     evaluation: &Evaluation,
     result: &ScrewJson<'_>,
-) -> anyhow::Result<()> {
+) -> anyhow::Result<Written> {
     let page = page::page(evaluation);
     let mut files = Batch::new(output, inputs)?;
     files.write_report(&page::figure(evaluation), result, &page)?;
-    files.keep()
+    files.kept()
 }

@@ -127,12 +127,41 @@ impl Batch {
         self.write_content("report.html", page.html())
     }
 
+    /// Gives every file its name, and says which there are.
+    pub(crate) fn kept(self) -> anyhow::Result<Written> {
+        let place = |outside: &Outside| match outside {
+            Outside::File(_, path) | Outside::Stream(_, path) => path.display().to_string(),
+        };
+        let inside = self.inside.iter().map(|(_, name)| name.display().to_string());
+        let names = inside.chain(self.outside.iter().map(place)).collect();
+        let written = Written { folder: self.folder.clone(), names };
+        self.keep()?;
+        Ok(written)
+    }
+
     /// Gives every file its name.
     pub(crate) fn keep(self) -> anyhow::Result<()> {
         for outside in self.outside {
             outside.keep()?;
         }
         commit::commit(&self.folder, self.inside)
+    }
+}
+
+/// What a command has written; nothing without an output.
+#[derive(Debug, Default)]
+pub(crate) struct Written {
+    folder: PathBuf,
+    names: Vec<String>,
+}
+
+impl Written {
+    /// Tells a user where it is.
+    pub(crate) fn print(&self, out: &mut impl Write) -> anyhow::Result<()> {
+        if !self.names.is_empty() {
+            writeln!(out, "\n{}: {}", self.folder.display(), self.names.join(", "))?;
+        }
+        Ok(())
     }
 }
 

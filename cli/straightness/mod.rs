@@ -25,7 +25,7 @@ use self::json::{PlansJson, StraightnessJson};
 use self::readings::read_readings;
 use self::sheet::sheet_of;
 use crate::shared::answer::{Answer, Answering};
-use crate::shared::output::{Batch, print_json};
+use crate::shared::output::{Batch, Written, print_json};
 use crate::shared::quantity::{length_mm, length_um};
 use crate::shared::refused::in_file;
 use crate::shared::sheet::{SheetFile, Subject};
@@ -110,14 +110,16 @@ impl StraightnessCommand {
         let evaluation = self.separated(path)?;
         let exceeded = !evaluation.holds(self.limit);
         let result = StraightnessJson::new(&evaluation, self.limit);
-        if let Some(output) = &self.output {
-            let inputs = self.sheet.as_deref().into_iter().chain([path]).map(Path::to_owned);
-            write_files(output, inputs.collect(), &evaluation, &result)?;
-        }
+        let inputs = self.sheet.as_deref().into_iter().chain([path]).map(Path::to_owned);
+        let written = match &self.output {
+            Some(output) => write_files(output, inputs.collect(), &evaluation, &result)?,
+            None => Written::default(),
+        };
         if self.json {
             print_json(out, &result)?;
         } else {
             text::print(out, &evaluation, self.limit)?;
+            written.print(out)?;
         }
         Ok(if exceeded { ExitCode::from(1) } else { ExitCode::SUCCESS })
     }
@@ -277,7 +279,7 @@ fn write_files(
     inputs: Vec<PathBuf>,
     evaluation: &Evaluation,
     result: &StraightnessJson<'_>,
-) -> anyhow::Result<()> {
+) -> anyhow::Result<Written> {
     let page = page::page(evaluation);
     let mut files = Batch::new(output, inputs)?;
     files.write_report(&page::figure(evaluation), result, &page)?;
@@ -288,7 +290,7 @@ fn write_files(
     for (name, table) in &tables {
         files.write(name, |mut file| Ok(write_csv(table, &mut file)?))?;
     }
-    files.keep()
+    files.kept()
 }
 
 fn separated_table(outcome: &Outcome) -> Table {

@@ -25,7 +25,7 @@ use self::json::TransmissionJson;
 use self::pulses::{Names, read_pulses};
 use self::truth::read_truth;
 use crate::shared::answer::{Answer, Answering};
-use crate::shared::output::{Batch, print_json};
+use crate::shared::output::{Batch, Written, print_json};
 use crate::shared::quantity::{frequency_hz, lead_mm, time_s};
 use crate::shared::refused::in_file;
 
@@ -115,13 +115,15 @@ impl TransmissionCommand {
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         let evaluation = self.evaluate()?;
         let result = TransmissionJson::new(&evaluation);
-        if let Some(output) = &self.output {
-            self.write_files(output, &evaluation, &result)?;
-        }
+        let written = match &self.output {
+            Some(output) => self.write_files(output, &evaluation, &result)?,
+            None => Written::default(),
+        };
         if self.json {
             print_json(out, &result)?;
         } else {
             text::print(out, &evaluation)?;
+            written.print(out)?;
         }
         Ok(if evaluation.holds() { ExitCode::SUCCESS } else { ExitCode::from(1) })
     }
@@ -201,7 +203,7 @@ impl TransmissionCommand {
         output: &Path,
         evaluation: &Evaluation,
         result: &TransmissionJson<'_>,
-    ) -> anyhow::Result<()> {
+    ) -> anyhow::Result<Written> {
         let page = page::page(evaluation);
         let mut files = Batch::new(output, self.inputs())?;
         files.write_report(&page::figure(evaluation), result, &page)?;
@@ -210,7 +212,7 @@ impl TransmissionCommand {
             files.write("error.csv", |mut file| Ok(write_csv(&error, &mut file)?))?;
             files.write("compare.csv", |file| self.hand_over(file, &best.reading))?;
         }
-        files.keep()
+        files.kept()
     }
 
     /// What `helixlock compare` reads. Its recorder counts an output that lags as positive: −δ.
