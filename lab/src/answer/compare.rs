@@ -93,6 +93,12 @@ pub struct Comparison {
 /// thirty thousand, means of neighbours where there are more.
 #[must_use]
 pub fn compare(problem: &Problem) -> Comparison {
+    let (doubts, compared) = rayon::join(|| doubts(problem), || compared(problem));
+    Comparison { doubts, ..compared }
+}
+
+/// The comparison without doubts.
+fn compared(problem: &Problem) -> Comparison {
     let thinned = problem.thinned(COMPARED_ROWS);
     let small = thinned.as_ref().unwrap_or(problem);
     let state = State::bare(small);
@@ -106,7 +112,7 @@ pub fn compare(problem: &Problem) -> Comparison {
         .map(|sensor| sensor_residual(problem, (small, &state), &residual, sensor))
         .collect();
     Comparison {
-        doubts: doubts(problem),
+        doubts: Vec::new(),
         sensors,
         lines: lines(small, &state.columns, &state.fit),
         noise_only,

@@ -110,9 +110,10 @@ impl Problem {
             designs: Designs::default(),
             hunting_um: 0.0,
         };
-        let turns: Vec<f64> = problem.record.turns().collect();
-        problem.highest_order = highest_frequency(&turns);
-        problem.highest_hz = highest_frequency(&problem.record.time_s);
+        (problem.highest_order, problem.highest_hz) = rayon::join(
+            || highest_frequency(&problem.record.turns().collect::<Vec<_>>()),
+            || highest_frequency(&problem.record.time_s),
+        );
         problem.stack_rows();
         let (mut record, mut finer) = (problem.record.clone(), problem.finer.clone());
         problem.predicted = problem.predicted(&mut record, &mut finer)?;
@@ -390,7 +391,11 @@ fn record(machine: &Machine, measurement: &Measurement) -> Record {
         pass: Some(measurement.pass.iter().map(|&pass| count(pass)).collect()),
         covariates: measurement.covariates.iter().map(|(n, v)| (n.clone(), v.clone())).collect(),
     };
-    Record::new(machine, &samples).unwrap_or_default()
+    let mut record = Record::new(machine, &samples).unwrap_or_default();
+    if record.pass == measurement.pass {
+        record.pass = measurement.pass.clone();
+    }
+    record
 }
 
 #[cfg(test)]
