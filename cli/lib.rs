@@ -41,6 +41,7 @@ pub use crate::shared::answer::{Answer, Part};
 pub use crate::shared::refused::Refused;
 pub use helixlock_traces::{Column, Table};
 
+use crate::shared::cases::Campaign;
 use crate::shared::terminal::{Terminal, shown};
 
 /// Laser correction of a lead-screw grinder: simulate it, build it, compare it with measurements
@@ -72,6 +73,10 @@ enum Command {
     Sweep(sweep::Sweep),
     Transmission(Box<transmission::TransmissionCommand>),
 }
+
+/// All that is worked out in parts.
+const CAMPAIGNS: [&Campaign; 4] =
+    [&sweep::CAMPAIGN, &challenge::CAMPAIGN, &faults::CAMPAIGN, &certify::CAMPAIGN];
 
 /// Runs the words that the process was given.
 ///
@@ -128,7 +133,7 @@ fn run(command: Command, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         Command::Init(command) => command.run(out),
         Command::Learn(command) => command.run(out),
         Command::Man(command) => command.run(Command::command(), out),
-        Command::Merge(command) => command.run(out),
+        Command::Merge(command) => command.run(&CAMPAIGNS, out),
         Command::Scale(scale) => scale.run(out),
         Command::Screw(screw) => screw.run(out),
         Command::Serve(serve) => serve.run(out),

@@ -57,6 +57,7 @@ mod rooms;
 mod rust_hdl_simulator;
 mod rust_hdl_verilog;
 mod scale_lookup;
+mod shards;
 mod simulation;
 mod standard_wave;
 mod step_clock;

@@ -56,7 +56,7 @@ fn another_sweep_of_the_same_output_waits_for_nobody() {
     let said = String::from_utf8(second.stderr).unwrap();
     assert!(first.wait().unwrap().success());
     assert!(
-        second.status.code() == Some(2) && said.contains("another sweep is writing it"),
+        second.status.code() == Some(2) && said.contains("another run is writing it"),
         "{said}"
     );
 }
@@ -153,7 +153,7 @@ fn parts_that_do_not_belong_together_are_refused() {
     assert!(part(&parts, 3).status().unwrap().success());
     let other = part(&parts, 2).args(["--draw", "spindle.speed=5..6 rpm"]).status().unwrap();
     assert!(other.success());
-    refused("are of two sweeps, expected one");
+    refused("are of two runs, expected one");
     let names: Vec<_> = fs::read_dir(&parts).unwrap().map(|entry| entry.unwrap().path()).collect();
     let part_of = |number: &str| {
         names.iter().find(|path| {

@@ -3,21 +3,18 @@
 use std::io::Write;
 
 use helixlock_original::Hazard;
-use helixlock_sim::{BlockCheck, WholeGates};
+use helixlock_sim::WholeGates;
+use helixlock_sim::blocks::BlockCheck;
 
-/// Each figure against its block, then the hazards.
-pub(crate) fn print(
-    checks: &[BlockCheck],
-    hazards: &[Hazard],
-    out: &mut impl Write,
-) -> anyhow::Result<()> {
+/// Each figure against its block.
+pub(crate) fn print(checks: &[BlockCheck], out: &mut dyn Write) -> anyhow::Result<()> {
     let alike = if checks.iter().all(BlockCheck::is_alike) { "alike" } else { "NOT alike" };
-    let drawn = checks.first().map_or(0, |check| check.drawn);
     writeln!(
         out,
         "\ngate by gate        the figures of the report against the blocks, the same drawn pulses \
          for both: {alike} with typical delays"
     )?;
+    let drawn = checks.first().map_or(0, |check| check.drawn);
     writeln!(
         out,
         "{:8} {:24} {:>8} {:>9} {:>9} {:>11} {:>10} {:>9}",
@@ -45,8 +42,7 @@ pub(crate) fn print(
             check.swallowed
         )?;
     }
-    writeln!(out, "\nhazards             found by turning one number until it happens")?;
-    hazards.iter().try_for_each(|hazard| print_hazard(hazard, out))
+    Ok(())
 }
 
 /// All figures together, over the pass.
@@ -89,6 +85,12 @@ pub(crate) fn print_whole(whole: &WholeGates, out: &mut impl Write) -> anyhow::R
         whole.violations, whole.swallowed
     )?;
     Ok(())
+}
+
+/// Where the gates can go wrong.
+pub(crate) fn print_hazards(hazards: &[Hazard], out: &mut impl Write) -> anyhow::Result<()> {
+    writeln!(out, "\nhazards             found by turning one number until it happens")?;
+    hazards.iter().try_for_each(|hazard| print_hazard(hazard, out))
 }
 
 fn print_hazard(hazard: &Hazard, out: &mut impl Write) -> anyhow::Result<()> {

@@ -1,7 +1,8 @@
 //! The keys of `certify --json`; they do not change.
 
 use helixlock_original::Hazard;
-use helixlock_sim::{BlockCheck, Certificate, FlipFlop, WholeGates};
+use helixlock_sim::blocks::BlockCheck;
+use helixlock_sim::{Certificate, FlipFlop, WholeGates};
 use serde::Serialize;
 
 use crate::shared::keys::keys;

@@ -2,6 +2,7 @@
 
 mod gates;
 mod json;
+mod sets;
 mod text;
 
 use std::io::Write;
@@ -11,15 +12,28 @@ use std::process::ExitCode;
 use clap::Args;
 use helixlock_original::hazards;
 use helixlock_plant::Model;
+use helixlock_sim::blocks::{BlockCheck, Blocks, Spread};
 use helixlock_sim::{
-    BlockCheck, Course, FLIP_FLOP, FlipFlop, Options, Spread, certify, certify_gates, check_blocks,
-    mtbf_log10_years,
+    Course, FLIP_FLOP, FlipFlop, Options, certify, certify_gates, mtbf_log10_years, parallel,
 };
+use helixlock_traces::csv::write_csv;
 
 use self::json::{BlockJson, CertificateJson, GatesJson, HazardJson, WholeJson};
+use crate::shared::cases::{Campaign, Cases, Row, Shard, Worked};
 use crate::shared::output::print_json;
 use crate::shared::progress;
 use crate::shared::quantity::length_mm;
+
+/// Sets of gate delays, each tried on every figure.
+pub(crate) const CAMPAIGN: Campaign = Campaign {
+    word: "sets",
+    write_csv: |table, mut file| Ok(write_csv(table, &mut file)?),
+    print: |table, out| {
+        let checks = sets::checks_of(table, &Spread::default())?;
+        gates::print(&checks, out)?;
+        Ok(status(checks.iter().all(BlockCheck::is_alike)))
+    },
+};
 
 /// Compare the clocked logic with the asynchronous original over a whole pass
 ///
@@ -54,6 +68,14 @@ pub(crate) struct Certify {
     /// Where drawing begins
     #[arg(long, value_name = "N", default_value_t = 1977)]
     seed: u64,
+    /// One row a set of delays, the typical ones first, `.csv` or `.parquet`: what every figure did
+    /// with it; what is there already is not run again. With `--shard` the folder of the parts
+    #[arg(short, long, value_name = "FILE|DIR")]
+    output: Option<PathBuf>,
+    /// Run only this part of the sets of delays, `2/8`, and nothing else, on one machine of many;
+    /// `helixlock merge` joins them
+    #[arg(long, value_name = "PART/PARTS", requires = "output")]
+    shard: Option<Shard>,
     /// Run the whole original gate by gate too, loop open and loop closed; with typical delays, or
     /// `--gates=SEED` with delays drawn between the limits of the data sheets
     #[arg(long, value_name = "SEED", num_args = 0..=1, require_equals = true)]
@@ -76,11 +98,16 @@ impl Certify {
     /// Runs the pass through both and prints what differs.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         let machine = Model::read(&self.machine)?;
+        if self.shard.is_some() {
+            self.delay_sets()?.print(&CAMPAIGN, out)?;
+            return Ok(ExitCode::SUCCESS);
+        }
         let options = Options { length_mm: self.length, ..Options::default() };
         let bar = progress::bar(Course::new(&machine, &options)?.clocks(), "clocks");
         let certificate = certify(&machine, self.length, &mut |clocks| bar.set_position(clocks))?;
         bar.finish_and_clear();
-        let checks = check_blocks(&self.spread())?;
+        let sets = self.delay_sets()?;
+        let checks = sets::checks_of(&sets.table, &self.spread())?;
         let hazards = hazards()?;
         let whole =
             self.gates.map(|seed| certify_gates(&machine, self.length, seed)).transpose()?;
@@ -96,13 +123,34 @@ impl Certify {
             text::print(&certificate, out)?;
             let given = [self.settling, self.window, self.lost];
             text::print_metastability(mtbf, given, out)?;
-            gates::print(&checks, &hazards, out)?;
+            gates::print(&checks, out)?;
+            gates::print_hazards(&hazards, out)?;
             whole.iter().try_for_each(|whole| gates::print_whole(whole, out))?;
+            sets.print(&CAMPAIGN, out)?;
         }
         let holds = certificate.holds()
             && checks.iter().all(BlockCheck::is_alike)
             && whole.is_none_or(|whole| whole.holds());
-        Ok(if holds { ExitCode::SUCCESS } else { ExitCode::from(1) })
+        Ok(status(holds))
+    }
+
+    /// The figures with typical delays and with drawn ones, or a part of the sets.
+    fn delay_sets(&self) -> anyhow::Result<Worked> {
+        let (spread, blocks) = (self.spread(), Blocks::all());
+        let cases = Cases {
+            campaign: &CAMPAIGN,
+            number: 1 + spread.drawn,
+            shard: self.shard,
+            columns: sets::columns(),
+            identity: format!("{spread:?}"),
+            inputs: vec![self.machine.clone()],
+        };
+        cases.work_out(self.output.as_deref(), |missing, keep| {
+            parallel(missing, |case| {
+                let cells = sets::cells_of(&blocks.try_delays(&spread, *case)?);
+                keep(Row { case: *case, cells, failure: None })
+            })
+        })
     }
 
     /// How much the figures are given.
@@ -120,4 +168,8 @@ impl Certify {
             overhead_s: given_s(self.lost, FLIP_FLOP.overhead_s),
         }
     }
+}
+
+fn status(holds: bool) -> ExitCode {
+    if holds { ExitCode::SUCCESS } else { ExitCode::from(1) }
 }

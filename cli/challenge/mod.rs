@@ -7,16 +7,33 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use anyhow::Context;
 use clap::Args;
 use helixlock_lab::{
-    Challenge as Task, Experimented, Measurement, Nominal, Problem, Score, challenge, diagnose,
-    experiment,
+    Challenge as Task, Experimented, Measurement, Nominal, Problem, Score, Scored, challenge,
+    diagnose, experiment,
 };
+use helixlock_sim::parallel;
+use helixlock_traces::Table;
 use helixlock_traces::csv::write_csv;
 
 use self::json::{AnswerJson, ExperimentedJson, ScoreJson};
+use crate::shared::cases::{Campaign, Cases, Row, Shard, cells};
 use crate::shared::output::{Batch, print_json};
 use crate::shared::progress;
+
+/// Challenges of a score.
+pub(crate) const CAMPAIGN: Campaign = Campaign {
+    word: "challenges",
+    write_csv: |table, mut file| Ok(write_csv(table, &mut file)?),
+    print: |table, out| {
+        text::print(&score_of(table)?, out)?;
+        Ok(ExitCode::SUCCESS)
+    },
+};
+
+/// Seeds are numbers of a table, which are exact below.
+const MOST_SEEDS: u64 = 1 << 53;
 
 /// Make a machine and data with something hidden, or score the diagnosis on many of them
 #[derive(Debug, Args)]
@@ -24,12 +41,17 @@ pub(crate) struct Challenge {
     /// Seed; equal seeds make equal files
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Folder for `machine.toml`, `data.csv` and, apart from them, `answer.json`
-    #[arg(short, long, required_unless_present_any = ["score", "experiment"])]
+    /// Folder for `machine.toml`, `data.csv` and, apart from them, `answer.json`; with `--score` a
+    /// table, one row a challenge, `.csv` or `.parquet`; with `--shard` the folder of the parts
+    #[arg(short, long, value_name = "DIR|FILE", required_unless_present_any = ["score", "experiment"])]
     output: Option<PathBuf>,
-    /// Solve this many challenges from the seed on and print how many were named rightly
-    #[arg(long, value_name = "K")]
+    /// Solve this many challenges from the seed on and print how many were named rightly; what is
+    /// in the table already is not solved again
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u64).range(1..))]
     score: Option<u64>,
+    /// Solve only this part of so many, `2/8`, on one machine of many; `helixlock merge` joins them
+    #[arg(long, value_name = "PART/PARTS", requires = "score")]
+    shard: Option<Shard>,
     /// Hide this many effects in records that cannot tell them, carry out the experiment that is
     /// advised, and print what the verdict is before and after
     #[arg(long, value_name = "K")]
@@ -42,17 +64,13 @@ pub(crate) struct Challenge {
 impl Challenge {
     /// Writes a folder or prints a score.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
-        if let Some(folder) = &self.output {
-            write(&challenge(self.seed)?, self.seed, folder)?;
-            writeln!(out, "{}: machine.toml, data.csv, answer.json", folder.display())?;
-        }
-        if let Some(number) = self.score {
-            let score = score(self.seed, number)?;
-            if self.json {
-                print_json(out, &ScoreJson::new(&score))?;
-            } else {
-                text::print(&score, out)?;
+        match (self.score, &self.output) {
+            (Some(number), _) => self.score(number, out)?,
+            (None, Some(folder)) => {
+                write(&challenge(self.seed)?, self.seed, folder)?;
+                writeln!(out, "{}: machine.toml, data.csv, answer.json", folder.display())?;
             }
+            (None, None) => {}
         }
         if let Some(number) = self.experiment {
             let tried = experiments(self.seed, number)?;
@@ -65,6 +83,36 @@ impl Challenge {
             }
         }
         Ok(ExitCode::SUCCESS)
+    }
+
+    /// Solves what is missing and prints the score; of a part only how much there is.
+    fn score(&self, number: u64, out: &mut impl Write) -> anyhow::Result<()> {
+        let last = self.seed.checked_add(number).filter(|last| *last <= MOST_SEEDS);
+        last.with_context(|| {
+            format!("`--seed {}`: expected seeds up to {MOST_SEEDS} for a score", self.seed)
+        })?;
+        let cases = Cases {
+            campaign: &CAMPAIGN,
+            number,
+            shard: self.shard,
+            columns: Scored::columns().collect(),
+            identity: format!("challenges {number} from {}", self.seed),
+            inputs: Vec::new(),
+        };
+        let worked = cases.work_out(self.output.as_deref(), |missing, keep| {
+            parallel(missing, |case| {
+                let cells = scored(self.seed + case)?.cells();
+                keep(Row { case: *case, cells, failure: None })
+            })
+        })?;
+        if self.json {
+            return print_json(out, &ScoreJson::new(&score_of(&worked.table)?));
+        }
+        worked.print(&CAMPAIGN, out)?;
+        if self.shard.is_none() {
+            text::print(&score_of(&worked.table)?, out)?;
+        }
+        Ok(())
     }
 }
 
@@ -88,17 +136,21 @@ fn write(task: &Task, seed: u64, folder: &Path) -> anyhow::Result<()> {
     files.keep()
 }
 
-fn score(seed: u64, number: u64) -> anyhow::Result<Score> {
-    let bar = progress::bar(number, "challenges");
+fn scored(seed: u64) -> anyhow::Result<Scored> {
+    let task = challenge(seed)?;
+    let nominal = Nominal::of(&task.machine.model);
+    let measurement = Measurement::from_table(&task.table, &nominal)?;
+    let diagnosis = diagnose(&Problem::new(&task.machine.model, &measurement)?);
+    Ok(Scored::new(seed, &task, &diagnosis))
+}
+
+fn score_of(table: &Table) -> anyhow::Result<Score> {
     let mut score = Score::default();
-    for seed in seed..seed + number {
-        let task = challenge(seed)?;
-        let nominal = Nominal::of(&task.machine.model);
-        let measurement = Measurement::from_table(&task.table, &nominal)?;
-        let diagnosis = diagnose(&Problem::new(&task.machine.model, &measurement)?);
-        score.add(seed, &task, &diagnosis);
-        bar.inc(1);
+    for (row, cells) in cells(table).enumerate() {
+        let scored = Scored::from_cells(&cells);
+        score.add(&scored.with_context(|| {
+            format!("{}: row {row} is no challenge that was scored", table.path.display())
+        })?);
     }
-    bar.finish_and_clear();
     Ok(score)
 }

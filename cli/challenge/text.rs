@@ -5,7 +5,7 @@ use std::io::Write;
 use helixlock_lab::{Experimented, Outcome, Score};
 
 /// Prints the counts and each figure with its interval and target.
-pub(crate) fn print(score: &Score, out: &mut impl Write) -> anyhow::Result<()> {
+pub(crate) fn print(score: &Score, out: &mut dyn Write) -> anyhow::Result<()> {
     for ((hidden, outcome), number) in &score.outcomes {
         writeln!(out, "{hidden:<24} {outcome:<16} {number:>5}")?;
     }

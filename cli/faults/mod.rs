@@ -1,5 +1,7 @@
 //! `helixlock faults`: flips every flip-flop and looks what becomes of the screw.
 
+mod rows;
+
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::PathBuf;
@@ -7,18 +9,30 @@ use std::process::ExitCode;
 
 use clap::Args;
 use comfy_table::{Cell, CellAlignment, Table};
-use helixlock_plant::Model;
-use helixlock_sim::faults::{Faults, Outcome, Verdict, flip_everything, flip_flops};
+use helixlock_plant::MachineFile;
+use helixlock_sim::faults::{Flips, Outcome, Verdict, flip_flops};
 
+use self::rows::{COLUMNS, Faults, VERDICTS, cells_of, faults_of, word, write_csv};
+use crate::shared::cases::{Campaign, Cases, Row, Shard};
 use crate::shared::input::machine_files;
 use crate::shared::keys::keys;
-use crate::shared::output::{print_json, write_whole};
-use crate::shared::progress;
+use crate::shared::output::print_json;
+
+/// Flips of a campaign.
+pub(crate) const CAMPAIGN: Campaign = Campaign {
+    word: "flips",
+    write_csv: |table, file| write_csv(&faults_of(table)?, file),
+    print: |table, out| {
+        print(out, &faults_of(table)?)?;
+        Ok(ExitCode::SUCCESS)
+    },
+};
 
 /// Flip every flip-flop of the running device: does it recover by itself, when, and at what cost
 ///
 /// A flip is unseen, recovers, loses home (a playback would miss zero), or stays (a step in the
-/// thread).
+/// thread). Results stream into FILE.journal while they come; run the same command again and only
+/// what is missing is tried.
 #[derive(Debug, Args)]
 pub(crate) struct FaultsCommand {
     /// Machine file
@@ -27,31 +41,49 @@ pub(crate) struct FaultsCommand {
     /// Instants at which every flip-flop is flipped
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..))]
     instants: u32,
-    /// One row a flip, as CSV
-    #[arg(short, long, value_name = "FILE")]
+    /// One row a flip: `.csv`, or `.parquet` with places for names; with `--shard` the folder of
+    /// the parts
+    #[arg(short, long, value_name = "FILE|DIR")]
     output: Option<PathBuf>,
+    /// Try only this part of so many, `2/8`, on one machine of many; `helixlock merge` joins them
+    #[arg(long, value_name = "PART/PARTS", requires = "output")]
+    shard: Option<Shard>,
     /// Print everything as JSON
     #[arg(long)]
     json: bool,
 }
 
 impl FaultsCommand {
-    /// Runs the campaign, writes and prints it.
+    /// Runs what is missing of the campaign, writes and prints it.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
-        let machine = Model::read(&self.machine)?;
-        let bar = progress::bar(flip_flops() as u64 * u64::from(self.instants), "flips");
-        let faults = flip_everything(&machine, self.instants, &|| bar.inc(1))?;
-        bar.finish_and_clear();
-        if let Some(output) = &self.output {
-            let inputs = machine_files(&self.machine, &machine);
-            write_whole(output, inputs, |file| write_rows(file, &faults))?;
-        }
+        let file = MachineFile::read(&self.machine)?;
+        let flips = Flips::new(&file.model, self.instants)?;
+        let course = [flips.window_s(), flips.band_um()];
+        let worked = self.cases(&file).work_out(self.output.as_deref(), |missing, keep| {
+            flips.try_each(missing, &|case, outcome| {
+                keep(Row { case, cells: cells_of(&outcome, course), failure: None })
+            })
+        })?;
         if self.json {
-            print_json(out, &FaultsJson::new(&faults))?;
-        } else {
-            print(out, &faults)?;
+            print_json(out, &FaultsJson::new(&faults_of(&worked.table)?))?;
+            return Ok(ExitCode::SUCCESS);
         }
-        Ok(ExitCode::SUCCESS)
+        worked.print(&CAMPAIGN, out)?;
+        match self.shard {
+            Some(_) => Ok(ExitCode::SUCCESS),
+            None => (CAMPAIGN.print)(&worked.table, out),
+        }
+    }
+
+    fn cases(&self, file: &MachineFile) -> Cases {
+        Cases {
+            campaign: &CAMPAIGN,
+            number: flip_flops().len() as u64 * u64::from(self.instants),
+            shard: self.shard,
+            columns: COLUMNS.map(str::to_owned).to_vec(),
+            identity: format!("{}\n{} instants", file.text(), self.instants),
+            inputs: machine_files(&self.machine, &file.model),
+        }
     }
 }
 
@@ -65,13 +97,6 @@ struct Block {
     slowest_clocks: u64,
     fault_shown: usize,
 }
-
-const VERDICTS: [(Verdict, &str); 4] = [
-    (Verdict::Unseen, "unseen"),
-    (Verdict::Recovers, "recovers"),
-    (Verdict::HomeLost, "home lost"),
-    (Verdict::Stays, "stays"),
-];
 
 impl Block {
     fn add(&mut self, outcome: &Outcome) {
@@ -99,11 +124,11 @@ impl Block {
     }
 }
 
-fn print(out: &mut impl Write, faults: &Faults) -> anyhow::Result<()> {
+fn print(out: &mut dyn Write, faults: &Faults) -> anyhow::Result<()> {
     let mut blocks: BTreeMap<&str, Block> = BTreeMap::new();
     let mut all = Block::default();
     for outcome in &faults.outcomes {
-        let block = outcome.flip_flop.split_once('.').map_or("device", |(block, _)| block);
+        let block = faults.name(outcome).split_once('.').map_or("device", |(block, _)| block);
         blocks.entry(block).or_default().add(outcome);
         all.add(outcome);
     }
@@ -123,7 +148,7 @@ fn print(out: &mut impl Write, faults: &Faults) -> anyhow::Result<()> {
     writeln!(
         out,
         "{} flip-flops at {} instants, followed for {:.2} s; on course: within {:.4} µm",
-        faults.flip_flops,
+        faults.flip_flops.len(),
         faults.instants_s.len(),
         faults.window_s,
         faults.band_um
@@ -132,7 +157,7 @@ fn print(out: &mut impl Write, faults: &Faults) -> anyhow::Result<()> {
 }
 
 /// What the ring's self-clear and the counter's fault output were worth.
-fn print_safeguards(out: &mut impl Write, faults: &Faults) -> anyhow::Result<()> {
+fn print_safeguards(out: &mut dyn Write, faults: &Faults) -> anyhow::Result<()> {
     let cleared: Vec<&Outcome> =
         faults.outcomes.iter().filter(|flip| 0 < flip.ring_illegal_clocks).collect();
     let clocks = cleared.iter().map(|flip| flip.ring_illegal_clocks).max().unwrap_or(0);
@@ -144,7 +169,7 @@ fn print_safeguards(out: &mut impl Write, faults: &Faults) -> anyhow::Result<()>
         cleared.len(),
     )?;
     let shown = faults.outcomes.iter().filter(|flip| flip.fault_shown);
-    let mut shown: Vec<&str> = shown.map(|flip| flip.flip_flop.as_str()).collect();
+    let mut shown: Vec<&str> = shown.map(|flip| faults.name(flip)).collect();
     shown.sort_unstable();
     shown.dedup();
     let lost = faults.outcomes.iter().filter(|flip| flip.home_error != 0).count();
@@ -157,44 +182,18 @@ fn print_safeguards(out: &mut impl Write, faults: &Faults) -> anyhow::Result<()>
     Ok(())
 }
 
-fn write_rows(file: &mut dyn Write, faults: &Faults) -> anyhow::Result<()> {
-    writeln!(
-        file,
-        "flip_flop,time_s,verdict,healed_clocks,worst_um,left_um,recovery_s,home_error_steps,\
-         ring_slip_steps,ring_illegal_clocks,fault_shown"
-    )?;
-    for outcome in &faults.outcomes {
-        let optional = |number: Option<String>| number.unwrap_or_default();
-        writeln!(
-            file,
-            "{},{},{},{},{},{},{},{},{},{},{}",
-            outcome.flip_flop,
-            outcome.time_s,
-            word(outcome.verdict),
-            optional(outcome.healed_clocks.map(|clocks| clocks.to_string())),
-            outcome.worst_um,
-            outcome.left_um,
-            optional(outcome.recovery_s.map(|seconds| seconds.to_string())),
-            outcome.home_error,
-            outcome.ring_slip,
-            outcome.ring_illegal_clocks,
-            u8::from(outcome.fault_shown),
-        )?;
-    }
-    Ok(())
-}
-
 keys! {
     FaultsJson<'a>(faults: &'a Faults) {
-        flip_flops: usize = faults.flip_flops,
+        flip_flops: usize = faults.flip_flops.len(),
         instants_s: &'a [f64] = &faults.instants_s,
         window_s: f64 = faults.window_s,
         band_um: f64 = faults.band_um,
-        flips: Vec<FlipJson<'a>> = faults.outcomes.iter().map(FlipJson::new).collect(),
+        flips: Vec<FlipJson<'a>> =
+            faults.outcomes.iter().map(|flip| FlipJson::new(flip, faults.name(flip))).collect(),
     }
 
-    FlipJson<'a>(flip: &'a Outcome) {
-        flip_flop: &'a str = &flip.flip_flop,
+    FlipJson<'a>(flip: &'a Outcome, name: &'a str) {
+        flip_flop: &'a str = name,
         time_s: f64 = flip.time_s,
         verdict: String = word(flip.verdict),
         healed_clocks: Option<u64> = flip.healed_clocks,
@@ -206,9 +205,4 @@ keys! {
         ring_illegal_clocks: u64 = flip.ring_illegal_clocks,
         fault_shown: bool = flip.fault_shown,
     }
-}
-
-fn word(verdict: Verdict) -> String {
-    let name = VERDICTS.iter().find(|(known, _)| *known == verdict);
-    name.map_or_else(String::new, |(_, name)| name.replace(' ', "-"))
 }

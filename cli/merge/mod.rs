@@ -9,16 +9,16 @@ use clap::Args;
 use helixlock_traces::read_table;
 use helixlock_traces::table::Table;
 
-use crate::shared::shards::{Format, PartName, Shard, write_cases};
+use crate::shared::cases::{Campaign, Format, PartName, Shard};
 
 /// Most places a message names.
 const NAMED: usize = 10;
 
-/// Join the parts that `sweep --shard` has written into the file of one sweep
+/// Join the parts that `sweep`, `challenge`, `faults` or `certify` with `--shard` have written
 ///
-/// All parts have to be there, of one sweep: of the same version, machine file, values and options,
-/// cut into as many parts. The result is what a single `sweep` writes, byte by byte. Exit status 1:
-/// some cases could not be run, as for a single one.
+/// All parts have to be there, of one run: of the same version, machine file, values and options,
+/// cut into as many parts. The result is what a single run writes, byte by byte, and what it prints.
+/// Exit status 1: some cases could not be run, as for a single one.
 #[derive(Debug, Args)]
 pub(crate) struct Merge {
     /// Folder of the parts
@@ -30,10 +30,15 @@ pub(crate) struct Merge {
 }
 
 impl Merge {
-    /// Checks the parts, joins them, writes the table.
-    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+    /// Checks the parts, joins them, writes the table, and prints what it says to a command that
+    /// works out `campaigns` in parts.
+    pub(crate) fn run(
+        self,
+        campaigns: &[&'static Campaign],
+        out: &mut impl Write,
+    ) -> anyhow::Result<ExitCode> {
         let format = Format::of(&self.output)?;
-        let parts = parts(&self.folder)?;
+        let (parts, campaign) = parts(&self.folder, campaigns)?;
         let paths = || parts.iter().map(|part| self.folder.join(part.to_string()));
         let mut whole: Option<Table> = None;
         for (part, path) in parts.iter().zip(paths()) {
@@ -43,34 +48,33 @@ impl Merge {
                 None => whole = Some(table),
             }
         }
-        let whole = whole.context("a sweep has one part or more")?;
-        write_cases(&self.output, format, paths(), &whole)?;
+        let whole = whole.context("a run has one part or more")?;
+        campaign.write(&self.output, format, paths(), &whole)?;
         writeln!(
             out,
-            "{}: {} cases of {} parts",
+            "{}: {} {} of {} parts",
             self.output.display(),
             whole.rows(),
+            campaign.word,
             parts.len()
         )?;
-        let failed = failed(&whole);
-        if failed.is_empty() {
-            return Ok(ExitCode::SUCCESS);
-        }
-        let more = if NAMED < failed.len() { " …" } else { "" };
-        let named: Vec<String> = failed.iter().take(NAMED).map(u64::to_string).collect();
-        writeln!(out, "{} cases could not be run: {}{more}", failed.len(), named.join(", "))?;
-        writeln!(out, "the sweep of a part says why")?;
-        Ok(ExitCode::from(1))
+        (campaign.print)(&whole, out)
     }
 }
 
-/// The parts of a folder, in order, none missing and all of one sweep.
-fn parts(folder: &Path) -> anyhow::Result<Vec<PartName>> {
+/// The parts of a folder, in order, none missing and all of one run.
+fn parts(
+    folder: &Path,
+    campaigns: &[&'static Campaign],
+) -> anyhow::Result<(Vec<PartName>, &'static Campaign)> {
     let entries = folder.read_dir().with_context(|| folder.display().to_string())?;
     let mut parts = Vec::new();
     for entry in entries {
         parts.extend(entry?.file_name().to_str().and_then(PartName::read));
     }
+    let campaign =
+        |part: &PartName| campaigns.iter().copied().find(|campaign| campaign.word == part.word);
+    parts.retain(|part| campaign(part).is_some());
     parts.sort_by_key(|part| (part.shard.number, part.to_string()));
     let first = parts.first().ok_or_else(|| {
         anyhow!(
@@ -79,8 +83,9 @@ fn parts(folder: &Path) -> anyhow::Result<Vec<PartName>> {
         )
     })?;
     if let Some(other) = parts.iter().find(|part| !part.belongs_to(first)) {
-        bail!("{}: `{first}` and `{other}` are of two sweeps, expected one", folder.display());
+        bail!("{}: `{first}` and `{other}` are of two runs, expected one", folder.display());
     }
+    let campaign = campaign(first).context("parts are of a campaign")?;
     let there = |number: &u64| parts.iter().any(|part| part.shard.number == *number);
     let missing: Vec<u64> = (1..=first.shard.of).filter(|number| !there(number)).collect();
     if !missing.is_empty() {
@@ -94,7 +99,7 @@ fn parts(folder: &Path) -> anyhow::Result<Vec<PartName>> {
             named.join(", ")
         );
     }
-    Ok(parts)
+    Ok((parts, campaign))
 }
 
 /// A part, which holds the cases that its name says.
@@ -124,10 +129,4 @@ fn append(whole: &mut Table, part: Table) -> anyhow::Result<()> {
         column.values.extend(more.values);
     }
     Ok(())
-}
-
-/// Numbers of the cases without figures; the last column is one.
-fn failed(table: &Table) -> Vec<u64> {
-    let last = table.columns.last().map_or(&[][..], |column| &column.values);
-    (0..).zip(last).filter(|(_, figure)| figure.is_nan()).map(|(case, _)| case).collect()
 }

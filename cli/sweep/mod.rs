@@ -1,27 +1,31 @@
 //! `helixlock sweep`: one simulation a point of a grid, or a draw of chance.
 
-mod journal;
-
 use std::io::Write;
-use std::ops::Range;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::sync::Mutex;
 
-use anyhow::{Context, anyhow, bail};
+use anyhow::bail;
 use clap::Args;
 use helixlock_plant::{Formula, MachineFile, MeasuredCurve, Model};
 use helixlock_sim::sweep::{Axis, Case, DrawnAxis, FIGURES, MOST_CASES, Plan};
 use helixlock_sim::{Options, parallel};
-use helixlock_traces::table::{Column, Table};
+use helixlock_traces::Table;
+use helixlock_traces::csv::write_csv;
 
-use self::journal::{Journal, Row};
 use crate::shared::answer::{Answer, Answering};
+use crate::shared::cases::{Campaign, Cases, Row, Shard};
 use crate::shared::input::machine_files;
 use crate::shared::keys::keys;
-use crate::shared::output::make_folder;
-use crate::shared::progress;
-use crate::shared::shards::{Format, PartName, Shard, write_cases};
+
+/// Most places that are named.
+const NAMED: usize = 10;
+
+/// Cases of a sweep.
+pub(crate) const CAMPAIGN: Campaign = Campaign {
+    word: "cases",
+    write_csv: |table, mut file| Ok(write_csv(table, &mut file)?),
+    print: print_merged,
+};
 
 /// Simulate many machines: any value of the file over a range, or by chance
 ///
@@ -60,26 +64,31 @@ impl Sweep {
     /// Runs what is missing and writes the table.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         let file = MachineFile::read(&self.machine)?;
-        let plan = self.plan()?;
-        let options = self.options();
-        let curves = curves(&file.model);
-        let version = env!("CARGO_PKG_VERSION");
-        let identity = format!("{version}\n{}\n{curves:?}\n{plan:?}\n{options:?}", file.text());
-        let (output, format) = self.target(&plan, fingerprint(&identity))?;
-        let width = plan.columns().len() + FIGURES.len();
-        let journal = Journal::open(&output, fingerprint(&identity), width)?;
-        let resumed = journal.rows.len();
-        let rows = run_missing(&file, &plan, self.cases(&plan), &options, journal)?;
-        let inputs = machine_files(&self.machine, &file.model);
-        write_cases(&output, format, inputs, &table(&plan, &rows))?;
-        let done = rows.len() - resumed;
-        writeln!(out, "{}: {} cases, {done} of them run now", output.display(), rows.len())?;
+        let (plan, options) = (self.plan()?, self.options());
+        let cases = self.cases(&file, &plan);
+        let worked = cases.work_out(self.output.as_deref(), |missing, keep| {
+            parallel(missing, |index| keep(row(&plan.case(*index), &file, &options)))
+        })?;
+        worked.print(&CAMPAIGN, out)?;
         let failed = |row: &Row| Some(format!("case {}: {}", row.case, row.failure.as_ref()?));
-        let failures: Vec<String> = rows.iter().filter_map(failed).collect();
+        let failures: Vec<String> = worked.rows.iter().filter_map(failed).collect();
         for failure in &failures {
             writeln!(out, "{failure}")?;
         }
         Ok(if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+    }
+
+    fn cases(&self, file: &MachineFile, plan: &Plan) -> Cases {
+        let (curves, options) = (curves(&file.model), self.options());
+        let figures = FIGURES.iter().map(|name| (*name).to_owned());
+        Cases {
+            campaign: &CAMPAIGN,
+            number: plan.cases(),
+            shard: self.shard,
+            columns: plan.columns().into_iter().chain(figures).collect(),
+            identity: format!("{}\n{curves:?}\n{plan:?}\n{options:?}", file.text()),
+            inputs: machine_files(&self.machine, &file.model),
+        }
     }
 
     fn options(&self) -> Options {
@@ -97,55 +106,29 @@ impl Sweep {
         let drawn =
             self.drawn.iter().map(|text| DrawnAxis::parse(text)).collect::<Result<_, _>>()?;
         let plan = Plan { grid, drawn, samples: self.samples, seed: self.seed };
-        let (all, range) = (plan.cases(), self.cases(&plan));
+        let all = plan.cases();
+        let range = self.shard.map_or(0..all, |shard| shard.cases(all));
         let cases = range.end - range.start;
         if all == u64::MAX || MOST_CASES < cases {
             let more = if all == u64::MAX { " or more" } else { "" };
             bail!(
-                "{cases}{more} cases, expected at most {MOST_CASES}\n                 hint: fewer values of each key, `--draw` with `--samples`, or parts of it with `--shard`"
+                "{cases}{more} cases, expected at most {MOST_CASES}\n\
+                 hint: fewer values of each key, `--draw` with `--samples`, or parts of it with `--shard`"
             );
         }
-        if let Some(Shard { of, .. }) = self.shard
-            && all < of
-        {
-            bail!("`--shard`: {of} parts of {all} cases, expected a case for each at least");
-        }
         Ok(plan)
-    }
-
-    /// The cases asked for, of all.
-    fn cases(&self, plan: &Plan) -> Range<u64> {
-        self.shard.map_or(0..plan.cases(), |shard| shard.cases(plan.cases()))
-    }
-
-    /// Where the results go.
-    fn target(&self, plan: &Plan, fingerprint: u64) -> anyhow::Result<(PathBuf, Format)> {
-        let output = self.output.as_deref().context("no file, expected `-o FILE`")?;
-        let Some(shard) = self.shard else {
-            return Ok((output.to_owned(), Format::of(output)?));
-        };
-        make_folder(output)?;
-        let part = PartName { shard, cases: plan.cases(), fingerprint };
-        Ok((output.join(part.to_string()), Format::Parquet))
     }
 }
 
 impl Answering for Sweep {
     /// With the table `cases`; nothing is kept for a later run.
     fn answer(&self) -> anyhow::Result<Answer> {
-        let (file, plan, options) =
-            (MachineFile::read(&self.machine)?, self.plan()?, self.options());
-        let cases: Vec<u64> = self.cases(&plan).collect();
-        let rows = Mutex::new(Vec::new());
-        let lost = || anyhow!("another case has failed");
-        parallel(&cases, |index| {
-            let row = row(&plan.case(*index), &file, &options);
-            rows.lock().map_err(|_| lost())?.push(row);
-            anyhow::Ok(())
+        let file = MachineFile::read(&self.machine)?;
+        let (plan, options) = (self.plan()?, self.options());
+        let worked = self.cases(&file, &plan).work_out(None, |missing, keep| {
+            parallel(missing, |index| keep(row(&plan.case(*index), &file, &options)))
         })?;
-        let mut rows = rows.into_inner().map_err(|_| lost())?;
-        rows.sort_by_key(|row| row.case);
-        Ok(Answer::new(&SweptJson::new(&rows))?.with_table("cases", table(&plan, &rows)))
+        Ok(Answer::new(&SweptJson::new(&worked.rows))?.with_table("cases", worked.table))
     }
 }
 
@@ -177,30 +160,6 @@ fn curves(model: &Model) -> Vec<&MeasuredCurve> {
         .collect()
 }
 
-/// Simulates the cases that the journal lacks, on all cores; gives all rows in order.
-fn run_missing(
-    file: &MachineFile,
-    plan: &Plan,
-    cases: Range<u64>,
-    options: &Options,
-    journal: Journal,
-) -> anyhow::Result<Vec<Row>> {
-    let bar = progress::bar(cases.end - cases.start, "cases");
-    let missing: Vec<u64> = cases.filter(|case| !journal.has(*case)).collect();
-    bar.set_position(journal.rows.len() as u64);
-    let journal = Mutex::new(journal);
-    parallel(&missing, |index| {
-        let case = plan.case(*index);
-        let row = row(&case, file, options);
-        bar.inc(1);
-        journal.lock().map_err(|_| anyhow!("another case has failed"))?.append(row)
-    })?;
-    bar.finish_and_clear();
-    let mut rows = journal.into_inner().map_err(|_| anyhow!("another case has failed"))?.rows;
-    rows.sort_by_key(|row| row.case);
-    Ok(rows)
-}
-
 /// Values and figures of a case; figures are not numbers when it cannot be run.
 fn row(case: &Case, file: &MachineFile, options: &Options) -> Row {
     let (figures, failure) = match case.run(file, options) {
@@ -210,21 +169,17 @@ fn row(case: &Case, file: &MachineFile, options: &Options) -> Row {
     Row { case: case.index, cells: [case.values.clone(), figures].concat(), failure }
 }
 
-#[expect(clippy::cast_precision_loss, reason = "fewer than 2⁵³ cases")]
-fn table(plan: &Plan, rows: &[Row]) -> Table {
-    let number =
-        Column { name: "case".into(), values: rows.iter().map(|row| row.case as f64).collect() };
-    let names = plan.columns().into_iter().chain(FIGURES.iter().map(|name| (*name).to_owned()));
-    let columns = names.enumerate().map(|(place, name)| Column {
-        name,
-        values: rows.iter().map(|row| row.cells[place]).collect(),
-    });
-    Table::new(std::iter::once(number).chain(columns).collect())
-}
-
-/// FNV-1a over the bytes.
-fn fingerprint(text: &str) -> u64 {
-    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-    })
+/// Says which cases could not be run: those without figures, of which the last column is one.
+fn print_merged(table: &Table, out: &mut dyn Write) -> anyhow::Result<ExitCode> {
+    let last = table.columns.last().map_or(&[][..], |column| &column.values);
+    let failed: Vec<u64> =
+        (0..).zip(last).filter(|(_, figure)| figure.is_nan()).map(|(case, _)| case).collect();
+    if failed.is_empty() {
+        return Ok(ExitCode::SUCCESS);
+    }
+    let more = if NAMED < failed.len() { " …" } else { "" };
+    let named: Vec<String> = failed.iter().take(NAMED).map(u64::to_string).collect();
+    writeln!(out, "{} cases could not be run: {}{more}", failed.len(), named.join(", "))?;
+    writeln!(out, "the sweep of a part says why")?;
+    Ok(ExitCode::from(1))
 }

@@ -34,8 +34,8 @@ pub use answer::{
     Spectra, Verdict, add, compare, diagnose, final_check, fingerprint, ledger, spectra, written,
 };
 pub use challenge::{
-    Challenge, ChallengeError, Experimented, Figure, Hidden, Outcome, Score, Share, challenge,
-    experiment, judge,
+    Challenge, ChallengeError, Experimented, Figure, Hidden, Outcome, Score, Scored, Share,
+    challenge, experiment, judge,
 };
 pub use discover::{Discovery, FormulaParameter, Found, Proposal, RunnerUp, discover};
 pub use doubts::{Doubt, divider_doubt, doubts};

@@ -8,7 +8,7 @@ mod parallel;
 pub mod sweep;
 
 pub use certify::{
-    BlockCheck, BothClosed, Certificate, FLIP_FLOP, FlipFlop, OpenLoop, Spread, WholeGates,
-    certify, certify_gates, check_blocks, mtbf_log10_years,
+    BothClosed, Certificate, FLIP_FLOP, FlipFlop, OpenLoop, WholeGates, blocks, certify,
+    certify_gates, mtbf_log10_years,
 };
 pub use parallel::parallel;

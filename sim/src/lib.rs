@@ -8,8 +8,8 @@ mod error;
 mod historic;
 
 pub use campaigns::{
-    BlockCheck, BothClosed, Certificate, FLIP_FLOP, FlipFlop, OpenLoop, Spread, WholeGates,
-    certify, certify_gates, check_blocks, faults, mtbf_log10_years, parallel, sweep,
+    BothClosed, Certificate, FLIP_FLOP, FlipFlop, OpenLoop, WholeGates, blocks, certify,
+    certify_gates, faults, mtbf_log10_years, parallel, sweep,
 };
 pub use closed_loop::{
     ANALOGUE, Analogue, Change, ClosedLoop, Comparison, Course, Findings, Grinder, Hunting,

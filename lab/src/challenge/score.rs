@@ -2,10 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use helixlock_plant::Term;
-
-use super::{Challenge, Hidden, Outcome, judge};
-use crate::answer::{Diagnosis, Verdict};
+use super::{Outcome, Scored};
 
 /// Counts over many challenges.
 #[derive(Debug, Default)]
@@ -38,10 +35,29 @@ pub enum Figure {
     Parameters,
 }
 
-/// Held-out error that counts as noise, against the true noise.
-const HELD_OUT: f64 = 1.1;
-
 impl Figure {
+    /// All of them, in order.
+    pub(super) const ALL: [Self; 6] = [
+        Self::NamedRightly,
+        Self::FalselyNamed,
+        Self::NothingMissing,
+        Self::Unexplained,
+        Self::HeldOut,
+        Self::Parameters,
+    ];
+
+    /// As the name of a column.
+    pub(super) fn key(self) -> &'static str {
+        match self {
+            Self::NamedRightly => "named_rightly",
+            Self::FalselyNamed => "falsely_named",
+            Self::NothingMissing => "nothing_missing",
+            Self::Unexplained => "unexplained",
+            Self::HeldOut => "held_out",
+            Self::Parameters => "parameters",
+        }
+    }
+
     /// In words.
     #[must_use]
     pub fn words(self) -> &'static str {
@@ -69,7 +85,7 @@ impl Figure {
 }
 
 /// So many of so many.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Share {
     /// So many.
     pub yes: f64,
@@ -78,7 +94,7 @@ pub struct Share {
 }
 
 impl Share {
-    fn add(&mut self, yes: bool) {
+    pub(super) fn add(&mut self, yes: bool) {
         self.of += 1.0;
         self.yes += f64::from(u8::from(yes));
     }
@@ -102,37 +118,22 @@ impl Share {
 }
 
 impl Score {
-    /// Counts one challenge with its diagnosis.
-    pub fn add(&mut self, seed: u64, task: &Challenge, diagnosis: &Diagnosis) {
-        let last = diagnosis.rounds.last();
-        let names: Vec<String> = last
-            .map(|round| round.effects.iter().map(|effect| effect.name.clone()).collect())
-            .unwrap_or_default();
-        let outcome = judge(&task.hidden, diagnosis.verdict, &names);
-        if matches!(outcome, Outcome::FalselyNamed | Outcome::Missed) {
-            self.wrong.push(seed);
+    /// Counts one challenge.
+    pub fn add(&mut self, one: &Scored) {
+        if matches!(one.outcome, Outcome::FalselyNamed | Outcome::Missed) {
+            self.wrong.push(one.seed);
         }
-        *self.outcomes.entry((hidden_word(&task.hidden), outcome_word(outcome))).or_default() += 1;
-        self.before += diagnosis.rounds.first().map_or(0.0, |round| round.rms_um);
-        self.after += last.map_or(0.0, |round| round.holdout_rms_um);
+        let words = (one.hidden.word(), outcome_word(one.outcome));
+        *self.outcomes.entry(words).or_default() += 1;
+        self.before += one.rms_um;
+        self.after += one.holdout_rms_um;
         self.number += 1.0;
-        self.count(Figure::FalselyNamed, outcome == Outcome::FalselyNamed);
-        match &task.hidden {
-            Hidden::Nothing => {
-                self.count(Figure::NothingMissing, diagnosis.verdict == Verdict::NothingMissing);
+        for (figure, share) in Figure::ALL.into_iter().zip(one.shares) {
+            if 0.0 < share.of {
+                let sum = self.figures.entry(figure).or_default();
+                sum.yes += share.yes;
+                sum.of += share.of;
             }
-            Hidden::Outside(_) => {
-                self.count(Figure::Unexplained, diagnosis.verdict == Verdict::Unexplained);
-            }
-            Hidden::Effects(effects) if effects.len() == 1 => {
-                self.count(Figure::NamedRightly, outcome == Outcome::Right);
-            }
-            Hidden::Effects(_) => {}
-        }
-        if diagnosis.verdict == Verdict::Explained && outcome == Outcome::Right {
-            let held_out = last.map_or(f64::INFINITY, |round| round.holdout_rms_um);
-            self.count(Figure::HeldOut, held_out <= HELD_OUT * task.noise_um);
-            self.parameters(&task.terms, diagnosis);
         }
     }
 
@@ -140,47 +141,6 @@ impl Score {
     #[must_use]
     pub fn mean_rms_um(&self) -> [f64; 2] {
         [self.before, self.after].map(|sum| sum / self.number.max(1.0))
-    }
-
-    fn count(&mut self, figure: Figure, yes: bool) {
-        self.figures.entry(figure).or_default().add(yes);
-    }
-
-    /// Every fitted parameter with a standard error against its true value.
-    fn parameters(&mut self, truth: &[Term], diagnosis: &Diagnosis) {
-        let found = diagnosis.rounds.last().map_or(&[][..], |round| &round.effects);
-        for term in truth {
-            let Some(effect) = found.iter().find(|effect| effect.name == term.name) else {
-                continue;
-            };
-            for (what, true_value) in term.parameters.iter().zip(&term.values) {
-                let fitted = effect.parameters.iter().find(|one| one.key == what.key());
-                let Some((fitted, stderr)) = fitted.and_then(|one| Some((one, one.stderr?))) else {
-                    continue;
-                };
-                let turn = if what.unit.suffix() == "deg" { 360.0 } else { f64::INFINITY };
-                let off = around(fitted.value - true_value, turn).abs();
-                self.count(Figure::Parameters, off <= 2.0 * stderr);
-            }
-        }
-    }
-}
-
-/// A difference brought within half a period of zero.
-fn around(difference: f64, period: f64) -> f64 {
-    if period.is_finite() {
-        difference - period * (difference / period).round()
-    } else {
-        difference
-    }
-}
-
-fn hidden_word(hidden: &Hidden) -> &'static str {
-    match hidden {
-        Hidden::Nothing => "nothing hidden",
-        Hidden::Effects(effects) if effects.len() == 1 => "one effect",
-        Hidden::Effects(_) => "two effects",
-        Hidden::Outside(_) => "outside the catalogue",
     }
 }
 

@@ -121,7 +121,7 @@ fn within((what, &value): (&Parameter, &f64)) -> f64 {
 }
 
 /// How a diagnosis did on a challenge.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Outcome {
     /// The hidden effects by name, or nothing where nothing is.
     Right,

@@ -24,7 +24,7 @@
 //! widths differ from half a period by less than a clock, or by less than the old flip-flop's
 //! shortest clock, the two may decide differently, and no difference is measurable.
 
-mod blocks;
+pub mod blocks;
 mod closed;
 mod coincidence;
 mod metastability;
@@ -38,7 +38,6 @@ use crate::Error;
 use crate::closed_loop::{Course, Grinder, Options};
 use crate::historic::TTL;
 
-pub use blocks::{BlockCheck, Spread, check_blocks};
 pub use closed::BothClosed;
 pub use metastability::{FLIP_FLOP, FlipFlop, mtbf_log10_years};
 pub use open::OpenLoop;

@@ -13,7 +13,7 @@
 mod ring;
 mod tap;
 
-use helixlock_netlist::Netlist;
+use helixlock_netlist::Signal;
 use helixlock_plant::Model;
 
 use super::parallel::parallel;
@@ -47,8 +47,8 @@ pub const LOGIC_CLOCKS: u64 = 20_000;
 /// One flip and what came of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
-    /// Register and bit, such as `ring.a_q[0]`.
-    pub flip_flop: String,
+    /// Place of the flip-flop among the [names](flip_flops) of all.
+    pub flip_flop: usize,
     /// When it was flipped, s since power-up.
     pub time_s: f64,
     /// Clocks until all flip-flops were as if nothing had happened, given the same pins; `None`
@@ -86,59 +86,82 @@ pub enum Verdict {
     Stays,
 }
 
-/// A campaign.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Faults {
-    /// Flip-flops of the device.
-    pub flip_flops: usize,
-    /// Instants, s since power-up.
-    pub instants_s: Vec<f64>,
-    /// How long each flip was followed in closed loop, s.
-    pub window_s: f64,
-    /// Within this the table is on its course, µm.
-    pub band_um: f64,
-    /// By instant, then by flip-flop.
-    pub outcomes: Vec<Outcome>,
+/// Every flip-flop at some instants of a closed-loop pass: flips that do not know of each other, by
+/// instant, then by flip-flop.
+#[derive(Debug)]
+pub struct Flips<'a> {
+    bench: Bench<'a>,
+    clocks: Vec<u64>,
 }
 
-/// Flips every flip-flop at `instants` instants of a closed-loop pass.
-///
-/// `progress` is told, from any thread, that one more flip is done.
-///
-/// # Errors
-///
-/// [`Error`] when the machine cannot be simulated.
-pub fn flip_everything(
-    model: &Model,
-    instants: u32,
-    progress: &(impl Fn() + Sync),
-) -> Result<Faults, Error> {
-    let bench = Bench::new(model)?;
-    let clocks = bench.instants(instants)?;
-    let mut outcomes = Vec::new();
-    for clock in &clocks {
-        let undisturbed = bench.undisturbed(*clock)?;
-        let healed = healed(&undisturbed);
-        let flips: Vec<(usize, Option<u64>)> = healed.into_iter().enumerate().collect();
-        outcomes.extend(bench.flips(&undisturbed, &flips, progress)?);
+impl<'a> Flips<'a> {
+    /// All flip-flops at `instants` instants.
+    ///
+    /// # Errors
+    ///
+    /// [`Error`] when the machine cannot be simulated.
+    pub fn new(model: &'a Model, instants: u32) -> Result<Self, Error> {
+        let bench = Bench::new(model)?;
+        let clocks = bench.instants(instants)?;
+        Ok(Self { bench, clocks })
     }
-    Ok(Faults {
-        flip_flops: flip_flops(),
-        instants_s: clocks.iter().map(|clock| bench.time_s(*clock)).collect(),
-        window_s: f64::from(WINDOW) / bench.course.comparison_hz,
-        band_um: bench.course.swing_um,
-        outcomes,
-    })
+
+    /// How long each flip is followed in closed loop, s.
+    #[must_use]
+    pub fn window_s(&self) -> f64 {
+        f64::from(WINDOW) / self.bench.course.comparison_hz
+    }
+
+    /// Within this the table is on its course, µm.
+    #[must_use]
+    pub fn band_um(&self) -> f64 {
+        self.bench.course.swing_um
+    }
+
+    /// Tries the flips of these numbers, in rising order, on all cores.
+    ///
+    /// `keep` is given each with its number, from any thread, in any order.
+    ///
+    /// # Errors
+    ///
+    /// [`Error`] when the machine cannot be simulated; and what `keep` fails with.
+    pub fn try_each<E: From<Error> + Send>(
+        &self,
+        flips: &[u64],
+        keep: &(impl Fn(u64, Outcome) -> Result<(), E> + Sync),
+    ) -> Result<(), E> {
+        let flip_flops = flip_flops().len();
+        for (clock, first) in self.clocks.iter().zip((0..).step_by(flip_flops)) {
+            let here = first..first + flip_flops as u64;
+            if !flips.iter().any(|flip| here.contains(flip)) {
+                continue;
+            }
+            let undisturbed = self.bench.undisturbed(*clock)?;
+            let all = here.zip(healed(&undisturbed).into_iter().enumerate());
+            let wanted: Vec<(u64, (usize, Option<u64>))> =
+                all.filter(|(flip, _)| flips.binary_search(flip).is_ok()).collect();
+            parallel(&wanted, |(flip, (flip_flop, healed_clocks))| {
+                keep(*flip, self.bench.flip(&undisturbed, *flip_flop, *healed_clocks)?)
+            })?;
+        }
+        Ok(())
+    }
 }
 
-/// Number of flip-flops of the device.
+/// Names of the flip-flops of the device, register and bit, such as `ring.a_q[0]`.
 #[must_use]
-pub fn flip_flops() -> usize {
+pub fn flip_flops() -> Vec<String> {
     let netlist = device().netlist();
-    netlist.registers.iter().map(|register| netlist.signal(register.output).width as usize).sum()
+    let registers = netlist.registers.iter().map(|register| netlist.signal(register.output));
+    let bits = |signal: &Signal| {
+        let path = signal.path.clone();
+        (0..signal.width).map(move |bit| format!("{path}[{bit}]"))
+    };
+    registers.flat_map(bits).collect()
 }
 
 /// The machine on which flips are tried.
+#[derive(Debug)]
 struct Bench<'a> {
     model: &'a Model,
     course: Course,
@@ -209,26 +232,6 @@ impl<'a> Bench<'a> {
         Ok(Undisturbed { moment, changes: std::mem::take(&mut device.engine().changes), track })
     }
 
-    fn flips(
-        &self,
-        undisturbed: &Undisturbed,
-        flips: &[(usize, Option<u64>)],
-        progress: &(impl Fn() + Sync),
-    ) -> Result<Vec<Outcome>, Error> {
-        let outcomes = std::sync::Mutex::new(Vec::new());
-        parallel(flips, |(flip_flop, healed_clocks)| {
-            let outcome = self.flip(undisturbed, *flip_flop, *healed_clocks)?;
-            // A thread that panicked has spoilt nothing that is kept here.
-            let mut outcomes = outcomes.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-            outcomes.push((*flip_flop, outcome));
-            progress();
-            Ok::<(), Error>(())
-        })?;
-        let mut outcomes = outcomes.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-        outcomes.sort_by_key(|(flip_flop, _)| *flip_flop);
-        Ok(outcomes.into_iter().map(|(_, outcome)| outcome).collect())
-    }
-
     /// The pass again, with one flip-flop flipped.
     fn flip(
         &self,
@@ -248,7 +251,7 @@ impl<'a> Bench<'a> {
         let deviation = Deviation::of(&undisturbed.track, &track, self.course.swing_um);
         let (home_error, ring_slip) = disagreement(&undisturbed.track, &track);
         Ok(Outcome {
-            flip_flop: name(device.engine().netlist(), flip_flop),
+            flip_flop,
             time_s: self.time_s(undisturbed.moment.clock),
             healed_clocks,
             worst_um: deviation.worst_um,
@@ -366,20 +369,6 @@ fn healed_together(undisturbed: &Undisturbed, flips: &[usize]) -> Vec<Option<u64
         }
     }
     healed
-}
-
-/// Register and bit of a flip-flop.
-fn name(netlist: &Netlist, flip_flop: usize) -> String {
-    let mut low = 0;
-    for register in &netlist.registers {
-        let signal = netlist.signal(register.output);
-        let width = signal.width as usize;
-        if flip_flop < low + width {
-            return format!("{}[{}]", signal.path, flip_flop - low);
-        }
-        low += width;
-    }
-    format!("flip-flop {flip_flop}")
 }
 
 fn counted(engine: &mut impl Engine) -> Result<i64, Error> {

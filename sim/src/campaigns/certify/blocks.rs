@@ -7,12 +7,13 @@ mod drives;
 mod pair;
 
 use helixlock_netlist::{Library, Netlist, elaborate};
-use helixlock_original::{Check, Corner, Delays, Error as OriginalError};
+use helixlock_original::{Check, Circuit, Corner, Delays, Error as OriginalError};
 use helixlock_rtl::BLOCKS;
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 use crate::error::Error;
 
-use self::drives::DRIVES;
+use self::drives::{DRIVES, Drive};
 use self::pair::Pair;
 
 /// What the comparison of one figure gave.
@@ -40,7 +41,38 @@ pub struct BlockCheck {
     pub swallowed: u64,
 }
 
+impl Spread {
+    /// Seed of the delays in a place; `None` for the typical ones.
+    fn seed_of(&self, place: u64) -> Option<u64> {
+        place.checked_sub(1).map(|drawn| self.seed.wrapping_add(drawn))
+    }
+}
+
 impl BlockCheck {
+    /// A figure that nothing was tried on yet.
+    #[must_use]
+    pub fn new(figure: &'static str, block: &'static str) -> Self {
+        Self { figure, block, ..Self::default() }
+    }
+
+    /// Adds what the figure did with the delays of a place.
+    pub fn add(&mut self, spread: &Spread, place: u64, seen: &Seen) {
+        self.pulses += seen.pulses;
+        self.slowest_ps = self.slowest_ps.max(seen.slowest_ps);
+        self.violations += seen.violations;
+        self.swallowed += seen.swallowed;
+        let drawn_from = spread.seed_of(place);
+        if drawn_from.is_none() {
+            self.different = seen.different;
+            return;
+        }
+        self.drawn += 1;
+        if 0 < seen.different {
+            self.drawn_different += 1;
+            self.first_seed = self.first_seed.or(drawn_from);
+        }
+    }
+
     /// Alike with typical delays.
     #[must_use]
     pub fn is_alike(&self) -> bool {
@@ -49,7 +81,7 @@ impl BlockCheck {
 }
 
 /// How much is compared.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Spread {
     /// Pulses with typical delays.
     pub pulses: u64,
@@ -61,13 +93,70 @@ pub struct Spread {
     pub seed: u64,
 }
 
-/// Compares every figure that has a synchronous block.
-///
-/// # Errors
-///
-/// When a circuit cannot be run.
-pub fn check_blocks(spread: &Spread) -> Result<Vec<BlockCheck>, Error> {
-    DRIVES.iter().map(|drive| check(drive, spread).map_err(Error::from)).collect()
+/// What one set of delays did to one figure.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Seen {
+    /// Pulses given.
+    pub pulses: u64,
+    /// Pulses after which the two differ.
+    pub different: u64,
+    /// Longest time from the last change of an input to the last one of an output, ps.
+    pub slowest_ps: u64,
+    /// Pulses shorter, or data less at rest, than a data sheet allows.
+    pub violations: u64,
+    /// Pulses that a gate swallowed.
+    pub swallowed: u64,
+}
+
+/// The figures that have a synchronous block, each with the block's name.
+pub fn figures() -> impl Iterator<Item = (&'static str, &'static str)> {
+    DRIVES.iter().map(|drive| (drive.figure, drive.block))
+}
+
+/// Every figure and its block, ready to be compared.
+#[derive(Debug)]
+pub struct Blocks {
+    pairs: Vec<(&'static Drive, Circuit, Netlist)>,
+}
+
+impl Blocks {
+    /// Builds all of them.
+    #[must_use]
+    pub fn all() -> Self {
+        let pairs = DRIVES.iter().map(|drive| (drive, (drive.build)(), netlist(drive.block)));
+        Self { pairs: pairs.collect() }
+    }
+
+    /// What every figure does, in the order of [`figures`], with typical delays in place 0, with
+    /// drawn ones in the places behind.
+    ///
+    /// # Errors
+    ///
+    /// When a circuit cannot be run.
+    pub fn try_delays(&self, spread: &Spread, place: u64) -> Result<Vec<Seen>, Error> {
+        match spread.seed_of(place) {
+            Some(seed) => {
+                self.compare(spread.drawn_pulses, seed, |circuit| Delays::drawn(circuit, seed))
+            }
+            None => self.compare(spread.pulses, spread.seed, |circuit| {
+                Delays::corner(circuit, Corner::Typical)
+            }),
+        }
+    }
+
+    fn compare(
+        &self,
+        pulses: u64,
+        seed: u64,
+        delays: impl Fn(&Circuit) -> Delays + Sync,
+    ) -> Result<Vec<Seen>, Error> {
+        let compared = self.pairs.par_iter().map(|(drive, circuit, netlist)| {
+            let mut pair = Pair::new(drive, (circuit, netlist), &delays(circuit), seed)?;
+            let different = pair.run(pulses)?;
+            Ok(Seen::of(&pair, pulses, different))
+        });
+        compared.collect::<Result<Vec<Seen>, OriginalError>>().map_err(Error::from)
+    }
 }
 
 /// The flat netlist of a block.
@@ -78,41 +167,17 @@ fn netlist(block: &str) -> Netlist {
     Netlist::new(&design).expect("every design of ours flattens")
 }
 
-fn check(drive: &drives::Drive, spread: &Spread) -> Result<BlockCheck, OriginalError> {
-    let (circuit, netlist) = ((drive.build)(), netlist(drive.block));
-    let both = (&circuit, &netlist);
-    let mut check = BlockCheck {
-        figure: drive.figure,
-        block: drive.block,
-        drawn: spread.drawn,
-        ..BlockCheck::default()
-    };
-    let typical = Delays::corner(&circuit, Corner::Typical);
-    let mut pair = Pair::new(drive, both, &typical, spread.seed)?;
-    check.different = pair.run(spread.pulses)?;
-    check.add(&pair, spread.pulses);
-    for place in 0..spread.drawn {
-        let seed = spread.seed.wrapping_add(place);
-        let mut pair = Pair::new(drive, both, &Delays::drawn(&circuit, seed), seed)?;
-        if 0 < pair.run(spread.drawn_pulses)? {
-            check.drawn_different += 1;
-            check.first_seed = check.first_seed.or(Some(seed));
-        }
-        check.add(&pair, spread.drawn_pulses);
-    }
-    Ok(check)
-}
-
-impl BlockCheck {
-    fn add(&mut self, pair: &Pair, pulses: u64) {
-        self.pulses += pulses;
-        self.slowest_ps = self.slowest_ps.max(pair.slowest_ps());
+impl Seen {
+    fn of(pair: &Pair, pulses: u64, different: u64) -> Self {
+        let slowest_ps = pair.slowest_ps();
+        let mut seen = Self { pulses, different, slowest_ps, ..Self::default() };
         for finding in pair.findings() {
             match finding.check {
-                Check::Swallowed => self.swallowed += finding.count,
-                _ => self.violations += finding.count,
+                Check::Swallowed => seen.swallowed += finding.count,
+                _ => seen.violations += finding.count,
             }
         }
+        seen
     }
 }
 
@@ -125,7 +190,13 @@ mod tests {
     /// Typical parts do what the synchronous blocks do, and every figure is given pulses.
     #[test]
     fn figures_do_what_the_blocks_do() {
-        let checks = check_blocks(&SPREAD).unwrap();
+        let blocks = Blocks::all();
+        let mut checks: Vec<_> =
+            figures().map(|(figure, block)| BlockCheck::new(figure, block)).collect();
+        for place in 0..=SPREAD.drawn {
+            let seen = blocks.try_delays(&SPREAD, place).unwrap();
+            checks.iter_mut().zip(&seen).for_each(|(check, seen)| check.add(&SPREAD, place, seen));
+        }
         assert_eq!(checks.len(), DRIVES.len());
         for check in checks {
             assert!(check.is_alike(), "{check:?}");

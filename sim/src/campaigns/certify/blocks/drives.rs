@@ -10,6 +10,7 @@ use helixlock_original::figures::{
 };
 
 /// A figure and a block.
+#[derive(Debug)]
 pub(super) struct Drive {
     pub(super) figure: &'static str,
     pub(super) block: &'static str,
@@ -28,6 +29,7 @@ pub(super) struct Drive {
 }
 
 /// Something that comes: to a pin of the figure and an input of the block.
+#[derive(Debug)]
 pub(super) enum Move {
     /// To the other level, and back.
     Pulse { pin: &'static str, input: &'static str },
@@ -52,6 +54,7 @@ impl Move {
 }
 
 /// What has to be alike.
+#[derive(Debug)]
 pub(super) enum Output {
     /// The number of pulses; those of the block are clocks.
     Pulses { pin: &'static str, signal: &'static str },

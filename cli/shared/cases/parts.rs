@@ -1,16 +1,8 @@
-//! Parts of a sweep, each worked out on a machine of its own: their names, and the file they make.
+//! Parts of a run, each worked out on a machine of its own, and their names.
 
 use std::fmt;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
 use std::str::FromStr;
-
-use anyhow::bail;
-use helixlock_traces::csv::write_csv;
-use helixlock_traces::parquet::write_parquet;
-use helixlock_traces::table::Table;
-
-use super::output::write_whole;
 
 /// More parts than files in a folder are good for.
 const MOST_PARTS: u64 = 100_000;
@@ -51,8 +43,10 @@ impl FromStr for Shard {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct PartName {
     pub(crate) shard: Shard,
-    /// Cases of the whole sweep.
+    /// Cases of all parts.
     pub(crate) cases: u64,
+    /// What the cases are, such as `flips`.
+    pub(crate) word: String,
     /// Of version, machine file, values and options.
     pub(crate) fingerprint: u64,
 }
@@ -61,62 +55,27 @@ impl PartName {
     /// Reads a name; `None` for any other file.
     pub(crate) fn read(name: &str) -> Option<Self> {
         let words: Vec<&str> = name.strip_suffix(".parquet")?.split('-').collect();
-        let ["part", number, "of", of, cases, "cases", fingerprint] = words[..] else {
+        let ["part", number, "of", of, cases, word, fingerprint] = words[..] else {
             return None;
         };
         let shard = format!("{number}/{of}").parse().ok()?;
         let fingerprint = u64::from_str_radix(fingerprint, 16).ok()?;
-        let part = Self { shard, cases: cases.parse().ok()?, fingerprint };
+        let (cases, word) = (cases.parse().ok()?, word.to_owned());
+        let part = Self { shard, cases, word, fingerprint };
         (part.to_string() == name).then_some(part)
     }
 
-    /// True when both are parts of one sweep, cut alike.
+    /// True when both are parts of one run, cut alike.
     pub(crate) fn belongs_to(&self, other: &Self) -> bool {
-        let whole = |part: &Self| (part.shard.of, part.cases, part.fingerprint);
-        whole(self) == whole(other)
+        *self == Self { shard: Shard { number: self.shard.number, ..other.shard }, ..other.clone() }
     }
 }
 
 impl fmt::Display for PartName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { shard: Shard { number, of }, cases, fingerprint } = self;
-        write!(f, "part-{number}-of-{of}-{cases}-cases-{fingerprint:016x}.parquet")
+        let Self { shard: Shard { number, of }, cases, word, fingerprint } = self;
+        write!(f, "part-{number}-of-{of}-{cases}-{word}-{fingerprint:016x}.parquet")
     }
-}
-
-/// What a name's ending asks for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Format {
-    Csv,
-    Parquet,
-}
-
-impl Format {
-    /// By the ending of a name.
-    pub(crate) fn of(path: &Path) -> anyhow::Result<Self> {
-        match path.extension().and_then(|extension| extension.to_str()) {
-            Some("csv") => Ok(Self::Csv),
-            Some("parquet") => Ok(Self::Parquet),
-            _ => bail!("{}: expected a name in .csv or .parquet", path.display()),
-        }
-    }
-}
-
-/// Writes cases; `inputs` is what the command has read.
-pub(crate) fn write_cases(
-    path: &Path,
-    format: Format,
-    inputs: impl IntoIterator<Item = PathBuf>,
-    table: &Table,
-) -> anyhow::Result<()> {
-    write_whole(path, inputs, |mut file| match format {
-        Format::Csv => Ok(write_csv(table, &mut file)?),
-        Format::Parquet => {
-            let mut bytes = Vec::new();
-            write_parquet(table, &mut bytes)?;
-            Ok(file.write_all(&bytes)?)
-        }
-    })
 }
 
 #[cfg(test)]
@@ -147,10 +106,10 @@ mod tests {
     #[test]
     fn a_name_reads_back() {
         let shard = Shard { number: 2, of: 3 };
-        let name = PartName { shard, cases: 1000, fingerprint: 0xabc };
-        assert_eq!(name.to_string(), "part-2-of-3-1000-cases-0000000000000abc.parquet");
+        let name = PartName { shard, cases: 1000, word: "flips".into(), fingerprint: 0xabc };
+        assert_eq!(name.to_string(), "part-2-of-3-1000-flips-0000000000000abc.parquet");
         assert_eq!(PartName::read(&name.to_string()), Some(name));
-        assert_eq!(PartName::read("part-02-of-3-1000-cases-0000000000000abc.parquet"), None);
-        assert_eq!(PartName::read("part-2-of-3-1000-cases-0000000000000abc.parquet.journal"), None);
+        assert_eq!(PartName::read("part-02-of-3-1000-flips-0000000000000abc.parquet"), None);
+        assert_eq!(PartName::read("part-2-of-3-1000-flips-0000000000000abc.parquet.journal"), None);
     }
 }

@@ -1,8 +1,8 @@
-//! What a sweep has done so far, line by line, so that it can go on after an interruption and is
-//! not done twice.
+//! What a run has done so far, line by line, so that it can go on after an interruption and is not
+//! done twice.
 //!
-//! The first line says of which sweep it is; every other is a case. A line cut off in the middle
-//! does not count.
+//! The first line says of which run it is; every other is a case. A line cut off in the middle does
+//! not count.
 
 use std::fs::{File, TryLockError};
 use std::io::{Read, Write};
@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
 
-use crate::shared::output::open_to_append;
+use super::super::output::open_to_append;
 
 /// Stands before the reason of a case that could not be run.
 const FAILURE: &str = " # ";
@@ -24,36 +24,35 @@ pub(crate) struct Row {
     pub(crate) failure: Option<String>,
 }
 
-/// The file beside the results, and the rows in it.
-#[derive(Debug)]
-pub(crate) struct Journal {
-    file: File,
-    path: PathBuf,
-    pub(crate) rows: Vec<Row>,
+/// The file beside the results, if they go to one, and the rows in it.
+#[derive(Debug, Default)]
+pub(super) struct Journal {
+    file: Option<(File, PathBuf)>,
+    pub(super) rows: Vec<Row>,
 }
 
 impl Journal {
-    /// Opens the journal of the results `output`, or begins one; `fingerprint` tells sweeps apart.
-    pub(crate) fn open(output: &Path, fingerprint: u64, width: usize) -> anyhow::Result<Self> {
+    /// Opens the journal of the results `output`, or begins one; `head` tells runs apart.
+    pub(super) fn open(output: &Path, head: &str, width: usize) -> anyhow::Result<Self> {
         let path = path_beside(output);
         let mut file = open_to_append(&path)?;
         if let Err(TryLockError::WouldBlock) = file.try_lock() {
-            bail!("{}: another sweep is writing it, expected one at a time", path.display());
+            bail!("{}: another run is writing it, expected one at a time", path.display());
         }
         let mut text = String::new();
         file.read_to_string(&mut text).with_context(|| path.display().to_string())?;
-        let head = format!("# helixlock sweep {fingerprint:016x}\n");
-        // A head cut off in the middle is that of a sweep which has done nothing.
+        let head = format!("# helixlock {head}\n");
+        // A head cut off in the middle is that of a run which has done nothing.
         let whole = text.rfind('\n').map_or(0, |end| end + 1);
         if whole != 0 && !text.starts_with(&head) {
             bail!(
-                "{}: is of another machine file or other values, expected those of this sweep\n\
+                "{}: is of another machine file or other values, expected those of this run\n\
                  remove it to begin anew, or choose another output",
                 path.display()
             );
         }
         file.set_len(whole as u64).with_context(|| path.display().to_string())?;
-        let mut journal = Self { file, path, rows: Vec::new() };
+        let mut journal = Self { file: Some((file, path)), rows: Vec::new() };
         if whole == 0 {
             journal.write(&head)?;
         }
@@ -64,12 +63,12 @@ impl Journal {
     }
 
     /// True when a case of those found at opening is done.
-    pub(crate) fn has(&self, case: u64) -> bool {
+    pub(super) fn has(&self, case: u64) -> bool {
         self.rows.binary_search_by_key(&case, |row| row.case).is_ok()
     }
 
     /// Adds a case, on disk first.
-    pub(crate) fn append(&mut self, row: Row) -> anyhow::Result<()> {
+    pub(super) fn append(&mut self, row: Row) -> anyhow::Result<()> {
         let cells: Vec<String> = row.cells.iter().map(f64::to_string).collect();
         let failure = match &row.failure {
             Some(reason) => format!("{FAILURE}{}", serde_json::to_string(reason)?),
@@ -81,8 +80,11 @@ impl Journal {
     }
 
     fn write(&mut self, line: &str) -> anyhow::Result<()> {
-        let write = self.file.write_all(line.as_bytes()).and_then(|()| self.file.flush());
-        write.with_context(|| format!("{}: cannot be written", self.path.display()))
+        let Some((file, path)) = &mut self.file else {
+            return Ok(());
+        };
+        let write = file.write_all(line.as_bytes()).and_then(|()| file.flush());
+        write.with_context(|| format!("{}: cannot be written", path.display()))
     }
 }
 
@@ -114,27 +116,27 @@ mod tests {
     fn a_cut_line_is_run_again_and_nothing_else() {
         let folder = tempfile::tempdir().unwrap();
         let output = folder.path().join("out.csv");
-        let mut journal = Journal::open(&output, 1, 2).unwrap();
+        let mut journal = Journal::open(&output, "cases 1", 2).unwrap();
         journal.append(row(3)).unwrap();
         journal.append(row(1)).unwrap();
         journal.write("2,0.1").unwrap();
         drop(journal);
-        let mut journal = Journal::open(&output, 1, 2).unwrap();
+        let mut journal = Journal::open(&output, "cases 1", 2).unwrap();
         assert_eq!([1, 2, 3].map(|case| journal.has(case)), [true, false, true]);
         journal.append(row(2)).unwrap();
         drop(journal);
-        let journal = Journal::open(&output, 1, 2).unwrap();
+        let journal = Journal::open(&output, "cases 1", 2).unwrap();
         assert_eq!(journal.rows.iter().map(|row| row.case).collect::<Vec<_>>(), [1, 2, 3]);
         assert!(journal.rows.iter().all(|row| row.cells[1].is_nan()));
         assert!(journal.rows.iter().all(|row| row.failure.as_deref() == Some("no\nway")));
     }
 
     #[test]
-    fn another_sweep_is_refused() {
+    fn another_run_is_refused() {
         let folder = tempfile::tempdir().unwrap();
         let output = folder.path().join("out.csv");
-        drop(Journal::open(&output, 1, 2).unwrap());
-        let error = Journal::open(&output, 2, 2).unwrap_err().to_string();
+        drop(Journal::open(&output, "cases 1", 2).unwrap());
+        let error = Journal::open(&output, "cases 2", 2).unwrap_err().to_string();
         assert!(error.contains("is of another machine file"), "{error}");
     }
 }
