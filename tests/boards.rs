@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
+use helixlock_gen::{Board, Family};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -44,9 +45,44 @@ fn synthesised(board: &str) -> Value {
     let folder = tempfile::tempdir().expect("a scratch folder");
     let output = generate(Path::new(MACHINE), folder.path(), &["--board", board, "--synth"]);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let bitstream = fs::read(folder.path().join("build/board_shell.bin")).expect("the bitstream");
-    assert_eq!(bitstream.get(..4), Some(&[0xff, 0, 0, 0xff][..]), "preamble of an iCE40 image");
+    let family = Board::find(board).expect("a board there is").family;
+    let name = format!("build/board_shell.{}", family.bitstream());
+    let bitstream = fs::read(folder.path().join(name)).expect("the bitstream");
+    assert!(is_bitstream(family, &bitstream), "{board}");
     serde_json::from_slice(&output.stdout).expect("JSON")
+}
+
+/// True when the mark is there with which the family's bitstreams begin.
+fn is_bitstream(family: Family, bytes: &[u8]) -> bool {
+    let mark: &[u8] = match family {
+        Family::Ice40 => &[0xff, 0, 0, 0xff],
+        Family::Ecp5 => &[0xff, 0xff, 0xbd, 0xb3],
+        Family::Gowin => b"\n1010010111000011\n",
+    };
+    bytes[..512].windows(mark.len()).any(|found| found == mark)
+}
+
+/// Holds the README's table to what was built, by the yosys it names.
+fn is_in_the_readme(board: &Board, said: &Value) {
+    let version = Command::new("yosys").arg("-V").output().expect("yosys starts");
+    if !String::from_utf8_lossy(&version.stdout).starts_with("Yosys 0.23 ") {
+        return;
+    }
+    let built = &said["synthesis"];
+    let number = |key: &str| built[key].as_f64().expect("a number");
+    let row = format!(
+        "| `{}` | {} | {} of {} | {} | {:.0} MHz | {} MHz |",
+        board.name,
+        board.chip(),
+        built["cells"],
+        built["cells_available"],
+        built["flip_flops"],
+        number("max_clock_mhz"),
+        board.clock_mhz,
+    );
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let readme = fs::read_to_string(root.join("README.md")).expect("text");
+    assert!(readme.contains(&row), "README.md has no row\n{row}");
 }
 
 #[test]
@@ -57,21 +93,25 @@ fn fits_the_smallest_board_with_room() {
     let cells = synthesis["cells"].as_u64().unwrap();
     assert!((100..1024).contains(&cells), "at most four fifths of an HX1K, not {cells}");
     assert!(24.0 < synthesis["max_clock_mhz"].as_f64().unwrap(), "twice the board's clock");
+    is_in_the_readme(&Board::find("icestick").expect("a board there is"), &said);
     assert_eq!(said["settings"]["divide_a"], 110);
     assert_eq!(said["settings"]["divide_b"], 150);
 }
 
+/// Boards that are like another one to the tools: built when all are asked for.
+const ALIKE: [&str; 3] = ["colorlight-i5", "orangecrab", "tang-nano-20k"];
+
 #[test]
 fn builds_for_every_other_board() {
-    for (board, clock_hz) in [
-        ("icebreaker", 12_000_000),
-        ("hx8k", 12_000_000),
-        ("upduino", 12_000_000),
-        ("tinyfpga-bx", 16_000_000),
-    ] {
-        let said = synthesised(board);
-        assert_eq!(said["clock_hz"], clock_hz, "{board}");
-        assert_eq!(said["synthesis"]["meets_clock"], true, "{board}");
+    let all = std::env::var("HELIXLOCK_BOARD").is_ok_and(|which| which == "all");
+    for board in Board::all().expect("boards") {
+        if board.name == "icestick" || ALIKE.contains(&board.name.as_str()) && !all {
+            continue;
+        }
+        let said = synthesised(&board.name);
+        assert_eq!(said["clock_hz"], 1_000_000 * u64::from(board.clock_mhz), "{}", board.name);
+        assert_eq!(said["synthesis"]["meets_clock"], true, "{}", board.name);
+        is_in_the_readme(&board, &said);
     }
 }
 
@@ -129,7 +169,7 @@ fn an_unknown_board_is_answered_with_the_known_ones() {
     assert_eq!(
         failure(&output),
         "helixlock: board `arty` is not known; expected one of icestick, icebreaker, hx8k, \
-         upduino, tinyfpga-bx\n"
+         upduino, tinyfpga-bx, ulx3s, colorlight-i5, orangecrab, tang-nano-9k, tang-nano-20k\n"
     );
 }
 
@@ -156,11 +196,8 @@ fn the_help_names_the_boards_of_the_folder() {
         .output()
         .expect("helixlock starts");
     let help = String::from_utf8(help.stdout).expect("help is text");
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/constraints");
-    for entry in fs::read_dir(folder).expect("the folder is there") {
-        let text = fs::read_to_string(entry.expect("it can be listed").path()).expect("text");
-        let name = text.lines().find_map(|line| line.strip_prefix("# board:")).expect("a name");
-        assert!(help.contains(name.trim()), "{name}: {help}");
+    for board in Board::all().expect("boards") {
+        assert!(help.contains(&board.name), "{}: {help}", board.name);
     }
 }
 
@@ -251,14 +288,11 @@ fn every_input_is_pulled_up() {
     let last = |line: &str| line.trim_end_matches(',').rsplit(' ').next().unwrap_or("").to_owned();
     let inputs: Vec<String> = ports.map(last).filter(|port| port != "clock").collect();
     assert!(inputs.iter().any(|port| port == "laser"), "{inputs:?}");
-    for entry in fs::read_dir(root.join("constraints")).expect("the folder is there") {
-        let path = entry.expect("it can be listed").path();
-        let text = fs::read_to_string(&path).expect("text");
-        for line in text.lines().filter(|line| line.starts_with("set_io ")) {
-            let set = line.split('#').next().unwrap_or_default();
-            let port = set.split_ascii_whitespace().rev().nth(1).unwrap_or_default();
-            let is_input = inputs.iter().any(|input| port.split('[').next() == Some(input));
-            assert_eq!(set.contains("-pullup yes"), is_input, "{}: {line}", path.display());
+    for board in Board::all().expect("boards") {
+        for pin in &board.pins {
+            let port = pin.port.split('[').next();
+            let is_input = inputs.iter().any(|input| port == Some(input));
+            assert_eq!(pin.pull_up, is_input, "{}: {}", board.name, pin.port);
         }
     }
 }

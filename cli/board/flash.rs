@@ -23,7 +23,7 @@ impl Flash {
     /// Runs the loader; its words are the user's.
     pub(super) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         let board = Board::find(&self.board)?;
-        let Some(file) = bitstream(&self.project) else {
+        let Some(file) = bitstream(&self.project, board.family.bitstream()) else {
             bail!(
                 "{}: no bitstream below build/\n\
                  hint: helixlock gen MACHINE.toml --board {} --synth -o {0}",
@@ -45,9 +45,9 @@ impl Flash {
     }
 }
 
-/// The first bitstream of a project, by name.
-fn bitstream(project: &Path) -> Option<PathBuf> {
+/// The first file of that ending that was built in a project, by name.
+fn bitstream(project: &Path, ending: &str) -> Option<PathBuf> {
     let entries = project.join("build").read_dir().ok()?;
     let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
-    paths.filter(|path| path.extension().is_some_and(|ending| ending == "bin")).min()
+    paths.filter(|path| path.extension().is_some_and(|found| found == ending)).min()
 }

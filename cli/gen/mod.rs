@@ -42,7 +42,7 @@ pub(crate) struct Gen {
     /// Replace files that `gen` has not written, or that were changed since
     #[arg(long)]
     force: bool,
-    /// Run yosys, nextpnr-ice40, icetime and icepack; exit 1 if the clock is too fast for it
+    /// Run yosys, nextpnr and the packer of the FPGA's family; exit 1 if the clock is too fast for it
     #[arg(long)]
     synth: bool,
     /// Name all modules with this before their name, for use in a larger design

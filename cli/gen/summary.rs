@@ -22,6 +22,7 @@ keys! {
         title: String = board.title.clone(),
         device: String = board.device.clone(),
         package: String = board.package.clone(),
+        part: String = board.part(),
         clock_source: String = board.clock_source.clone(),
         clock_hz: u64 = 1_000_000 * u64::from(board.clock_mhz),
         machine_file_clock_hz: f64 = machine.1,
@@ -58,7 +59,7 @@ impl Summary {
 
     /// Prints it for people.
     pub(crate) fn print(&self, output: &Path, out: &mut impl Write) -> anyhow::Result<()> {
-        writeln!(out, "{}, {}-{}, {}", self.title, self.device, self.package, self.clock_source)?;
+        writeln!(out, "{}, {}, {}", self.title, self.part, self.clock_source)?;
         let wheels = &self.settings;
         writeln!(
             out,

@@ -1,11 +1,12 @@
 //! Boards: everything known of one stands in its constraint file.
 //!
-//! The file is what nextpnr reads; its leading comments add the FPGA, the programmer and what has
-//! to be wired where.
+//! The file is what the placer reads; its leading comments add the FPGA, the programmer and what
+//! has to be wired where.
 
 use helixlock_netlist::{Module, PortKind};
 
-use crate::GenError;
+use crate::constraints::{self, Pin};
+use crate::{Family, GenError};
 
 /// The constraint files, by name: all there are in the folder, in the order of help and messages.
 const FILES: &[(&str, &str)] = &[
@@ -14,9 +15,14 @@ const FILES: &[(&str, &str)] = &[
     ("hx8k.pcf", include_str!("../../constraints/hx8k.pcf")),
     ("upduino3.pcf", include_str!("../../constraints/upduino3.pcf")),
     ("tinyfpga-bx.pcf", include_str!("../../constraints/tinyfpga-bx.pcf")),
+    ("ulx3s.lpf", include_str!("../../constraints/ulx3s.lpf")),
+    ("colorlight-i5.lpf", include_str!("../../constraints/colorlight-i5.lpf")),
+    ("orangecrab.lpf", include_str!("../../constraints/orangecrab.lpf")),
+    ("tang-nano-9k.cst", include_str!("../../constraints/tang-nano-9k.cst")),
+    ("tang-nano-20k.cst", include_str!("../../constraints/tang-nano-20k.cst")),
 ];
 
-/// A board with an iCE40 on it.
+/// A board with an FPGA on it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Board {
     /// Name on the command line.
@@ -25,9 +31,11 @@ pub struct Board {
     pub title: String,
     /// What a builder has to know, line by line.
     pub notes: Vec<String>,
-    /// FPGA, as nextpnr and icetime call it: `hx1k`.
+    /// Family of its FPGA.
+    pub family: Family,
+    /// FPGA, as its tools call it: `hx1k`, `25k`, `GW1N-9C`.
     pub device: String,
-    /// Package, as nextpnr calls it: `tq144`.
+    /// Package, as they call it: `tq144`, `CABGA381`; of Gowin the part, `GW1NR-LV9QN88PC6/I5`.
     pub package: String,
     /// Command that loads a bitstream; the file's name follows.
     pub program: String,
@@ -41,19 +49,6 @@ pub struct Board {
     pub file: String,
     /// The constraints.
     pub constraints: String,
-}
-
-/// Where a bit of a port goes.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Pin {
-    /// Port, or bit of one: `calibrate[0]`.
-    pub port: String,
-    /// Pin of the package.
-    pub pin: String,
-    /// Connector and purpose.
-    pub note: String,
-    /// The design may lack the port: `-nowarn` in the file.
-    pub optional: bool,
 }
 
 impl Board {
@@ -82,29 +77,50 @@ impl Board {
     /// Reads a constraint file.
     fn parse(file: &str, text: &str) -> Result<Self, GenError> {
         let missing = |what| GenError::Constraints { file: file.to_owned(), what };
+        let family = Family::of(file).ok_or_else(|| missing("a placer's ending"))?;
+        let comment = |line| constraints::comment(family, line);
         let tag = |tag: &'static str| {
-            let found = text.lines().find_map(|line| line.strip_prefix("# ")?.strip_prefix(tag));
+            let found = text.lines().find_map(|line| comment(line)?.strip_prefix(tag));
             found.map(|value| value.trim().to_owned()).ok_or_else(|| missing(tag))
         };
-        let mut notes = text.lines().map_while(|line| line.strip_prefix("# ")).map(str::to_owned);
-        let clock_mhz = text.lines().find_map(|line| line.strip_prefix("set_frequency clock "));
-        let pins: Vec<Pin> = text.lines().filter_map(pin).collect();
+        let mut notes = text.lines().map_while(comment).map(str::to_owned);
+        let pins = constraints::pins(family, text);
         let clock_source = pins.iter().find(|pin| pin.port == "clock").map(|pin| &pin.note);
         Ok(Self {
             name: tag("board:")?,
             title: notes.next().ok_or_else(|| missing("a title"))?,
             notes: notes.collect(),
+            family,
             device: tag("device:")?,
             package: tag("package:")?,
             program: tag("program:")?,
-            clock_mhz: clock_mhz
-                .and_then(|mhz| mhz.trim().parse().ok())
-                .ok_or_else(|| missing("set_frequency clock"))?,
-            clock_source: clock_source.ok_or_else(|| missing("set_io clock"))?.clone(),
+            clock_mhz: constraints::clock_mhz(family, text)
+                .ok_or_else(|| missing(constraints::clock(family)))?,
+            clock_source: clock_source.ok_or_else(|| missing("a pin of the clock"))?.clone(),
             pins,
             file: file.to_owned(),
             constraints: text.to_owned(),
         })
+    }
+
+    /// The FPGA, without its package.
+    #[must_use]
+    pub fn chip(&self) -> String {
+        match self.family {
+            Family::Ice40 => self.device.to_uppercase(),
+            Family::Ecp5 => format!("LFE5U-{}F", self.device.trim_end_matches('k')),
+            Family::Gowin => self.device.clone(),
+        }
+    }
+
+    /// The FPGA in its package; of Gowin the part, which says both.
+    #[must_use]
+    pub fn part(&self) -> String {
+        match self.family {
+            Family::Ice40 => format!("{}-{}", self.device, self.package),
+            Family::Ecp5 => format!("{}-{}", self.chip(), self.package),
+            Family::Gowin => self.package.clone(),
+        }
     }
 
     /// The pins that the design uses, in order of the file.
@@ -133,15 +149,6 @@ impl Board {
     }
 }
 
-fn pin(line: &str) -> Option<Pin> {
-    let (set, note) = line.split_once('#').unwrap_or((line, ""));
-    let words: Vec<&str> = set.strip_prefix("set_io ")?.split_ascii_whitespace().collect();
-    let [options @ .., port, pin] = words.as_slice() else { return None };
-    let (port, pin) = ((*port).to_owned(), (*pin).to_owned());
-    let optional = options.contains(&"-nowarn");
-    Some(Pin { port, pin, note: note.trim().to_owned(), optional })
-}
-
 /// The bits of a port as constraint files call them.
 fn bits(top: &Module, port: &helixlock_netlist::Port) -> Vec<String> {
     let width = match port.kind {
@@ -163,7 +170,9 @@ mod tests {
     #[test]
     fn every_file_is_complete() {
         let names: Vec<_> = Board::all().unwrap().into_iter().map(|board| board.name).collect();
-        assert_eq!(names, ["icestick", "icebreaker", "hx8k", "upduino", "tinyfpga-bx"]);
+        let expected = "icestick icebreaker hx8k upduino tinyfpga-bx ulx3s colorlight-i5 \
+                        orangecrab tang-nano-9k tang-nano-20k";
+        assert_eq!(names.join(" "), expected);
     }
 
     #[test]
@@ -191,16 +200,42 @@ mod tests {
         assert_eq!((board.device.as_str(), board.package.as_str()), ("lp8k", "cm81"));
         assert_eq!((board.clock_mhz, board.clock_source.as_str()), (16, "16 MHz oscillator"));
         assert_eq!(board.notes.len(), 2);
-        let calibrate = board.pins.iter().find(|pin| pin.port == "calibrate[1]").unwrap();
-        assert_eq!((calibrate.pin.as_str(), &calibrate.note[..5]), ("E2", "pin 8"));
+    }
+
+    #[test]
+    fn reads_three_languages() {
+        for (board, part, clock_mhz, bit, pin) in [
+            ("tinyfpga-bx", "lp8k-cm81", 16, "calibrate[1]", ("E2", "pin 8: switch")),
+            ("ulx3s", "LFE5U-12F-CABGA381", 25, "calibrate[1]", ("B9", "J1 gp3: switch")),
+            ("tang-nano-9k", "GW1NR-LV9QN88PC6/I5", 27, "calibrate[1]", ("33", "pin 33: switch")),
+        ] {
+            let board = Board::find(board).unwrap();
+            assert_eq!((board.part().as_str(), board.clock_mhz), (part, clock_mhz));
+            let found = board.pins.iter().find(|pin| pin.port == bit).unwrap();
+            assert!(found.note.starts_with(pin.1), "{}", found.note);
+            assert_eq!((found.pin.as_str(), found.optional, found.pull_up), (pin.0, false, true));
+            let t1 = board.pins.iter().find(|pin| pin.port == "t1").unwrap();
+            let stop = board.pins.iter().find(|pin| pin.port == "emergency_stop").unwrap();
+            assert!(!t1.pull_up && !t1.optional && stop.pull_up && stop.optional);
+        }
+    }
+
+    /// nextpnr-ice40 warns of pins without a port unless it is told not to; the others are silent.
+    #[test]
+    fn pins_that_may_be_missing_are_so_for_the_placer_too() {
+        for board in Board::all().unwrap().iter().filter(|board| board.family == Family::Ice40) {
+            let quiet = board.constraints.lines().filter(|line| line.starts_with("set_io -nowarn"));
+            let optional = board.pins.iter().filter(|pin| pin.optional);
+            assert_eq!(quiet.count(), optional.count(), "{}", board.name);
+        }
     }
 
     #[test]
     fn an_unknown_board_is_answered_with_the_known_ones() {
         assert_eq!(
-            Board::find("ulx3s").unwrap_err().to_string(),
-            "board `ulx3s` is not known; expected one of icestick, icebreaker, hx8k, upduino, \
-             tinyfpga-bx"
+            Board::find("arty").unwrap_err().to_string(),
+            "board `arty` is not known; expected one of icestick, icebreaker, hx8k, upduino, \
+             tinyfpga-bx, ulx3s, colorlight-i5, orangecrab, tang-nano-9k, tang-nano-20k"
         );
     }
 }

@@ -1,9 +1,27 @@
 //! Why no files can be made.
 
-use std::io;
 use std::path::PathBuf;
+use std::{fmt, io};
 
 use thiserror::Error;
+
+/// Where a tool comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// A package of Debian.
+    Debian(&'static str),
+    /// A package of the Python Package Index.
+    Pypi(&'static str),
+}
+
+impl fmt::Display for Origin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Debian(package) => write!(f, "on Debian it is in the package `{package}`"),
+            Self::Pypi(package) => write!(f, "`pip install {package}` brings it"),
+        }
+    }
+}
 
 /// A design or board that cannot be written down.
 #[derive(Debug, Error)]
@@ -72,12 +90,12 @@ pub enum GenError {
         module: String,
     },
     /// A tool that is not installed.
-    #[error("`{tool}` is not installed\nhint: on Debian it is in the package `{package}`")]
+    #[error("`{tool}` is not installed\nhint: {origin}")]
     MissingTool {
         /// Command.
         tool: &'static str,
-        /// Debian package.
-        package: &'static str,
+        /// What has it.
+        origin: Origin,
     },
     /// icetime without the chip's timing, which Debian packs apart.
     #[error(

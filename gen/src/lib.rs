@@ -5,7 +5,9 @@
 
 mod adapt;
 mod board;
+mod constraints;
 mod error;
+mod family;
 mod flow;
 mod groups;
 mod lines;
@@ -21,8 +23,10 @@ mod unused;
 mod verilog;
 
 pub use adapt::{leave_out, prefix};
-pub use board::{Board, Pin};
-pub use error::GenError;
+pub use board::Board;
+pub use constraints::Pin;
+pub use error::{GenError, Origin};
+pub use family::Family;
 pub use project::{Project, project};
 pub use synthesis::{Synthesis, synthesise};
 pub use test_bench::{Bench, Vector};

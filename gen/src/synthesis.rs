@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use crate::flow::{Step, flow};
-use crate::{Board, GenError, Project};
+use crate::{Board, Family, GenError, Project};
 
 /// What became of a design on a board.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,7 +21,7 @@ pub struct Synthesis {
     pub flip_flops: u32,
     /// Carry cells.
     pub carries: u32,
-    /// Highest clock, worst corner, as icetime finds it, MHz.
+    /// Highest clock, worst corner, as icetime finds it, or nextpnr where there is no icetime, MHz.
     pub max_mhz: f64,
     /// The board's clock, MHz.
     pub clock_mhz: u32,
@@ -45,25 +45,28 @@ pub fn synthesise(folder: &Path, project: &Project, board: &Board) -> Result<Syn
         products.push(step.product);
     }
     let log = |ending: &str| read(folder, &format!("build/{}.{ending}", project.top));
-    let (yosys, nextpnr, timing) = (log("yosys.log")?, log("nextpnr.log")?, log("timing")?);
-    let (cells, cells_available) = used_cells(&nextpnr)?;
+    let (family, yosys, nextpnr) = (board.family, log("yosys.log")?, log("nextpnr.log")?);
+    let (cells, cells_available) = used_cells(&nextpnr, family.cells())?;
     Ok(Synthesis {
         cells,
         cells_available,
-        tables: count_cells(&yosys, "SB_LUT4"),
-        flip_flops: count_cells(&yosys, "SB_DFF"),
-        carries: count_cells(&yosys, "SB_CARRY"),
-        max_mhz: max_mhz(&timing)?,
+        tables: count_cells(&yosys, family.tables()),
+        flip_flops: count_cells(&yosys, family.flip_flops()),
+        carries: count_cells(&yosys, family.carries()),
+        max_mhz: match family {
+            Family::Ice40 => icetime_mhz(&log("timing")?)?,
+            Family::Ecp5 | Family::Gowin => nextpnr_mhz(&nextpnr)?,
+        },
         clock_mhz: board.clock_mhz,
         products,
     })
 }
 
 fn run(step: &Step, folder: &Path) -> Result<(), GenError> {
-    let (tool, package) = (step.tool, step.package);
+    let (tool, origin) = (step.tool, step.origin);
     let output = Command::new(tool).args(&step.arguments).current_dir(folder).output();
     let output = output.map_err(|source| match source.kind() {
-        io::ErrorKind::NotFound => GenError::MissingTool { tool, package },
+        io::ErrorKind::NotFound => GenError::MissingTool { tool, origin },
         _ => GenError::ToolFailed { tool, status: source.to_string(), output: String::new() },
     })?;
     if output.status.success() {
@@ -89,38 +92,47 @@ fn read(folder: &Path, name: &str) -> Result<String, GenError> {
     fs::read_to_string(&path).map_err(|source| GenError::Folder { path, source })
 }
 
-/// Cells of a sort in the last statistics of a yosys log; `SB_DFF` stands for all its variants.
+/// Cells whose names begin so in the last statistics of a yosys log: `SB_DFF` for all its variants.
 fn count_cells(log: &str, sort: &str) -> u32 {
     let statistics = log.rsplit("Printing statistics").next().unwrap_or(log);
     let counts = statistics.lines().filter_map(|line| {
         let mut words = line.split_ascii_whitespace();
         let cell = words.next()?;
         let count = words.next()?.parse::<u32>().ok()?;
-        let same = if sort == "SB_DFF" { cell.starts_with(sort) } else { cell == sort };
-        same.then_some(count)
+        cell.starts_with(sort).then_some(count)
     });
     counts.sum()
 }
 
 /// Used and available cells: `ICESTORM_LC:   287/ 1280    22%`.
-fn used_cells(log: &str) -> Result<(u32, u32), GenError> {
+fn used_cells(log: &str, sort: &str) -> Result<(u32, u32), GenError> {
     let read = || {
-        let (_, rest) = log.rsplit_once("ICESTORM_LC:")?;
+        let (_, rest) = log.rsplit_once(sort)?;
         let (used, rest) = rest.split_once('/')?;
         let available = rest.split_ascii_whitespace().next()?;
         Some((used.trim().parse().ok()?, available.parse().ok()?))
     };
-    read().ok_or(GenError::Report { tool: "nextpnr-ice40", figure: "number of logic cells" })
+    read().ok_or(GenError::Report { tool: "nextpnr", figure: "number of logic cells" })
 }
 
 /// Highest clock: `Total path delay: 9.12 ns (109.65 MHz)`.
-fn max_mhz(report: &str) -> Result<f64, GenError> {
+fn icetime_mhz(report: &str) -> Result<f64, GenError> {
     let read = || {
         let (_, rest) = report.split_once("Total path delay:")?;
         let (_, rest) = rest.split_once('(')?;
         rest.split_once(" MHz")?.0.parse().ok()
     };
     read().ok_or(GenError::Report { tool: "icetime", figure: "path delay" })
+}
+
+/// Highest clock after routing: `Max frequency for clock 'clock': 142.05 MHz (PASS at 25.00 MHz)`.
+fn nextpnr_mhz(log: &str) -> Result<f64, GenError> {
+    let read = || {
+        let (_, rest) = log.rsplit_once("Max frequency for clock")?;
+        let (_, rest) = rest.split_once(':')?;
+        rest.split_once(" MHz")?.0.trim().parse().ok()
+    };
+    read().ok_or(GenError::Report { tool: "nextpnr", figure: "frequency" })
 }
 
 #[cfg(test)]
@@ -142,14 +154,14 @@ mod tests {
     #[test]
     fn reads_cells_and_clock() {
         let log = "Info: \t         ICESTORM_LC:   287/ 1280    22%\n";
-        assert_eq!(used_cells(log).unwrap(), (287, 1280));
+        assert_eq!(used_cells(log, "ICESTORM_LC:").unwrap(), (287, 1280));
         let report = "Total path delay: 9.12 ns (109.65 MHz)\n";
-        assert!((max_mhz(report).unwrap() - 109.65).abs() < 1e-9);
+        assert!((icetime_mhz(report).unwrap() - 109.65).abs() < 1e-9);
     }
 
     #[test]
     fn says_which_figure_is_missing() {
-        let error = max_mhz("nothing").unwrap_err().to_string();
+        let error = icetime_mhz("nothing").unwrap_err().to_string();
         assert_eq!(error, "`icetime` reported no path delay; its version may be unknown to us");
     }
 }

@@ -6,6 +6,7 @@
 use std::path::Path;
 
 use anyhow::Context;
+use helixlock_gen::Family;
 
 use super::lockstep::History;
 use super::properties::{Verdict, prove};
@@ -160,7 +161,8 @@ fn infected(sources: &Sources, mutant: &Mutant, folder: &Path) -> anyhow::Result
 /// True when both modules answer alike for ever from power-up, by induction: on their outputs alone,
 /// or with their registers paired.
 fn equivalent(sources: &Sources, wrong: &Sources, module: &str) -> anyhow::Result<bool> {
-    if matches!(synthesised(sources, wrong, module)?, synthesis::Verdict::Equal { .. }) {
+    let verdict = synthesised(sources, wrong, module, Family::Ice40)?;
+    if matches!(verdict, synthesis::Verdict::Equal { .. }) {
         return Ok(true);
     }
     let prepare = |sources: &Sources, name: &str| {

