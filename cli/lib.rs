@@ -33,7 +33,7 @@ mod transmission;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-use clap::{CommandFactory, Parser};
+use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
 use helixlock_plant::MachineError;
 
 pub use crate::functions::{Function, functions};
@@ -42,11 +42,21 @@ pub use crate::shared::refused::Refused;
 pub use helixlock_traces::{Column, Table};
 
 use crate::shared::cases::Campaign;
+use crate::shared::language::{Language, Translated};
 use crate::shared::terminal::{Terminal, shown};
 
 /// Laser correction of a lead-screw grinder: simulate it, build it, compare it with measurements
 #[derive(Debug, Parser)]
 #[command(name = "helixlock", version, arg_required_else_help = true)]
+struct Words {
+    /// Language of reports; data, such as JSON, have none
+    #[arg(long, global = true, value_enum, value_name = "LANGUAGE", default_value_t)]
+    language: Language,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
 enum Command {
     Add(add::Add),
     Board(board::BoardCommand),
@@ -83,8 +93,8 @@ const CAMPAIGNS: [&Campaign; 4] =
 /// Exit status: 0 done, 1 the answer is no, 2 the input or the words are wrong.
 #[must_use]
 pub fn main() -> ExitCode {
-    let command = match Command::try_parse() {
-        Ok(command) => command,
+    let (words, language) = match words() {
+        Ok(words) => words,
         Err(words) if words.use_stderr() => {
             // Nothing is left to tell the user if this fails, here and below.
             let _ = write!(io::stderr(), "{}", shown(&words.render().to_string()));
@@ -92,14 +102,34 @@ pub fn main() -> ExitCode {
         }
         Err(help) => help.exit(),
     };
-    match run(command, &mut Terminal(io::stdout().lock())) {
+    let mut out = Translated::new(Terminal(io::stdout().lock()), language);
+    let done = run(words.command, &mut out);
+    let passed_on = out.flush();
+    match done.and_then(|code| Ok(passed_on.map(|()| code)?)) {
         Ok(code) => code,
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
-            let error = format!("{error:#}{}", hint(&error));
-            let _ = writeln!(io::stderr(), "helixlock: {}", shown(&error));
+            let error = shown(&format!("{error:#}{}", hint(&error)));
+            let _ = writeln!(io::stderr(), "{}", words.language.of(&format!("helixlock: {error}")));
             ExitCode::from(2)
         }
+    }
+}
+
+/// The words of the process, and the language of what they print.
+fn words() -> Result<(Words, Language), clap::Error> {
+    let matches = Words::command().try_get_matches()?;
+    let words = Words::from_arg_matches(&matches)?;
+    let language = if is_report(&matches) { words.language } else { Language::En };
+    Ok((words, language))
+}
+
+/// False for what programs read.
+fn is_report(matches: &ArgMatches) -> bool {
+    match matches.subcommand() {
+        Some(("completions" | "man", _)) => false,
+        Some((_, below)) => is_report(below),
+        None => !matches!(matches.try_get_one("json"), Ok(Some(true))),
     }
 }
 
@@ -122,7 +152,7 @@ fn run(command: Command, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         Command::Certify(command) => command.run(out),
         Command::Challenge(command) => command.run(out),
         Command::Compare(command) => command.run(out),
-        Command::Completions(command) => command.run(Command::command(), out),
+        Command::Completions(command) => command.run(Words::command(), out),
         Command::Diagnose(command) => command.run(out),
         Command::Discover(command) => command.run(out),
         Command::Dividers(command) => command.run(out),
@@ -132,7 +162,7 @@ fn run(command: Command, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         Command::Import(command) => command.run(out),
         Command::Init(command) => command.run(out),
         Command::Learn(command) => command.run(out),
-        Command::Man(command) => command.run(Command::command(), out),
+        Command::Man(command) => command.run(Words::command(), out),
         Command::Merge(command) => command.run(&CAMPAIGNS, out),
         Command::Scale(scale) => scale.run(out),
         Command::Screw(screw) => screw.run(out),

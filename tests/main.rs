@@ -34,6 +34,7 @@ mod hostile;
 mod initial_phase_selector;
 mod input_conditioner;
 mod interruption;
+mod language;
 mod layers;
 mod learning;
 mod licences;

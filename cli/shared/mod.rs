@@ -11,6 +11,7 @@ pub(crate) mod diagnosis_text;
 pub(crate) mod effect_file;
 pub(crate) mod input;
 pub(crate) mod keys;
+pub(crate) mod language;
 pub(crate) mod measured;
 pub(crate) mod output;
 pub(crate) mod page_pieces;

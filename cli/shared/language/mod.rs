@@ -1,0 +1,12 @@
+//! Reports in the language that the user asked for.
+//!
+//! Commands write English. At the door to the terminal every line is looked up in a table of
+//! phrases; what the table does not know stays as it is. Data, such as JSON, never come here.
+
+mod choice;
+mod line;
+mod phrases;
+mod translated;
+
+pub(crate) use self::choice::Language;
+pub(crate) use self::translated::Translated;
