@@ -71,6 +71,28 @@ impl Grid {
         Self { origin: Origin::Sheet(sheet.to_owned()), ..Self::of_text(file) }
     }
 
+    /// Columns of numbers below a row of names; what is not finite is an empty cell.
+    pub(crate) fn of_columns(
+        file: &str,
+        sheet: &str,
+        columns: &[(String, &[f64])],
+    ) -> Result<Self, ImportError> {
+        let mut grid = Self::of_sheet(file, sheet);
+        grid.start_row(0, false);
+        for (index, (name, _)) in columns.iter().enumerate() {
+            grid.push(name, index + 1)?;
+        }
+        let rows = columns.first().map_or(0, |(_, values)| values.len());
+        for row in 0..rows {
+            grid.start_row(row + 1, false);
+            for (index, (_, values)) in columns.iter().enumerate() {
+                let value = Some(values[row]).filter(|value| value.is_finite());
+                grid.push(&value.map_or_else(String::new, |value| value.to_string()), index + 1)?;
+            }
+        }
+        Ok(grid)
+    }
+
     /// Splits lines into cells.
     pub(crate) fn split(
         file: &str,

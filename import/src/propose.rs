@@ -96,6 +96,9 @@ fn read(source: Source<'_>, decisions: &mut Decisions<'_>) -> Result<Built, Impo
         let grid = match format {
             "spreadsheet" => formats::spreadsheet::grid(source.bytes, decisions)?,
             "npy" => formats::npy::grid(source.name, source.bytes)?,
+            "arrow" => formats::arrow::grid(source.bytes, decisions)?,
+            "matlab" => formats::matlab::grid(source.bytes, decisions)?,
+            "hdf5" => formats::hdf5::grid(source.bytes, decisions)?,
             _ => formats::parquet::grid(source.name, source.bytes)?,
         };
         return understand(&grid, '.', decisions);

@@ -50,6 +50,9 @@ pub(crate) const FORMATS: &[&str] = &[
     "spreadsheet",
     "parquet",
     "npy",
+    "arrow",
+    "matlab",
+    "hdf5",
     "phd2",
     "eqmod",
     "sigrok",
@@ -77,6 +80,12 @@ pub const KEYS: &[Key] = &[
     ),
     key("text", "decimal", Kind::Text(&[".", ","]), "the decimal sign"),
     key("sheet", "name", Kind::Text(&[]), "the sheet of the workbook"),
+    key(
+        "arrays",
+        "rows",
+        Kind::Whole(2, 1 << 30),
+        "how many numbers the arrays have that are columns",
+    ),
     key("phd2", "axis", Kind::Text(&["ra", "dec"]), "the axis"),
     key(
         "phd2",

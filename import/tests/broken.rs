@@ -205,6 +205,20 @@ const BINARY: &[Case] = &[
     ("sheet.ods", Cut(400), ""),
     ("sheet.ods", Replace("", ""), "[sheet]\nname = \"Sheet2\""),
     ("sheet.ods", Whole(b"PAR1 nothing PAR1"), ""),
+    ("plain.mat", Replace("", ""), ""),
+    ("plain.mat", Replace("", ""), "[arrays]\nrows = 7"),
+    ("plain.mat", Replace("", ""), "[arrays]\nrows = 1"),
+    ("plain.mat", Cut(300), ""),
+    ("session.mat", Cut(128), ""),
+    ("session.mat", Cut(400), ""),
+    ("session.mat", Byte(140, 0xFF), ""),
+    ("session73.mat", Cut(512), ""),
+    ("session73.mat", Cut(4000), ""),
+    ("logger.h5", Cut(96), ""),
+    ("logger.h5", Cut(2000), ""),
+    ("logger.h5", Byte(8, 9), ""),
+    ("session.feather", Cut(8), ""),
+    ("session.feather", Cut(2000), ""),
 ];
 
 const RECIPES: &[&str] = &[

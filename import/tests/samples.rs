@@ -46,6 +46,7 @@ fn samples_that_leave_nothing_open() {
         "chinese-gbk.csv",
         "chinese-utf16.txt",
         "runs-as-columns.csv",
+        "runs-apart.csv",
         "target-actual.txt",
         "zones.csv",
         "date-and-clock.csv",
@@ -61,6 +62,10 @@ fn samples_that_leave_nothing_open() {
         "sheet.ods",
         "worm.pec",
         "stepper.sr",
+        "session.mat",
+        "session73.mat",
+        "session.feather",
+        "logger.h5",
     ] {
         check(name, "");
     }
@@ -73,6 +78,10 @@ fn samples_that_need_an_answer_ask_for_it() {
         (
             "halsampler.txt",
             "[halsampler]\nperiod_s = 0.001\n[[column]]\nfrom = \"pin.0\"\nto = \"position_mm\"\nunit = \"mm\"\n[[column]]\nfrom = \"pin.1\"\nto = \"error_um\"\nunit = \"mm\"",
+        ),
+        (
+            "plain.mat",
+            "[[column]]\nfrom = \"trace 1\"\nto = \"position_mm\"\nunit = \"mm\"\n[[column]]\nfrom = \"trace 2\"\nto = \"error_um\"\nunit = \"um\"",
         ),
         (
             "array.npy",

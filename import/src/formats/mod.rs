@@ -1,10 +1,14 @@
 //! Formats with a mark of their own, each in a file.
 
+mod arrays;
+pub(crate) mod arrow;
 pub(crate) mod camonitor;
 mod channels;
 pub(crate) mod eqmod;
+pub(crate) mod hdf5;
 pub(crate) mod iso230;
 pub(crate) mod linuxcnc;
+pub(crate) mod matlab;
 pub(crate) mod npy;
 pub(crate) mod parquet;
 pub(crate) mod phd2;
@@ -35,22 +39,19 @@ pub(crate) fn binary(
             () => Err(refused(name, "a ZIP archive", "unpack it, and import what is in it")),
         };
     }
-    let kinds: [(&[u8], &str, &str); 3] = [
+    let kinds: [(&[u8], &str, &str); 7] = [
         (b"\xD0\xCF\x11\xE0", "spreadsheet", "an old Excel workbook"),
         (b"\x93NUMPY", "npy", "the mark of NumPy"),
         (b"PAR1", "parquet", "the mark of Parquet"),
+        (b"ARROW1", "arrow", "the mark of Arrow"),
+        (b"MATLAB 5.0", "matlab", "the mark of MATLAB up to version 7"),
+        (b"MATLAB 7.3", "hdf5", "the mark of MATLAB 7.3, whose files are HDF5"),
+        (b"\x89HDF", "hdf5", "the mark of HDF5"),
     ];
     if let Some((_, format, reason)) = kinds.iter().find(|(mark, ..)| begins(mark)) {
         return Ok(Some((format, reason)));
     }
-    let foreign: [(&[u8], &str, &str); 6] = [
-        (b"ARROW1", "an Arrow file", "`pandas.read_feather(f).to_parquet(g)` makes it Parquet"),
-        (b"MATLAB 5.0", "a MATLAB file", "`writematrix(x, 'x.csv')` in MATLAB makes it a table"),
-        (
-            b"\x89HDF",
-            "an HDF5 file or MATLAB 7.3",
-            "`writematrix(x, 'x.csv')` in MATLAB, or `pandas.read_hdf(f).to_csv(g)`, makes it a table",
-        ),
+    let foreign: [(&[u8], &str, &str); 3] = [
         (b"\x1F\x8B", "a gzip archive", "`gunzip` unpacks it"),
         (b"%PDF", "a PDF", "export the table as text from the program that made it"),
         (b"\x50\x4B", "a broken ZIP archive", "fetch it again"),

@@ -67,11 +67,12 @@ fn passes(found: &[(usize, Option<i64>, Option<i64>)]) -> Vec<i64> {
     found.iter().enumerate().map(pass).collect()
 }
 
-/// What the columns of runs hold: positions near the target, or deviations from it.
+/// What the columns of runs hold: positions near one target for all, or deviations from it.
 pub(super) fn run_values(candidates: &mut [Candidate<'_>]) {
-    let coordinate = candidates
-        .iter()
-        .position(|candidate| candidate.is("position_mm") || candidate.is("angle_rev"));
+    // A position of one run is that run's own, and none to hold the others against.
+    let coordinate = candidates.iter().position(|candidate| {
+        candidate.rule.pass.is_none() && (candidate.is("position_mm") || candidate.is("angle_rev"))
+    });
     let lone = || {
         candidates.iter().position(|candidate| {
             candidate.rule.to.is_none()
@@ -85,7 +86,10 @@ pub(super) fn run_values(candidates: &mut [Candidate<'_>]) {
     let targets = candidates[at].samples.values.clone();
     let name = candidates[at].header.name.clone();
     let unit = candidates[at].header.unit.clone();
-    for candidate in candidates.iter_mut().filter(|candidate| candidate.rule.pass.is_some()) {
+    let is_value = |candidate: &&mut Candidate<'_>| {
+        candidate.rule.pass.is_some() && !["time", "clock", "date"].contains(&candidate.meaning())
+    };
+    for candidate in candidates.iter_mut().filter(is_value) {
         if candidate.rule.unit.is_none() && follows(&candidate.samples.values, &targets) {
             candidate.rule.unit = candidate.header.unit.clone().or(unit.clone());
         }

@@ -1,0 +1,151 @@
+//! MATLAB files up to version 7: arrays of numbers; texts, cells and structures are passed over.
+//!
+//! Format: `MathWorks`, "MAT-File Format", version 5: elements of a type and a length, an array being
+//! one that holds four others. Version 7.3 is HDF5. Of the crates for it one prints on its own and
+//! refuses a file for one array of whole numbers, the other needs a crate that is given up.
+
+use std::io::Read;
+
+use flate2::read::ZlibDecoder;
+
+use super::arrays::{self, Array};
+use crate::decide::Decisions;
+use crate::error::{ImportError, Place};
+use crate::grid::Grid;
+use crate::limits;
+
+/// Bytes of text, version and byte order before the first element.
+const HEADER: usize = 128;
+/// Bytes that say of what type and how long an element is.
+const TAG: usize = 8;
+/// Types of elements: an array, and one that is packed.
+const MATRIX: u32 = 14;
+const PACKED: u32 = 15;
+/// Classes of arrays whose elements are numbers, and the mark of complex ones.
+const NUMBERS: std::ops::RangeInclusive<u32> = 6..=15;
+const COMPLEX: u32 = 0x800;
+
+/// Reads the arrays as a grid with one row of names.
+pub(crate) fn grid(bytes: &[u8], decisions: &mut Decisions<'_>) -> Result<Grid, ImportError> {
+    let refused = |found: &str, expected: &str| {
+        ImportError::found(Place::file(decisions.file()), found, expected)
+    };
+    let plain = unpacked(bytes)
+        .ok_or_else(|| refused("a MATLAB file that contradicts itself", "one that MATLAB opens"))?;
+    if limits::UNPACKED < plain.len() {
+        return Err(refused("more than it may unpack to", &format!("{} bytes", limits::UNPACKED)));
+    }
+    let is_swapped = bytes.get(126..HEADER) == Some(b"MI");
+    let elements = Elements { rest: &plain, is_swapped };
+    let matrices = elements.filter(|(kind, _)| *kind == MATRIX);
+    let arrays: Vec<Array> =
+        matrices.filter_map(|(_, body)| array(Elements { rest: body, is_swapped })).collect();
+    if arrays.is_empty() {
+        let hint = "`save('x.mat', '-struct', 's')` in MATLAB saves the fields of `s` as arrays";
+        return Err(refused("no array of numbers", "arrays that are columns").hinted(hint));
+    }
+    arrays::grid("arrays", &arrays, decisions)
+}
+
+/// The elements behind the header, those that are packed unpacked, until they are too many.
+///
+/// `None` where one is longer than the file, or cannot be unpacked.
+fn unpacked(bytes: &[u8]) -> Option<Vec<u8>> {
+    let is_swapped = bytes.get(126..HEADER)? == b"MI";
+    let (mut plain, mut rest) = (Vec::new(), &bytes[HEADER..]);
+    while let Some((tag, behind)) = rest.split_at_checked(TAG) {
+        let [kind, size] = [0, 4].map(|at| word(&tag[at..], is_swapped));
+        let element = behind.get(..size as usize)?;
+        if kind == PACKED {
+            let left = (limits::UNPACKED + 1).saturating_sub(plain.len()) as u64;
+            ZlibDecoder::new(element).take(left).read_to_end(&mut plain).ok()?;
+        } else {
+            plain.extend_from_slice(&rest[..TAG + element.len()]);
+        }
+        rest = &behind[element.len()..];
+    }
+    Some(plain)
+}
+
+/// A number of four bytes.
+fn word(bytes: &[u8], is_swapped: bool) -> u32 {
+    let word = bytes.iter().take(4).fold(0, |word, byte| word << 8 | u32::from(*byte));
+    if is_swapped { word } else { word.swap_bytes() }
+}
+
+/// Elements one behind the other, each with its type and what it holds.
+struct Elements<'a> {
+    rest: &'a [u8],
+    is_swapped: bool,
+}
+
+impl<'a> Iterator for Elements<'a> {
+    type Item = (u32, &'a [u8]);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let (tag, behind) = self.rest.split_at_checked(TAG)?;
+        let first = word(tag, self.is_swapped);
+        let short = (first >> 16) as usize;
+        if short != 0 {
+            // Up to four bytes stand in the tag itself.
+            self.rest = behind;
+            return Some((first & 0xFFFF, tag.get(4..4 + short)?));
+        }
+        let size = word(&tag[4..], self.is_swapped) as usize;
+        let body = behind.get(..size)?;
+        self.rest = behind.get(size.next_multiple_of(8)..).unwrap_or_default();
+        Some((first, body))
+    }
+}
+
+/// An array of numbers; `None` for any other, complex numbers, and more than two dimensions.
+fn array(mut parts: Elements<'_>) -> Option<Array> {
+    let is_swapped = parts.is_swapped;
+    let flags = word(parts.next()?.1, is_swapped);
+    if !NUMBERS.contains(&(flags & 0xFF)) || flags & COMPLEX != 0 {
+        return None;
+    }
+    let shape: Vec<usize> =
+        parts.next()?.1.chunks_exact(4).map(|length| word(length, is_swapped) as usize).collect();
+    let name = String::from_utf8_lossy(parts.next()?.1).into_owned();
+    let (kind, body) = parts.next()?;
+    let (rows, columns) = arrays::upright(&shape)?;
+    let values = numbers(kind, body, is_swapped)?;
+    let whole = !values.is_empty() && values.len() == rows.checked_mul(columns)?;
+    whole.then_some(Array { name, rows, values })
+}
+
+/// The numbers of an element; MATLAB stores them as small as they go.
+fn numbers(kind: u32, body: &[u8], is_swapped: bool) -> Option<Vec<f64>> {
+    let (size, number): (usize, fn(u64) -> f64) = match kind {
+        1 => (1, |bits| signed(bits, 8)),
+        2 => (1, unsigned),
+        3 => (2, |bits| signed(bits, 16)),
+        4 => (2, unsigned),
+        5 => (4, |bits| signed(bits, 32)),
+        6 => (4, unsigned),
+        7 => (4, |bits| f64::from(f32::from_bits((bits & 0xFFFF_FFFF) as u32))),
+        9 => (8, f64::from_bits),
+        12 => (8, |bits| signed(bits, 64)),
+        13 => (8, unsigned),
+        _ => return None,
+    };
+    let bits = |bytes: &[u8]| {
+        let join = |bits: u64, byte: &u8| bits << 8 | u64::from(*byte);
+        if is_swapped { bytes.iter().fold(0, join) } else { bytes.iter().rev().fold(0, join) }
+    };
+    Some(body.chunks_exact(size).map(|bytes| number(bits(bytes))).collect())
+}
+
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "counters of 64 bits are read as MATLAB's double does"
+)]
+fn signed(bits: u64, width: u32) -> f64 {
+    ((bits << (64 - width)).cast_signed() >> (64 - width)) as f64
+}
+
+#[expect(clippy::cast_precision_loss, reason = "as above")]
+fn unsigned(bits: u64) -> f64 {
+    bits as f64
+}
