@@ -105,7 +105,8 @@ fn words(line: &str, folder: &str) -> Vec<String> {
 /// What is shown, without what the user has written: quotes, titles, folders, commands.
 fn own_text(run: &Run, folder: &str) -> String {
     let titles = "SG7430 grinding a 6 mm screw|SG7430 at 15 rpm with too slow a step clock";
-    let own = format!(r"(?m)`[^`\n]*`|^ *helixlock .*$|δ = .*|{folder}[\w./-]*|{titles}");
+    let own =
+        format!(r"(?m)`[^`\n]*`|^ *helixlock .*$|δ = .*|^下一步：.*$|{folder}[\w./-]*|{titles}");
     Regex::new(&own).expect("a pattern").replace_all(&run.stdout, "").into_owned()
 }
 

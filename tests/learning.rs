@@ -70,7 +70,7 @@ fn rounds_are_kept_and_can_be_taken_back() {
     for (left, kept) in [(1, 1), (0, 0)] {
         let undone = helixlock(&["learn", "--undo", "-o", &out_word]);
         assert_eq!((undone.status, undone.stderr.as_str()), (0, ""));
-        assert!(undone.stdout.ends_with(" taken back\n"), "{}", undone.stdout);
+        assert!(undone.stdout.contains(" taken back\nnext: "), "{}", undone.stdout);
         assert_eq!(rounds[kept]["machine"], machine().as_str(), "{left} rounds are left");
         let report = fs::read_to_string(out.join("report.html")).expect("a report");
         let taken = rounds[kept + 1]["added"].as_str().expect("a name");
@@ -138,7 +138,7 @@ fn the_new_machine_file_keeps_comments_and_order() {
     let aside = fs::read_to_string(out.join("machine-1.toml")).expect("kept");
     assert_eq!(aside, "# of an earlier run\n");
     let kept = "note: machine.toml was not as `learn` had left it: kept as machine-1.toml\n";
-    assert!(learned.stdout.ends_with(kept), "{}", learned.stdout);
+    assert!(learned.stdout.contains(kept), "{}", learned.stdout);
 
     // What was learned is no longer missing.
     let machine = out.join("machine.toml").to_str().expect("text").to_owned();

@@ -42,6 +42,7 @@ mod linuxcnc;
 mod lockstep;
 mod make_sim;
 mod metrology;
+mod next;
 mod not_finite;
 mod odd_machines;
 mod original;

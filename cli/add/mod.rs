@@ -18,6 +18,7 @@ use crate::shared::diagnosis_json::{EffectJson, effects};
 use crate::shared::effect_file::{effect_text, own_effects};
 use crate::shared::input::{Input, machine_files};
 use crate::shared::keys::keys;
+use crate::shared::next::Next;
 use crate::shared::{diagnosis_text, measured, output};
 
 /// Put an effect into a machine file, its parameters fitted to data
@@ -84,6 +85,9 @@ impl Add {
             output::print_json(out, &in_unit(&AddedJson::new(&added, unit), unit)?)?;
         } else {
             print(out, &added, problem.measurement.unit())?;
+
+            let next = Next::command("compare").words([output, data]);
+            next.words(self.signals.words()).print(out)?;
         }
         Ok(ExitCode::SUCCESS)
     }

@@ -20,6 +20,7 @@ use helixlock_traces::csv::write_csv;
 
 use self::json::{BlockJson, CertificateJson, GatesJson, HazardJson, WholeJson};
 use crate::shared::cases::{Campaign, Cases, Row, Shard, Worked};
+use crate::shared::next::Next;
 use crate::shared::output::print_json;
 use crate::shared::progress;
 use crate::shared::quantity::length_mm;
@@ -127,6 +128,7 @@ impl Certify {
             gates::print_hazards(&hazards, out)?;
             whole.iter().try_for_each(|whole| gates::print_whole(whole, out))?;
             sets.print(&CAMPAIGN, out)?;
+            Next::command("faults").words([&self.machine]).print(out)?;
         }
         let holds = certificate.holds()
             && checks.iter().all(BlockCheck::is_alike)

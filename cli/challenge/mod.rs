@@ -19,6 +19,7 @@ use helixlock_traces::csv::write_csv;
 
 use self::json::{AnswerJson, ExperimentedJson, ScoreJson};
 use crate::shared::cases::{Campaign, Cases, Row, Shard, cells};
+use crate::shared::next::Next;
 use crate::shared::output::{Batch, print_json};
 use crate::shared::progress;
 
@@ -69,6 +70,8 @@ impl Challenge {
             (None, Some(folder)) => {
                 write(&challenge(self.seed)?, self.seed, folder)?;
                 writeln!(out, "{}: machine.toml, data.csv, answer.json", folder.display())?;
+                let files = ["machine.toml", "data.csv"].map(|name| folder.join(name));
+                Next::command("compare").words(files).print(out)?;
             }
             (None, None) => {}
         }

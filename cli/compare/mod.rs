@@ -15,6 +15,7 @@ use self::json::ComparisonJson;
 use crate::shared::angular::in_unit;
 use crate::shared::answer::{Answer, Answering};
 use crate::shared::measured::Files;
+use crate::shared::next::Next;
 use crate::shared::output::{Batch, Written, print_json};
 use crate::shared::residual_table::{residual_table, spectrum_table};
 
@@ -49,6 +50,9 @@ impl Compare {
         } else {
             text::print(out, &comparison, &problem.measurement)?;
             written.print(out)?;
+            if !comparison.noise_only && comparison.doubts.is_empty() {
+                Next::command("diagnose").words(self.files.words()).print(out)?;
+            }
         }
         Ok(ExitCode::SUCCESS)
     }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use helixlock_lab::{Diagnosis, Problem, diagnose};
+use helixlock_lab::{Diagnosis, Problem, Verdict, diagnose};
 use helixlock_plant::MachineFile;
 
 use crate::shared::angular::in_unit;
@@ -15,6 +15,7 @@ use crate::shared::diagnosis_page::page;
 use crate::shared::diagnosis_text::print;
 use crate::shared::effect_file::own_effects;
 use crate::shared::measured::Files;
+use crate::shared::next::Next;
 use crate::shared::output::{Batch, Written, print_json};
 use crate::shared::residual_table::residual_table;
 use crate::shared::words::status;
@@ -53,8 +54,24 @@ impl Diagnose {
         } else {
             print(out, &diagnosis, problem.measurement.unit())?;
             written.print(out)?;
+            self.print_next(diagnosis.verdict, out)?;
         }
         Ok(status(diagnosis.verdict))
+    }
+
+    /// What was named is learned; where no name fits, a formula may.
+    fn print_next(&self, verdict: Verdict, out: &mut impl Write) -> anyhow::Result<()> {
+        let (command, output) = match verdict {
+            Verdict::Explained | Verdict::Ambiguous => ("learn", "learned"),
+            Verdict::Unexplained => ("discover", "proposed.toml"),
+            Verdict::NothingMissing | Verdict::DoubtfulInput => return Ok(()),
+        };
+
+        let mut next = Next::command(command).words(self.files.words());
+        if let Some(custom) = self.custom.as_ref().filter(|_| command == "learn") {
+            next = next.words(["--with"]).words([custom]);
+        }
+        next.output(output).print(out)
     }
 
     fn found(&self) -> anyhow::Result<(MachineFile, Problem, Diagnosis)> {

@@ -15,6 +15,7 @@ use self::json::DiscoveryJson;
 use crate::shared::angular::in_unit;
 use crate::shared::answer::{Answer, Answering};
 use crate::shared::measured::Files;
+use crate::shared::next::Next;
 use crate::shared::output::{print_json, write_content};
 
 /// Propose a formula for what no effect of the catalogue explains
@@ -50,12 +51,24 @@ impl Discover {
             print_json(out, &in_unit(&DiscoveryJson::new(&discovery, unit), unit)?)?;
         } else {
             text::print(out, &discovery, measurement.unit())?;
-            if let Some(path) = self.output.filter(|_| !written) {
+            if let Some(path) = self.output.as_ref().filter(|_| !written) {
                 writeln!(out, "{}: not written, for nothing is proposed", path.display())?;
+            } else if !discovery.proposals.is_empty() {
+                self.print_next(out)?;
             }
         }
         let doubted = discovery.found == Found::DoubtfulInput;
         Ok(if doubted || !written { ExitCode::from(1) } else { ExitCode::SUCCESS })
+    }
+
+    /// A proposal is written, and then held against the data.
+    fn print_next(&self, out: &mut impl Write) -> anyhow::Result<()> {
+        let mut words = self.files.words();
+        if let Some(path) = &self.output {
+            words[0] = path.as_os_str();
+            return Next::command("compare").words(words).print(out);
+        }
+        Next::command("discover").words(words).output("proposed.toml").print(out)
     }
 
     fn found(&self) -> anyhow::Result<(MachineFile, Problem, Discovery)> {

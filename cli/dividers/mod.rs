@@ -15,6 +15,7 @@ use helixlock_plant::units::{UM, read_quantity};
 use helixlock_plant::{Lead, LeadUnit, Range};
 
 use self::json::{SettingsJson, TracksJson};
+use crate::shared::next::Next;
 use crate::shared::output::print_json;
 
 /// Thumb-wheel settings for a lead: A, B, F, initial phase, and the error they leave
@@ -83,6 +84,8 @@ impl Dividers {
             print_json(out, &SettingsJson::new(&found))?;
         } else if let [(Some(setting), task)] = found.as_slice() {
             describe(out, task, setting)?;
+
+            Next::command("init").print(out)?;
         } else if found.iter().any(|(setting, _)| setting.is_some()) {
             writeln!(out, "{}", as_table(&found))?;
         }

@@ -10,6 +10,7 @@ use helixlock_plant::nearest::one_of;
 use helixlock_plant::{CATALOGUE, Card, Parameter, Role};
 
 use crate::shared::keys::keys;
+use crate::shared::next::Next;
 use crate::shared::output::print_json;
 
 /// The catalogue of physical effects, or all about one of them
@@ -28,7 +29,10 @@ impl Effects {
         match (self.effect.as_deref().map(named).transpose()?, self.json) {
             (Some(card), false) => write!(out, "{}", page(card))?,
             (Some(card), true) => print_json(out, &CardJson::new(card))?,
-            (None, false) => writeln!(out, "{}", overview())?,
+            (None, false) => {
+                writeln!(out, "{}", overview())?;
+                Next::command("effects").words([CATALOGUE[0].kind]).print(out)?;
+            }
             (None, true) => print_json(out, &CatalogueJson::new(CATALOGUE))?,
         }
         Ok(ExitCode::SUCCESS)

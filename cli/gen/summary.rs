@@ -9,6 +9,7 @@ use helixlock_gen::{Board, Project, Synthesis};
 use helixlock_sim::Dialled;
 
 use crate::shared::keys::keys;
+use crate::shared::next::Next;
 use crate::shared::wheels::Wheels;
 
 keys! {
@@ -91,8 +92,12 @@ impl Summary {
         }
         let made = self.synthesis.iter().flat_map(|built| &built.files);
         let files = self.files.len() + made.count();
-        writeln!(out, "\n{}: {files} files; `make -C {0} sim` tests them", output.display())?;
-        Ok(())
+        writeln!(out, "\n{}: {files} files", output.display())?;
+        if self.synthesis.is_some() {
+            let next = Next::command("board").words(["flash"]).words([output]);
+            return next.words(["--board", &self.board]).print(out);
+        }
+        Next::program("make").words(["-C"]).words([output]).words(["sim"]).print(out)
     }
 
     fn pin_table(&self) -> Table {

@@ -13,7 +13,11 @@ use helixlock_import::{Proposal, Recipe, Source, propose};
 use helixlock_traces::csv::write_csv;
 use helixlock_traces::{LONGEST_BYTES, read_bytes};
 
+use crate::shared::next::Next;
 use crate::shared::output::{Batch, print_json};
+
+/// Name of measured data where the user has given none.
+const MEASURED: &str = "measured.csv";
 
 /// Read what an instrument wrote, and write it as measured data
 ///
@@ -52,8 +56,25 @@ impl Import {
             print_json(out, &summary::json(&proposal))?;
         } else {
             summary::print(out, &proposal, self.output.as_deref())?;
+            self.print_next(out)?;
         }
         Ok(ExitCode::SUCCESS)
+    }
+
+    /// What was read is written, and then held against a machine; beside none, one is begun.
+    fn print_next(&self, out: &mut impl Write) -> anyhow::Result<()> {
+        let Some(data) = &self.output else {
+            let mut next = Next::command("import").words(&self.files);
+            if let Some(recipe) = &self.recipe {
+                next = next.words(["--recipe"]).words([recipe]);
+            }
+            return next.output(MEASURED).print(out);
+        };
+        let machine = data.with_file_name("machine.toml");
+        if machine.is_file() {
+            return Next::command("compare").words([&machine, data]).print(out);
+        }
+        Next::command("init").print(out)
     }
 
     fn write(&self, output: &Path, proposal: &Proposal) -> anyhow::Result<()> {

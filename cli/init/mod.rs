@@ -12,6 +12,7 @@ use comfy_table::{Table, presets};
 use helixlock_plant::nearest::one_of;
 
 use self::templates::{TEMPLATES, Template};
+use crate::shared::next::Next;
 use crate::shared::output::Batch;
 
 /// Write a machine file for a kind of machine, with comments that teach, and data to try it on
@@ -33,7 +34,9 @@ impl Init {
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         let (Some(name), Some(folder)) = (&self.template, &self.output) else {
             writeln!(out, "{}", overview())?;
-            writeln!(out, "\nhelixlock init --template NAME -o FOLDER")?;
+
+            let first = TEMPLATES[0].name;
+            Next::command("init").words(["--template", first]).output(first).print(out)?;
             return Ok(ExitCode::SUCCESS);
         };
         let template = named(name)?;
@@ -77,13 +80,11 @@ fn write_folder(template: &Template, folder: &Path) -> anyhow::Result<()> {
 }
 
 fn next_steps(out: &mut impl Write, template: &Template, folder: &Path) -> anyhow::Result<()> {
-    let (machine, data) = (folder.join("machine.toml"), folder.join("data.csv"));
-    let (machine, data) = (machine.display(), data.display());
-    writeln!(out, "{machine} and {data} written; now for example\n")?;
+    let [machine, data, sim] = ["machine.toml", "data.csv", "sim"].map(|name| folder.join(name));
+    writeln!(out, "{} and {} written", machine.display(), data.display())?;
+    writeln!(out, "put your own numbers into the one, and your own data in place of the other")?;
     if template.simulates {
-        writeln!(out, "  helixlock sim {machine} -o {}", folder.join("sim").display())?;
+        return Next::command("sim").words([machine]).output(sim).print(out);
     }
-    writeln!(out, "  helixlock diagnose {machine} {data}")?;
-    writeln!(out, "\nthen your own numbers into the one, and your own data in place of the other")?;
-    Ok(())
+    Next::command("diagnose").words([machine, data]).print(out)
 }

@@ -27,6 +27,7 @@ use crate::shared::answer::{Answer, Answering};
 use crate::shared::captured::Signals;
 use crate::shared::effect_file::own_effects;
 use crate::shared::input::{Input, machine_files};
+use crate::shared::next::Next;
 use crate::shared::output::{self, Batch, Written, print_json};
 use crate::shared::residual_table::residual_table;
 use crate::shared::words::status;
@@ -104,8 +105,33 @@ impl Learn {
             print_offer(out, book)?;
             written.print(out)?;
             write!(out, "{}", kept::note(kept.as_deref()))?;
+            self.print_next([machine, data], &learned, out)?;
         }
         Ok(status(diagnosis.verdict))
+    }
+
+    /// What was written is held against the data; where no name fits, a formula may.
+    fn print_next(
+        &self,
+        [machine, data]: [&Path; 2],
+        learned: &Learned,
+        out: &mut impl Write,
+    ) -> anyhow::Result<()> {
+        let better = self.output.as_ref().map(|folder| folder.join(MACHINE));
+        let (command, machine, output) = match (learned.diagnosis.verdict, &better) {
+            (Verdict::NothingMissing | Verdict::DoubtfulInput, _) => return Ok(()),
+            (Verdict::Unexplained, _) if !learned.book.accepted => {
+                ("discover", machine, Some("proposed.toml"))
+            }
+            (_, Some(better)) => ("compare", better.as_path(), None),
+            (_, None) => ("learn", machine, Some("learned")),
+        };
+
+        let next = Next::command(command).words([machine, data]).words(self.signals.words());
+        match output {
+            Some(output) => next.output(output).print(out),
+            None => next.print(out),
+        }
     }
 
     fn learned(&self, machine: &Path, data: &Path) -> anyhow::Result<Learned> {
@@ -245,5 +271,10 @@ fn undo(folder: &Path, out: &mut impl Write) -> anyhow::Result<ExitCode> {
     files.keep()?;
     write!(out, "{}", kept::note(kept.as_deref()))?;
     writeln!(out, "{added} taken back")?;
+    if let Some(data) = book.get("data").and_then(Value::as_str) {
+        let machine = folder.join(MACHINE);
+
+        Next::command("diagnose").words([machine.as_path(), data.as_ref()]).print(out)?;
+    }
     Ok(ExitCode::SUCCESS)
 }

@@ -10,6 +10,7 @@ use helixlock_traces::csv::write_csv;
 use helixlock_traces::{Column, Table};
 
 use super::comparison::Comparison;
+use super::export::print_export;
 use super::image::read_image;
 use super::json::AppliedJson;
 use super::samples::read_samples;
@@ -68,7 +69,12 @@ impl Apply {
         let comparison = self.compared()?;
         let result = AppliedJson::new(&comparison, self.limit);
         let written = match &self.output {
-            Some(output) => write_applied(output, [self.image, self.data], &comparison, &result)?,
+            Some(output) => write_applied(
+                output,
+                [self.image.clone(), self.data.clone()],
+                &comparison,
+                &result,
+            )?,
             None => Written::default(),
         };
         if self.json {
@@ -76,6 +82,7 @@ impl Apply {
         } else {
             text::print_applied(out, &comparison, self.limit)?;
             written.print(out)?;
+            print_export(out, &self.image)?;
         }
         let exceeded = self.limit.is_some_and(|limit| !comparison.keeps(limit));
         Ok(if exceeded { ExitCode::from(1) } else { ExitCode::SUCCESS })

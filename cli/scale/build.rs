@@ -11,6 +11,7 @@ use helixlock_metrology::scale::{
     to_image,
 };
 
+use super::export::print_export;
 use super::image::write_image;
 use super::json::BuiltJson;
 use super::samples::read_samples;
@@ -60,6 +61,7 @@ impl Build {
             print_json(out, &BuiltJson::new(&table, &joints, samples))?;
         } else {
             text::print_built(out, output, &table, &joints)?;
+            print_export(out, output)?;
         }
         Ok(ExitCode::SUCCESS)
     }

@@ -1,13 +1,14 @@
 //! `helixlock scale export`: a table for a machine control.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 use helixlock_metrology::scale::{LinuxCnc, linuxcnc_file, nominal_actual_csv, siemens_file};
 
 use super::image::read_image;
+use crate::shared::next::Next;
 use crate::shared::output::write_content;
 
 /// Write a table in the format of a machine control
@@ -62,4 +63,10 @@ impl Export {
         }
         Ok(ExitCode::SUCCESS)
     }
+}
+
+/// Says how an image becomes a file of a control.
+pub(super) fn print_export(out: &mut impl Write, image: &Path) -> anyhow::Result<()> {
+    let next = Next::command("scale").words(["export"]).words([image]);
+    next.words(["--format", "linuxcnc"]).output("axis.comp").print(out)
 }

@@ -28,6 +28,7 @@ use helixlock_workbench::serve;
 
 use self::desk::Workbench;
 use self::folder::Folder;
+use crate::shared::browser::open_page;
 
 /// Show the workbench in a browser: where a model fails, which effect, and how the error falls
 ///
@@ -54,9 +55,8 @@ impl Serve {
         let mut told = Ok(());
         serve(self.port, &token()?, desk, |address| {
             told = writeln!(out, "{address}").and_then(|()| out.flush());
-            if self.open && open::that_detached(address).is_err() {
-                // The address is printed: a user without a browser can take it elsewhere.
-                told = writeln!(out, "no browser could be opened");
+            if self.open && told.is_ok() {
+                told = open_page(out, address);
             }
         })?;
         told?;

@@ -1,5 +1,6 @@
 //! A logic analyser's capture of the device's two references, for the commands that compare.
 
+use std::ffi::OsStr;
 use std::path::Path;
 
 use anyhow::{anyhow, bail};
@@ -42,6 +43,18 @@ impl Signals {
     /// True when a signal was named, which only a capture has.
     pub(crate) fn named(&self) -> bool {
         [&self.grating, &self.laser, &self.step, &self.forward].into_iter().any(Option::is_some)
+    }
+
+    /// The words that named them.
+    pub(crate) fn words(&self) -> Vec<&OsStr> {
+        let named = [
+            ("--grating-signal", &self.grating),
+            ("--laser-signal", &self.laser),
+            ("--step-signal", &self.step),
+            ("--forward-signal", &self.forward),
+        ];
+        let words = named.iter().filter_map(|(word, name)| Some([*word, name.as_deref()?]));
+        words.flatten().map(AsRef::as_ref).collect()
     }
 
     /// Reads the trains of a dump.

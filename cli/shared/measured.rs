@@ -1,5 +1,6 @@
 //! A machine file and a data file, read together for the commands that compare them.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
@@ -29,6 +30,12 @@ impl Files {
         let data = Input::read(&self.data)?;
         let problem = problem(&file.model, &self.data, data, &self.signals)?;
         Ok((file, problem))
+    }
+
+    /// The words that a further command about them takes.
+    pub(crate) fn words(&self) -> Vec<&OsStr> {
+        let files = [self.machine.as_os_str(), self.data.as_os_str()];
+        files.into_iter().chain(self.signals.words()).collect()
     }
 
     /// What was read, for outputs to spare.

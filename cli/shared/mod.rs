@@ -3,6 +3,7 @@
 pub(crate) mod angular;
 pub(crate) mod answer;
 pub(crate) mod board_design;
+pub(crate) mod browser;
 pub(crate) mod captured;
 pub(crate) mod cases;
 pub(crate) mod diagnosis_json;
@@ -13,6 +14,7 @@ pub(crate) mod input;
 pub(crate) mod keys;
 pub(crate) mod language;
 pub(crate) mod measured;
+pub(crate) mod next;
 pub(crate) mod output;
 pub(crate) mod page_pieces;
 pub(crate) mod progress;

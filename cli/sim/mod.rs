@@ -17,10 +17,17 @@ use helixlock_traces::csv::write_csv;
 
 use self::summary::Summary;
 use crate::shared::answer::{Answer, Answering};
+use crate::shared::browser::open_page;
 use crate::shared::input::machine_files;
-use crate::shared::output::{Batch, print_json};
+use crate::shared::next::Next;
+use crate::shared::output::{Batch, Written, print_json};
 use crate::shared::progress;
 use crate::shared::quantity::length_mm;
+
+/// Name of the table in its folder.
+const TRACE: &str = "trace.csv";
+/// Name of the page in its folder.
+const REPORT: &str = "report.html";
 
 /// Grind a workpiece clock by clock, without and with the correction
 ///
@@ -45,6 +52,9 @@ pub(crate) struct Sim {
     /// Grind only the first so many millimetres
     #[arg(long, value_name = "MM", value_parser = length_mm, allow_hyphen_values = true)]
     length: Option<f64>,
+    /// Open the report in the browser
+    #[arg(long)]
+    open: bool,
     /// Print the summary as JSON
     #[arg(long)]
     json: bool,
@@ -64,12 +74,17 @@ impl Sim {
         let summary = Summary::new(&self.machine, &machine, &simulation, &simulation.findings());
         let inputs = machine_files(&self.machine, &machine);
         let files = Batch::new(output, inputs)?;
-        write_files(files, &machine, &simulation, &summary)?;
+        let written = write_files(files, &machine, &simulation, &summary)?;
         if self.json {
             print_json(out, &summary)?;
         } else {
             summary.print(out)?;
-            writeln!(out, "\n{}: report, trace, waveform", output.display())?;
+            written.print(out)?;
+
+            Next::command("compare").words([&self.machine, &output.join(TRACE)]).print(out)?;
+        }
+        if self.open {
+            open_page(out, output.join(REPORT))?;
         }
         Ok(ExitCode::SUCCESS)
     }
@@ -108,16 +123,16 @@ fn write_files(
     machine: &Machine,
     simulation: &Simulation,
     summary: &Summary,
-) -> anyhow::Result<()> {
+) -> anyhow::Result<Written> {
     let page = page::page(machine, simulation, summary)?;
     let trace = table::table(machine, simulation);
-    files.write("trace.csv", |mut file| Ok(write_csv(&trace, &mut file)?))?;
+    files.write(TRACE, |mut file| Ok(write_csv(&trace, &mut file)?))?;
     if let Some(waveform) = &simulation.closed.waveform {
         let clock_hz = simulation.course.clock_hz;
         files.write("wave.vcd", |file| Ok(write_vcd(file, waveform, clock_hz)?))?;
         files.write_content("wave.gtkw", table::gtkwave_view(waveform))?;
     }
     files.write_json("summary.json", summary)?;
-    files.write_content("report.html", page)?;
-    files.keep()
+    files.write_content(REPORT, page)?;
+    files.kept()
 }
