@@ -200,10 +200,14 @@ fn on_all_rows(problem: &Problem, small: &Problem, steps: &[Step]) -> (Problem, 
         return (small.clone(), steps.iter().map(|step| step.state.clone()).collect());
     }
     let mut whole = problem.clone();
-    let of = |whole: &Problem, state: &State| state.on(whole).unwrap_or_else(|| State::bare(whole));
-    let last = of(&whole, &steps[steps.len() - 1].state);
+    let last = steps[steps.len() - 1].state.on(&whole).unwrap_or_else(|| State::bare(&whole));
     whole.mark_outliers(&last.fit.left);
-    let states = steps.par_iter().map(|step| of(&whole, &step.state)).collect();
+    // The last noise is the one that no effect is left in: all begin with it.
+    let near = |step: &Step| {
+        State::of(&whole, step.state.components.clone(), &last.fit.noises)
+            .unwrap_or_else(|| State::bare(&whole))
+    };
+    let states = steps.par_iter().map(near).collect();
     (whole, states)
 }
 

@@ -6,6 +6,7 @@
 use std::ops::Range;
 
 use nalgebra::SVector;
+use rayon::prelude::*;
 
 use super::kernel::{Noise, SlowPart};
 use super::layout::{Block, Layout};
@@ -70,7 +71,7 @@ fn adjusted(layout: &Layout, residual: &[f64], warm: &Noise) -> NoiseFit {
 
 fn one_part(layout: &Layout, residual: &[f64], span: f64) -> NoiseFit {
     let starts = [[0.0, libm::log(3.0)], [0.0, libm::log((0.2 * span).max(4.0))]];
-    best_of(starts.into_iter().map(|start| searched(layout, residual, start, span)))
+    best_searched(layout, residual, &starts, span)
 }
 
 fn two_parts(layout: &Layout, residual: &[f64], one: &Noise, span: f64) -> NoiseFit {
@@ -80,8 +81,20 @@ fn two_parts(layout: &Layout, residual: &[f64], one: &Noise, span: f64) -> Noise
     let shorter = [known[0] - 1.0, (known[1] - 2.0).max(SHORTEST)];
     let longer = (known[1] + ROOM < longer[1]).then_some(longer);
     let shorter = (shorter[1] < known[1] - ROOM).then_some(shorter);
-    let starts = longer.into_iter().chain(shorter).map(|other| joined(known, other));
-    best_of(starts.map(|start| searched(layout, residual, start, span)))
+    let starts: Vec<[f64; 4]> =
+        longer.into_iter().chain(shorter).map(|other| joined(known, other)).collect();
+    best_searched(layout, residual, &starts, span)
+}
+
+/// The likeliest noise of those that searches from some starts end at.
+fn best_searched<const D: usize>(
+    layout: &Layout,
+    residual: &[f64],
+    starts: &[[f64; D]],
+    span: f64,
+) -> NoiseFit {
+    let searched = starts.par_iter().map(|start| searched(layout, residual, *start, span));
+    best_of(searched.collect::<Vec<_>>().into_iter())
 }
 
 fn joined(one: [f64; 2], two: [f64; 2]) -> [f64; 4] {
