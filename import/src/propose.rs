@@ -111,6 +111,7 @@ fn read(source: Source<'_>, decisions: &mut Decisions<'_>) -> Result<Built, Impo
     });
     match format.as_str() {
         "phd2" => formats::phd2::read(&lines, decisions),
+        "phd2-debug" => formats::phd2_debug::read(&lines, decisions),
         "eqmod" => formats::eqmod::read(&lines, decisions),
         "renishaw" => formats::renishaw::read(&lines, decisions),
         "iso230" => formats::iso230::read(&lines, decisions),

@@ -54,6 +54,7 @@ pub(crate) const FORMATS: &[&str] = &[
     "matlab",
     "hdf5",
     "phd2",
+    "phd2-debug",
     "eqmod",
     "sigrok",
     "renishaw",

@@ -4,7 +4,7 @@ use helixlock_import::{Recipe, Source, propose};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-const SAMPLES: [&[u8]; 19] = [
+const SAMPLES: [&[u8]; 20] = [
     include_bytes!("samples/german.csv"),
     include_bytes!("samples/chinese-gbk.csv"),
     include_bytes!("samples/chinese-utf16.txt"),
@@ -19,6 +19,7 @@ const SAMPLES: [&[u8]; 19] = [
     include_bytes!("samples/record.npy"),
     include_bytes!("samples/workbook.xlsx"),
     include_bytes!("samples/sheet.ods"),
+    include_bytes!("samples/debug-log.txt"),
     include_bytes!("samples/session.mat"),
     include_bytes!("samples/plain.mat"),
     include_bytes!("samples/session73.mat"),

@@ -79,6 +79,7 @@ fn samples_that_need_an_answer_ask_for_it() {
             "halsampler.txt",
             "[halsampler]\nperiod_s = 0.001\n[[column]]\nfrom = \"pin.0\"\nto = \"position_mm\"\nunit = \"mm\"\n[[column]]\nfrom = \"pin.1\"\nto = \"error_um\"\nunit = \"mm\"",
         ),
+        ("debug-log.txt", "[phd2]\nscale_arcsec = 1.9"),
         (
             "plain.mat",
             "[[column]]\nfrom = \"trace 1\"\nto = \"position_mm\"\nunit = \"mm\"\n[[column]]\nfrom = \"trace 2\"\nto = \"error_um\"\nunit = \"um\"",

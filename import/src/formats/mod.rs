@@ -12,6 +12,7 @@ pub(crate) mod matlab;
 pub(crate) mod npy;
 pub(crate) mod parquet;
 pub(crate) mod phd2;
+pub(crate) mod phd2_debug;
 pub(crate) mod renishaw;
 pub(crate) mod sigrok;
 pub(crate) mod spreadsheet;
@@ -73,6 +74,8 @@ pub(crate) fn textual(name: &str, lines: &[&str]) -> (&'static str, &'static str
     let ending = name.rsplit('.').next().unwrap_or_default().to_lowercase();
     if any(&|line| line.starts_with("Guiding Begins at") || line.starts_with("Frame,Time,mount,")) {
         ("phd2", "the words of a PHD2 guide log")
+    } else if any(&phd2_debug::fits) {
+        ("phd2-debug", "clock, seconds since the line before and thread begin each line")
     } else if any(&|line| eqmod::fits(line)) {
         ("eqmod", "the period of a worm behind `!`")
     } else if any(&|line| line.starts_with("DEVIATIONS::") || line.starts_with("TARGET DATA::")) {

@@ -70,6 +70,16 @@ pub(crate) fn read(lines: &[&str], decisions: &mut Decisions<'_>) -> Result<Buil
     reader.finish(decisions)
 }
 
+/// Asks how many arc seconds a pixel is.
+pub(super) fn ask_for_scale(decisions: &mut Decisions<'_>) {
+    let answer = Answer {
+        label: "pixels are written as arc seconds: periods are right, amplitudes are not".into(),
+        recipe: "[phd2]\nscale_arcsec = 1.0".into(),
+    };
+    let text = "the log does not say how many arc seconds a pixel is (`Pixel scale`)";
+    decisions.question(text, vec![answer]);
+}
+
 impl<'a> Reader<'a> {
     fn new(file: &'a str, axis: Axis, unguided: bool, given_scale: Option<f64>) -> Self {
         Self {
@@ -233,18 +243,7 @@ impl<'a> Reader<'a> {
             ));
         }
         if self.unscaled {
-            let answer = |label: &str, scale: &str| Answer {
-                label: label.to_owned(),
-                recipe: format!("[phd2]\nscale_arcsec = {scale}"),
-            };
-            let text = "the log does not say how many arc seconds a pixel is (`Pixel scale`)";
-            decisions.question(
-                text,
-                vec![answer(
-                    "pixels are written as arc seconds: periods are right, amplitudes are not",
-                    "1.0",
-                )],
-            );
+            ask_for_scale(decisions);
         }
         match self.first_s {
             Some(_) => decisions.note(
