@@ -54,12 +54,11 @@ pub(crate) fn read(lines: &[&str], decisions: &mut Decisions<'_>) -> Result<Buil
         )
     });
     let frames = frames(decisions.file(), lines, axis == "dec")?;
-    let scale = match decisions.given("phd2", "scale_arcsec") {
-        Some(Value::Number(scale)) => *scale,
-        _ => {
-            ask_for_scale(decisions);
-            1.0
-        }
+    let scale = if let Some(Value::Number(scale)) = decisions.given("phd2", "scale_arcsec") {
+        *scale
+    } else {
+        ask_for_scale(decisions);
+        1.0
     };
     decisions.note("time counts from the first reading, by the clock of the log");
     let table = Table::of(&frames, scale, error == "unguided");
