@@ -14,7 +14,7 @@ use crate::{
 };
 
 /// Words of a command that have no meaning without files and text.
-const OF_FILES: &[&str] = &["force", "json", "open", "output", "shard", "undo"];
+const OF_FILES: &[&str] = &["force", "json", "open", "output", "page", "shard", "undo"];
 
 /// A command that answers in memory.
 #[derive(Clone, Copy, Debug)]

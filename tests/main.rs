@@ -47,6 +47,7 @@ mod not_finite;
 mod odd_machines;
 mod original;
 mod outputs;
+mod pages;
 mod parquet_readers;
 mod phase_meter;
 mod programmable_divider;

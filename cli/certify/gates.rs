@@ -95,11 +95,7 @@ pub(crate) fn print_hazards(hazards: &[Hazard], out: &mut impl Write) -> anyhow:
 
 fn print_hazard(hazard: &Hazard, out: &mut impl Write) -> anyhow::Result<()> {
     writeln!(out, "fig. {}: {}", hazard.figure, hazard.what)?;
-    let begins = match (hazard.begins_ps.map(nanoseconds), hazard.above) {
-        (None, _) => "never in what was tried".to_owned(),
-        (Some(begins_ns), true) => format!("from {begins_ns:.1} ns up"),
-        (Some(begins_ns), false) => format!("below {begins_ns:.1} ns"),
-    };
+    let begins = begins(hazard);
     let given_ns = nanoseconds(hazard.given_ps);
     writeln!(out, "    {}: {begins}; a device has {given_ns:.1} ns", hazard.turned)?;
     let verdict = if hazard.is_kept_away() { "kept away by" } else { "POSSIBLE; against it:" };
@@ -107,7 +103,16 @@ fn print_hazard(hazard: &Hazard, out: &mut impl Write) -> anyhow::Result<()> {
     Ok(())
 }
 
+/// Where it happens.
+pub(super) fn begins(hazard: &Hazard) -> String {
+    match (hazard.begins_ps.map(nanoseconds), hazard.above) {
+        (None, _) => "never in what was tried".to_owned(),
+        (Some(begins_ns), true) => format!("from {begins_ns:.1} ns up"),
+        (Some(begins_ns), false) => format!("below {begins_ns:.1} ns"),
+    }
+}
+
 #[expect(clippy::cast_precision_loss, reason = "at most seconds, to the picosecond")]
-fn nanoseconds(ps: u64) -> f64 {
+pub(super) fn nanoseconds(ps: u64) -> f64 {
     ps as f64 / 1e3
 }

@@ -2,6 +2,7 @@
 
 mod gates;
 mod json;
+mod page;
 mod sets;
 mod text;
 
@@ -20,8 +21,9 @@ use helixlock_traces::csv::write_csv;
 
 use self::json::{BlockJson, CertificateJson, GatesJson, HazardJson, WholeJson};
 use crate::shared::cases::{Campaign, Cases, Row, Shard, Worked};
+use crate::shared::input::machine_files;
 use crate::shared::next::Next;
-use crate::shared::output::print_json;
+use crate::shared::output::{print_json, print_page, write_page};
 use crate::shared::progress;
 use crate::shared::quantity::length_mm;
 
@@ -82,6 +84,9 @@ pub(crate) struct Certify {
     #[arg(long, value_name = "SEED", num_args = 0..=1, require_equals = true)]
     #[expect(clippy::option_option, reason = "the flag may come with a seed or without")]
     gates: Option<Option<u64>>,
+    /// The same as a page
+    #[arg(long, value_name = "FILE.html", conflicts_with = "shard")]
+    page: Option<PathBuf>,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -114,6 +119,10 @@ impl Certify {
             self.gates.map(|seed| certify_gates(&machine, self.length, seed)).transpose()?;
         let (clock_hz, fringe_hz) = (certificate.clock_hz, certificate.fringe_hz);
         let mtbf = mtbf_log10_years(self.flip_flop(), clock_hz, fringe_hz);
+        if let Some(path) = &self.page {
+            let page = page::page(&machine.title, &certificate, &checks, &hazards);
+            write_page(path, machine_files(&self.machine, &machine), &page)?;
+        }
         if self.json {
             let words = CertificateJson::new(&certificate, self.flip_flop(), mtbf);
             let blocks = checks.iter().map(BlockJson::new).collect();
@@ -128,6 +137,7 @@ impl Certify {
             gates::print_hazards(&hazards, out)?;
             whole.iter().try_for_each(|whole| gates::print_whole(whole, out))?;
             sets.print(&CAMPAIGN, out)?;
+            print_page(out, self.page.as_deref())?;
             Next::command("faults").words([&self.machine]).print(out)?;
         }
         let holds = certificate.holds()

@@ -1,6 +1,7 @@
 //! `helixlock discover`: a formula where no name fits.
 
 mod json;
+mod page;
 mod text;
 
 use std::io::Write;
@@ -8,15 +9,16 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use helixlock_lab::{Discovery, Found, Problem, discover};
+use helixlock_lab::{Discovery, Found, Problem, compare, discover};
 use helixlock_plant::MachineFile;
+use helixlock_report::Page;
 
 use self::json::DiscoveryJson;
 use crate::shared::angular::in_unit;
 use crate::shared::answer::{Answer, Answering};
 use crate::shared::measured::Files;
 use crate::shared::next::Next;
-use crate::shared::output::{print_json, write_content};
+use crate::shared::output::{print_json, print_page, write_content, write_page};
 
 /// Propose a formula for what no effect of the catalogue explains
 #[derive(Debug, Args)]
@@ -26,6 +28,9 @@ pub(crate) struct Discover {
     /// New machine file with the proposed formulas, and the named effects beside them, in it
     #[arg(short, long)]
     output: Option<PathBuf>,
+    /// The same as a page
+    #[arg(long, value_name = "FILE.html")]
+    page: Option<PathBuf>,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -45,12 +50,17 @@ impl Discover {
             Some(_) => false,
             None => true,
         };
+        if let Some(path) = &self.page {
+            let page = drawn(&file, &problem, &discovery)?;
+            write_page(path, self.files.inputs(&file.model), &page)?;
+        }
         let measurement = &problem.measurement;
         if self.json {
             let unit = measurement.unit_word();
             print_json(out, &in_unit(&DiscoveryJson::new(&discovery, unit), unit)?)?;
         } else {
             text::print(out, &discovery, measurement.unit())?;
+            print_page(out, self.page.as_deref())?;
             if let Some(path) = self.output.as_ref().filter(|_| !written) {
                 writeln!(out, "{}: not written, for nothing is proposed", path.display())?;
             } else if !discovery.proposals.is_empty() {
@@ -86,6 +96,18 @@ impl Answering for Discover {
         let answer = Answer::in_unit(&DiscoveryJson::new(&discovery, unit), unit)?;
         Ok(answer.with_text("machine", with_proposals(&file, &discovery)?.text().clone()))
     }
+}
+
+/// The page, for which the residual is worked out before and after.
+fn drawn(file: &MachineFile, problem: &Problem, found: &Discovery) -> anyhow::Result<Page> {
+    let before = compare(problem);
+    let after = if found.proposals.is_empty() {
+        None
+    } else {
+        let new = with_proposals(file, found)?.model;
+        Some(compare(&Problem::new(&new, &problem.measurement)?))
+    };
+    Ok(page::page(problem, found, &before, after.as_ref()))
 }
 
 fn with_proposals(file: &MachineFile, found: &Discovery) -> anyhow::Result<MachineFile> {

@@ -1,8 +1,9 @@
 //! `helixlock faults`: flips every flip-flop and looks what becomes of the screw.
 
+mod blocks;
+mod page;
 mod rows;
 
-use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -10,13 +11,14 @@ use std::process::ExitCode;
 use clap::Args;
 use comfy_table::{Cell, CellAlignment, Table};
 use helixlock_plant::MachineFile;
-use helixlock_sim::faults::{Flips, Outcome, Verdict, flip_flops};
+use helixlock_sim::faults::{Flips, Outcome, flip_flops};
 
-use self::rows::{COLUMNS, Faults, VERDICTS, cells_of, faults_of, word, write_csv};
+use self::blocks::{HEADER, by_block, safeguards};
+use self::rows::{COLUMNS, Faults, cells_of, faults_of, word, write_csv};
 use crate::shared::cases::{Campaign, Cases, Row, Shard};
 use crate::shared::input::machine_files;
 use crate::shared::keys::keys;
-use crate::shared::output::print_json;
+use crate::shared::output::{print_json, print_page, write_page};
 
 /// Flips of a campaign.
 pub(crate) const CAMPAIGN: Campaign = Campaign {
@@ -48,6 +50,9 @@ pub(crate) struct FaultsCommand {
     /// Try only this part of so many, `2/8`, on one machine of many; `helixlock merge` joins them
     #[arg(long, value_name = "PART/PARTS", requires = "output")]
     shard: Option<Shard>,
+    /// The same as a page
+    #[arg(long, value_name = "FILE.html", conflicts_with = "shard")]
+    page: Option<PathBuf>,
     /// Print everything as JSON
     #[arg(long)]
     json: bool,
@@ -64,15 +69,21 @@ impl FaultsCommand {
                 keep(Row { case, cells: cells_of(&outcome, course), failure: None })
             })
         })?;
+        if let Some(path) = &self.page {
+            let page = page::page(&file.model.title, &faults_of(&worked.table)?);
+            write_page(path, machine_files(&self.machine, &file.model), &page)?;
+        }
         if self.json {
             print_json(out, &FaultsJson::new(&faults_of(&worked.table)?))?;
             return Ok(ExitCode::SUCCESS);
         }
         worked.print(&CAMPAIGN, out)?;
-        match self.shard {
-            Some(_) => Ok(ExitCode::SUCCESS),
-            None => (CAMPAIGN.print)(&worked.table, out),
-        }
+        let code = match self.shard {
+            Some(_) => ExitCode::SUCCESS,
+            None => (CAMPAIGN.print)(&worked.table, out)?,
+        };
+        print_page(out, self.page.as_deref())?;
+        Ok(code)
     }
 
     fn cases(&self, file: &MachineFile) -> Cases {
@@ -87,63 +98,13 @@ impl FaultsCommand {
     }
 }
 
-/// What came of the flips in one block.
-#[derive(Default)]
-struct Block {
-    verdicts: BTreeMap<Verdict, usize>,
-    slowest_s: f64,
-    worst_um: f64,
-    healed: usize,
-    slowest_clocks: u64,
-    fault_shown: usize,
-}
-
-impl Block {
-    fn add(&mut self, outcome: &Outcome) {
-        *self.verdicts.entry(outcome.verdict).or_default() += 1;
-        self.slowest_s = outcome.recovery_s.map_or(self.slowest_s, |s| self.slowest_s.max(s));
-        self.worst_um = self.worst_um.max(outcome.worst_um);
-        self.healed += usize::from(outcome.healed_clocks.is_some());
-        self.slowest_clocks = self.slowest_clocks.max(outcome.healed_clocks.unwrap_or(0));
-        self.fault_shown += usize::from(outcome.fault_shown);
-    }
-
-    fn cells(&self, name: &str) -> Vec<Cell> {
-        let flips: usize = self.verdicts.values().sum();
-        let counts = VERDICTS.map(|(verdict, _)| self.verdicts.get(&verdict).copied().unwrap_or(0));
-        let mut cells = vec![name.to_owned(), flips.to_string()];
-        cells.extend(counts.map(|count| count.to_string()));
-        cells.extend([
-            format!("{} ({})", self.healed, self.slowest_clocks),
-            format!("{:.2}", self.slowest_s),
-            format!("{:.3}", self.worst_um),
-            self.fault_shown.to_string(),
-        ]);
-        let right = |text| Cell::new(text).set_alignment(CellAlignment::Right);
-        cells.into_iter().map(right).collect()
-    }
-}
-
 fn print(out: &mut dyn Write, faults: &Faults) -> anyhow::Result<()> {
-    let mut blocks: BTreeMap<&str, Block> = BTreeMap::new();
-    let mut all = Block::default();
-    for outcome in &faults.outcomes {
-        let block = faults.name(outcome).split_once('.').map_or("device", |(block, _)| block);
-        blocks.entry(block).or_default().add(outcome);
-        all.add(outcome);
-    }
     let mut table = Table::new();
-    let verdicts = VERDICTS.map(|(_, name)| name);
-    let header = [
-        &["block", "flips"],
-        &verdicts[..],
-        &["logic heals (clocks)", "slowest, s", "worst, µm", "fault shown"],
-    ];
-    table.set_header(header.concat());
-    for (name, block) in &blocks {
-        table.add_row(block.cells(name));
+    table.set_header(HEADER);
+    let right = |text| Cell::new(text).set_alignment(CellAlignment::Right);
+    for (name, block) in by_block(faults) {
+        table.add_row(block.cells(name).into_iter().map(right));
     }
-    table.add_row(all.cells("all"));
     writeln!(out, "{table}")?;
     writeln!(
         out,
@@ -153,33 +114,7 @@ fn print(out: &mut dyn Write, faults: &Faults) -> anyhow::Result<()> {
         faults.window_s,
         faults.band_um
     )?;
-    print_safeguards(out, faults)
-}
-
-/// What the ring's self-clear and the counter's fault output were worth.
-fn print_safeguards(out: &mut dyn Write, faults: &Faults) -> anyhow::Result<()> {
-    let cleared: Vec<&Outcome> =
-        faults.outcomes.iter().filter(|flip| 0 < flip.ring_illegal_clocks).collect();
-    let clocks = cleared.iter().map(|flip| flip.ring_illegal_clocks).max().unwrap_or(0);
-    let slip = cleared.iter().map(|flip| flip.ring_slip.abs()).max().unwrap_or(0);
-    writeln!(
-        out,
-        "self-clear of the ring: {} flips left it in an illegal state, for {clocks} clocks at most; \
-         it then ran on, {slip} steps beside its place at most",
-        cleared.len(),
-    )?;
-    let shown = faults.outcomes.iter().filter(|flip| flip.fault_shown);
-    let mut shown: Vec<&str> = shown.map(|flip| faults.name(flip)).collect();
-    shown.sort_unstable();
-    shown.dedup();
-    let lost = faults.outcomes.iter().filter(|flip| flip.home_error != 0).count();
-    let shown = if shown.is_empty() { "none".to_owned() } else { shown.join(", ") };
-    writeln!(
-        out,
-        "fault output of the counter: came on after a flip of {shown}; it tells of a counter that \
-         is full, not of the {lost} flips that made it count from elsewhere"
-    )?;
-    Ok(())
+    Ok(safeguards(faults).iter().try_for_each(|line| writeln!(out, "{line}"))?)
 }
 
 keys! {

@@ -210,6 +210,23 @@ pub(crate) fn write_content(
     write_whole(path, inputs, |file| Ok(file.write_all(content.as_ref())?))
 }
 
+/// Writes a page as [`write_whole`] does.
+pub(crate) fn write_page(
+    path: &Path,
+    inputs: impl IntoIterator<Item = PathBuf>,
+    page: &Page,
+) -> anyhow::Result<()> {
+    write_content(path, inputs, page.html())
+}
+
+/// Tells a user where a page is; nothing without one.
+pub(crate) fn print_page(out: &mut impl Write, path: Option<&Path>) -> anyhow::Result<()> {
+    match path {
+        Some(path) => Ok(writeln!(out, "\n{}: the same as a page", path.display())?),
+        None => Ok(()),
+    }
+}
+
 /// Opens a file that grows line by line and outlives an interruption; makes it if there is none.
 pub(crate) fn open_to_append(path: &Path) -> anyhow::Result<File> {
     let mut options = File::options();

@@ -1,5 +1,7 @@
 //! `helixlock sweep`: one simulation a point of a grid, or a draw of chance.
 
+mod page;
+
 use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -16,6 +18,7 @@ use crate::shared::answer::{Answer, Answering};
 use crate::shared::cases::{Campaign, Cases, Row, Shard};
 use crate::shared::input::machine_files;
 use crate::shared::keys::keys;
+use crate::shared::output::{print_page, write_page};
 
 /// Most places that are named.
 const NAMED: usize = 10;
@@ -55,6 +58,9 @@ pub(crate) struct Sweep {
     /// Seed of the draws
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
+    /// The results as a page
+    #[arg(long, value_name = "FILE.html", conflicts_with = "shard")]
+    page: Option<PathBuf>,
     /// Grind only the first so many millimetres
     #[arg(long, value_name = "MM", value_parser = crate::shared::quantity::length_mm)]
     length: Option<f64>,
@@ -69,12 +75,18 @@ impl Sweep {
         let worked = cases.work_out(self.output.as_deref(), |missing, keep| {
             parallel(missing, |index| keep(row(&plan.case(*index), &file, &options)))
         })?;
+        if let Some(path) = &self.page {
+            let title = &file.model.title;
+            let page = page::page(title, &worked.table, &plan.columns(), &worked.rows);
+            write_page(path, machine_files(&self.machine, &file.model), &page)?;
+        }
         worked.print(&CAMPAIGN, out)?;
         let failed = |row: &Row| Some(format!("case {}: {}", row.case, row.failure.as_ref()?));
         let failures: Vec<String> = worked.rows.iter().filter_map(failed).collect();
         for failure in &failures {
             writeln!(out, "{failure}")?;
         }
+        print_page(out, self.page.as_deref())?;
         Ok(if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) })
     }
 
