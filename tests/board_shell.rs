@@ -3,7 +3,7 @@
 
 use helixlock_netlist::{Library, Netlist, elaborate, mask};
 use helixlock_rtl::board_shell::BoardShell;
-use helixlock_rtl::settings::{Conditioning, Range, Settings};
+use helixlock_rtl::settings::{Conditioning, Encoder, Range, Settings};
 use helixlock_sim::{Engine, Interpreter, set_wheels, stepped_device};
 
 use crate::lockstep::stimulus::{dense, realistic};
@@ -17,6 +17,17 @@ const SETTINGS: Settings = Settings {
     insert: true,
     step_period: 200,
 };
+
+/// Pins that say nothing without conditioning.
+const QUIET: [&str; 7] = [
+    "range_x2",
+    "enable",
+    "emergency_stop",
+    "grating_b",
+    "laser_b",
+    "grating_index",
+    "laser_index",
+];
 
 fn shell(conditioning: &Conditioning) -> Netlist {
     let shell = BoardShell::connected(&SETTINGS, conditioning).expect("it can be dialled");
@@ -40,7 +51,7 @@ fn without_conditioning_it_is_the_device() {
             device.set_input(reset, u64::from(clock < 15));
             for (&id, &level) in netlist.inputs.iter().zip(&inputs) {
                 let name = &netlist.signal(id).path;
-                let quiet = matches!(name.as_str(), "range_x2" | "enable" | "emergency_stop");
+                let quiet = QUIET.contains(&name.as_str());
                 shell.set_input(id, if quiet { 0 } else { level });
                 if let Some(port) = circuit.find(name).filter(|_| !quiet) {
                     device.set_input(port, level);
@@ -105,6 +116,7 @@ const BUSY: Conditioning = Conditioning {
     active_low: true,
     range_pin: false,
     enable_pin: false,
+    ..Conditioning::OFF
 };
 
 /// Press and release bounce: without conditioning two steps come of it, with it one.
@@ -181,4 +193,122 @@ fn the_range_is_a_setting_unless_a_pin() {
         board.clocks(10);
         assert_eq!(board.get("device.range_x2"), expected);
     }
+}
+
+/// A machine with encoders of two signals and an index at the pins of a shell.
+struct Machine<'a> {
+    board: Board<'a>,
+    /// Quarters of a line and of a fringe.
+    quarters: [i64; 2],
+    comparisons: u64,
+}
+
+impl<'a> Machine<'a> {
+    fn new(netlist: &'a Netlist) -> Self {
+        let mut board = Board::new(netlist, false);
+        board.switch("start", 1);
+        board.clocks(20);
+        let mut machine = Self { board, quarters: [0; 2], comparisons: 0 };
+        // The initial phase, in fringes.
+        machine.go(1, 20);
+        machine
+    }
+
+    /// An encoder goes so many quarters, some clocks each.
+    fn go(&mut self, channel: usize, quarters: i64) {
+        let [a, b] = [["grating", "grating_b"], ["laser", "laser_b"]][channel];
+        for _ in 0..quarters.abs() {
+            self.quarters[channel] += quarters.signum();
+            let quarter = self.quarters[channel].rem_euclid(4);
+            self.board.set(a, matches!(quarter, 1 | 2).into());
+            self.board.set(b, matches!(quarter, 2 | 3).into());
+            for _ in 0..3 {
+                self.board.clocks(1);
+                self.comparisons += self.board.get("device.grating_divided");
+            }
+        }
+    }
+
+    /// Both go, four lines where three fringes are.
+    fn travel(&mut self, comparisons: i64) {
+        for _ in 0..8 * comparisons.abs() {
+            self.go(0, 4 * comparisons.signum());
+            self.go(1, 3 * comparisons.signum());
+        }
+    }
+}
+
+const QUADRATURE: Conditioning = Conditioning {
+    grating: Encoder { quadrature: true, index: false },
+    laser: Encoder { quadrature: true, index: false },
+    ..Conditioning::OFF
+};
+
+/// Straight on, and with dither and ways back between: as many comparisons, and the same phase.
+#[test]
+fn ways_back_add_no_comparison_and_lose_none() {
+    let netlist = shell(&QUADRATURE);
+    let mut straight = Machine::new(&netlist);
+    straight.travel(30);
+    assert_eq!(straight.comparisons, 30);
+
+    let mut astray = Machine::new(&netlist);
+    astray.travel(12);
+    for _ in 0..200 {
+        for (channel, quarters) in [(0, -4), (0, 4), (1, -4), (1, 4), (0, -1), (0, 1)] {
+            astray.go(channel, quarters);
+        }
+    }
+    assert_eq!(astray.comparisons, 12, "dither");
+    astray.travel(-7);
+    assert_eq!(astray.comparisons, 12, "back");
+    astray.travel(25);
+    assert_eq!(astray.comparisons, 30);
+    assert_eq!(astray.board.get("t1"), straight.board.get("t1"));
+    let dividers = ["device.divider_a.units.digit", "device.divider_b.units.digit"];
+    for path in dividers {
+        assert_eq!(astray.board.get(path), straight.board.get(path), "{path}");
+    }
+}
+
+/// With one signal the same dither is counted: what the second is for.
+#[test]
+fn without_a_second_signal_dither_counts() {
+    let netlist = shell(&Conditioning::OFF);
+    let mut machine = Machine::new(&netlist);
+    machine.travel(12);
+    (0..16).for_each(|_| {
+        machine.go(0, -4);
+        machine.go(0, 4);
+    });
+    assert!(machine.comparisons > 12);
+}
+
+/// The pass waits for both indices.
+#[test]
+fn a_pass_begins_at_the_indices() {
+    let indexed = Encoder { quadrature: false, index: true };
+    let netlist = shell(&Conditioning { grating: indexed, laser: indexed, ..Conditioning::OFF });
+    let mut machine = Machine::new(&netlist);
+    for (index, begins) in [("grating_index", 0), ("laser_index", 1)] {
+        machine.travel(3);
+        assert_eq!(machine.board.get("measuring"), 0);
+        machine.board.set(index, 1);
+        machine.travel(3);
+        assert_eq!(machine.board.get("measuring"), begins, "{index}");
+    }
+}
+
+/// Lost count stops the board, and the panel forgets it.
+#[test]
+fn too_far_back_is_a_stop() {
+    let netlist = shell(&QUADRATURE);
+    let mut machine = Machine::new(&netlist);
+    machine.go(0, -4 * 65_535);
+    assert_eq!(machine.board.get("alarm"), 0);
+    machine.go(0, -4);
+    assert_eq!(machine.board.get("alarm"), 1);
+    machine.board.switch("start", 0);
+    machine.board.clocks(20);
+    assert_eq!(machine.board.get("alarm"), 0);
 }

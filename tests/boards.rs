@@ -249,6 +249,13 @@ fn pins_are_those_asked_for() {
         assert!(all.iter().any(|port| port == pin), "{pin}");
     }
     assert_eq!(all.len(), plain.len() + 3);
+    let encoders = ["grating-b", "laser-b", "grating-index", "laser-index"];
+    let (encoded, shell) = pins(&["--board", "hx8k", "--pins", &encoders.join(",")]);
+    for pin in encoders {
+        let pin = pin.replace('-', "_");
+        assert!(encoded.contains(&pin) && !plain.contains(&pin), "{pin}");
+        assert!(shell.contains(&format!("localparam {pin}_wired = 1'b1;")), "{shell}");
+    }
 }
 
 /// Words in a title that tools take for orders stay words.

@@ -31,6 +31,7 @@ mod golden_verilog;
 mod hidden_effects;
 #[cfg(unix)]
 mod hostile;
+mod index_gate;
 mod initial_phase_selector;
 mod input_conditioner;
 mod interruption;
@@ -53,6 +54,7 @@ mod phase_meter;
 mod programmable_divider;
 mod properties;
 mod python;
+mod quadrature_decoder;
 mod range_stage;
 mod reset_counter;
 mod ring_distributor;

@@ -4,7 +4,7 @@ use clap::{Args, ValueEnum};
 use helixlock_gen::{Board, leave_out};
 use helixlock_netlist::{Design, elaborate};
 use helixlock_rtl::board_shell::BoardShell;
-use helixlock_rtl::settings::{Conditioning, Settings};
+use helixlock_rtl::settings::{Conditioning, Encoder, Settings};
 use helixlock_sim::library;
 
 /// Name of the top module.
@@ -42,19 +42,32 @@ enum Pin {
     Enable,
     /// Contact that opens to stop
     EmergencyStop,
+    /// Second signal of the grating, a quarter of a line behind: lines that go back are owed
+    GratingB,
+    /// Second signal of the laser, or of a scale in its place
+    LaserB,
+    /// Index of the grating: a pass begins there
+    GratingIndex,
+    /// Index of a scale in the laser's place
+    LaserIndex,
 }
 
 impl Pin {
-    const ALL: [(Self, &str); 3] = [
+    const ALL: [(Self, &str); 7] = [
         (Self::Range, "range_x2"),
         (Self::Enable, "enable"),
         (Self::EmergencyStop, "emergency_stop"),
+        (Self::GratingB, "grating_b"),
+        (Self::LaserB, "laser_b"),
+        (Self::GratingIndex, "grating_index"),
+        (Self::LaserIndex, "laser_index"),
     ];
 }
 
 impl Front {
     /// The conditioning they ask for on a board, whose ticks are milliseconds.
     pub(crate) fn conditioning(&self, board: &Board) -> anyhow::Result<Conditioning> {
+        let has = |pin| self.pins.contains(&pin);
         let conditioning = Conditioning {
             glitch_clocks: self.glitch_clocks,
             debounce_ticks: self.debounce,
@@ -62,8 +75,10 @@ impl Front {
             watchdog_ticks: self.watchdog,
             bit_clocks: (1_000_000 * board.clock_mhz + BAUD / 2) / BAUD,
             active_low: !self.active_high,
-            range_pin: self.pins.contains(&Pin::Range),
-            enable_pin: self.pins.contains(&Pin::Enable),
+            range_pin: has(Pin::Range),
+            enable_pin: has(Pin::Enable),
+            grating: Encoder { quadrature: has(Pin::GratingB), index: has(Pin::GratingIndex) },
+            laser: Encoder { quadrature: has(Pin::LaserB), index: has(Pin::LaserIndex) },
         };
         conditioning.check()?;
         Ok(conditioning)

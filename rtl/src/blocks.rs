@@ -3,7 +3,7 @@
 use rust_hdl::prelude::{Block, Logic};
 
 use crate::board_shell::BoardShell;
-use crate::settings::{Conditioning, Range, Settings};
+use crate::settings::{Conditioning, Encoder, Range, Settings};
 
 /// What there is to know of a block without opening its file.
 #[derive(Clone, Copy, Debug)]
@@ -111,6 +111,10 @@ pub const BLOCKS: &[BlockCard] = &[
         "Pulse and direction for a bought stepper driver"),
     card!(input_conditioner::InputConditioner(clock, pin, active_low, tick, ticks)
         "Lets a level through once it has stood still: against glitches and bouncing"),
+    card!(quadrature_decoder::QuadratureDecoder(clock, clear, a, b)
+        "Lines of an encoder that may go back: those passed for the first time (fig. 6)"),
+    card!(index_gate::IndexGate(clock, wired, start, started, index)
+        "Lets a pass begin at the encoder's index"),
     card!(supervisor::Supervisor(clock, clear, tick, limit, wrap_watched, measuring, line, fringe,
             opening, shutting, enable, stop)
         "Watchdogs of lines, fringes and meter, enable and emergency stop"),
@@ -164,6 +168,8 @@ const HASTY: Conditioning = Conditioning {
     active_low: false,
     range_pin: true,
     enable_pin: true,
+    grating: Encoder { quadrature: true, index: true },
+    laser: Encoder { quadrature: true, index: true },
 };
 
 #[cfg(test)]

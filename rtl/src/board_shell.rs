@@ -17,6 +17,10 @@
 //! | `range_x2`            | in  | * switch: ×2 instead of ×1                               |
 //! | `enable`              | in  | * switch: steps are allowed                              |
 //! | `emergency_stop`      | in  | * contact to ground that opens: high stops all steps     |
+//! | `grating_b`           | in  | * second signal of the grating, a quarter of a line late |
+//! | `laser_b`             | in  | * second signal of the laser, a quarter of a fringe late |
+//! | `grating_index`       | in  | * index of the grating: a pass begins there              |
+//! | `laser_index`         | in  | * index of a scale in the laser's place, likewise        |
 //! | `t1`, `t2`            | out | RC low-pass each, the difference to the recorder         |
 //! | `phase_a` … `phase_c` | out | power stage of the three windings                        |
 //! | `step`, `direction`   | out | … or a bought stepper driver                             |
@@ -39,6 +43,9 @@
 //! nor a winding notices. What the supervisor remembers it forgets when `start`, `correct` and
 //! `playback` are all off, so that nothing moves because a stop was released.
 //!
+//! With a second signal lines that go back are owed, and a pass goes on where it went back. What is
+//! owed is forgotten while `start` is off. More than 65 535 of them count as a stop.
+//!
 //! # Inferred
 //!
 //! All of it. The power-on reset is a counter that FPGAs start at zero. The range is a setting like
@@ -47,9 +54,11 @@
 use rust_hdl::prelude::*;
 
 use crate::device::Device;
+use crate::index_gate::IndexGate;
 use crate::input_conditioner::InputConditioner;
 use crate::input_synchroniser::InputSynchroniser;
 use crate::level_synchroniser::LevelSynchroniser;
+use crate::quadrature_decoder::QuadratureDecoder;
 use crate::settings::{Conditioning, Settings, SettingsError};
 use crate::step_clock::StepClock;
 use crate::step_driver::{PULSE_CLOCKS, StepDriver};
@@ -84,6 +93,14 @@ pub struct BoardShell {
     pub enable: Signal<In, Bit>,
     /// High stops all steps.
     pub emergency_stop: Signal<In, Bit>,
+    /// Second signal of the grating.
+    pub grating_b: Signal<In, Bit>,
+    /// Second signal of the laser.
+    pub laser_b: Signal<In, Bit>,
+    /// Index of the grating.
+    pub grating_index: Signal<In, Bit>,
+    /// Index in the place of the laser.
+    pub laser_index: Signal<In, Bit>,
     /// Meter, or the calibration.
     pub t1: Signal<Out, Bit>,
     /// Its complement.
@@ -123,12 +140,21 @@ pub struct BoardShell {
     range_input: InputConditioner,
     enable_input: InputConditioner,
     stop_input: LevelSynchroniser,
+    grating_b_input: InputConditioner,
+    laser_b_input: InputConditioner,
+    grating_index_input: InputConditioner,
+    laser_index_input: InputConditioner,
+    grating_decoder: QuadratureDecoder,
+    laser_decoder: QuadratureDecoder,
+    grating_gate: IndexGate,
+    laser_gate: IndexGate,
     lines: InputSynchroniser,
     fringes: InputSynchroniser,
     power_up: DFF<Bits<4>>,
     power_up_next: Signal<Local, Bits<4>>,
     reset: Signal<Local, Bit>,
     idle: Signal<Local, Bit>,
+    at_rest: Signal<Local, Bit>,
     every_clock: Signal<Local, Bit>,
     nothing: Signal<Local, Bit>,
     divide_a: Constant<Bits<12>>,
@@ -140,6 +166,10 @@ pub struct BoardShell {
     range_set: Constant<Bit>,
     range_wired: Constant<Bit>,
     enable_wired: Constant<Bit>,
+    grating_b_wired: Constant<Bit>,
+    laser_b_wired: Constant<Bit>,
+    grating_index_wired: Constant<Bit>,
+    laser_index_wired: Constant<Bit>,
     glitch_clocks: Constant<Bits<4>>,
     debounce_ticks: Constant<Bits<4>>,
     tick_period: Constant<Bits<24>>,
@@ -179,6 +209,10 @@ impl BoardShell {
             range_x2: Signal::default(),
             enable: Signal::default(),
             emergency_stop: Signal::default(),
+            grating_b: Signal::default(),
+            laser_b: Signal::default(),
+            grating_index: Signal::default(),
+            laser_index: Signal::default(),
             t1: Signal::default(),
             t2: Signal::default(),
             phase_a: Signal::default(),
@@ -206,12 +240,21 @@ impl BoardShell {
             range_input: InputConditioner::default(),
             enable_input: InputConditioner::default(),
             stop_input: LevelSynchroniser::default(),
+            grating_b_input: InputConditioner::default(),
+            laser_b_input: InputConditioner::default(),
+            grating_index_input: InputConditioner::default(),
+            laser_index_input: InputConditioner::default(),
+            grating_decoder: QuadratureDecoder::default(),
+            laser_decoder: QuadratureDecoder::default(),
+            grating_gate: IndexGate::default(),
+            laser_gate: IndexGate::default(),
             lines: InputSynchroniser::default(),
             fringes: InputSynchroniser::default(),
             power_up: DFF::default(),
             power_up_next: Signal::default(),
             reset: Signal::default(),
             idle: Signal::default(),
+            at_rest: Signal::default(),
             every_clock: Signal::default(),
             nothing: Signal::default(),
             divide_a: Constant::new(wheels.divide_a.into()),
@@ -223,6 +266,10 @@ impl BoardShell {
             range_set: Constant::new(!conditioning.range_pin && wheels.range_x2 == 1),
             range_wired: Constant::new(conditioning.range_pin),
             enable_wired: Constant::new(conditioning.enable_pin),
+            grating_b_wired: Constant::new(conditioning.grating.quadrature),
+            laser_b_wired: Constant::new(conditioning.laser.quadrature),
+            grating_index_wired: Constant::new(conditioning.grating.index),
+            laser_index_wired: Constant::new(conditioning.laser.index),
             glitch_clocks: Constant::new(u64::from(conditioning.glitch_clocks).into()),
             debounce_ticks: Constant::new(u64::from(conditioning.debounce_ticks).into()),
             tick_period: Constant::new(u64::from(conditioning.tick_period).into()),
@@ -255,6 +302,10 @@ impl BoardShell {
         shell.range_x2.connect();
         shell.enable.connect();
         shell.emergency_stop.connect();
+        shell.grating_b.connect();
+        shell.laser_b.connect();
+        shell.grating_index.connect();
+        shell.laser_index.connect();
         shell.connect_all();
         Ok(shell)
     }
@@ -319,6 +370,47 @@ impl Logic for BoardShell {
         self.enable_input.ticks.next = self.debounce_ticks.val();
         self.stop_input.clock.next = self.clock.val();
         self.stop_input.pin.next = self.emergency_stop.val();
+        self.grating_b_input.clock.next = self.clock.val();
+        self.grating_b_input.pin.next = self.grating_b.val();
+        self.grating_b_input.active_low.next = self.nothing.val();
+        self.grating_b_input.tick.next = self.every_clock.val();
+        self.grating_b_input.ticks.next = self.glitch_clocks.val();
+        self.laser_b_input.clock.next = self.clock.val();
+        self.laser_b_input.pin.next = self.laser_b.val();
+        self.laser_b_input.active_low.next = self.nothing.val();
+        self.laser_b_input.tick.next = self.every_clock.val();
+        self.laser_b_input.ticks.next = self.glitch_clocks.val();
+        self.grating_index_input.clock.next = self.clock.val();
+        self.grating_index_input.pin.next = self.grating_index.val();
+        self.grating_index_input.active_low.next = self.nothing.val();
+        self.grating_index_input.tick.next = self.every_clock.val();
+        self.grating_index_input.ticks.next = self.glitch_clocks.val();
+        self.laser_index_input.clock.next = self.clock.val();
+        self.laser_index_input.pin.next = self.laser_index.val();
+        self.laser_index_input.active_low.next = self.nothing.val();
+        self.laser_index_input.tick.next = self.every_clock.val();
+        self.laser_index_input.ticks.next = self.glitch_clocks.val();
+
+        // Encoders.
+        self.at_rest.next = self.reset.val() | !self.start_input.steady.val();
+        self.grating_decoder.clock.next = self.clock.val();
+        self.grating_decoder.clear.next = self.at_rest.val();
+        self.grating_decoder.a.next = self.grating_input.steady.val();
+        self.grating_decoder.b.next = self.grating_b_input.steady.val();
+        self.grating_gate.clock.next = self.clock.val();
+        self.grating_gate.wired.next = self.grating_index_wired.val();
+        self.grating_gate.start.next = self.start_input.level.val();
+        self.grating_gate.started.next = self.start_input.steady.val();
+        self.grating_gate.index.next = self.grating_index_input.steady.val();
+        self.laser_decoder.clock.next = self.clock.val();
+        self.laser_decoder.clear.next = self.at_rest.val();
+        self.laser_decoder.a.next = self.laser_input.steady.val();
+        self.laser_decoder.b.next = self.laser_b_input.steady.val();
+        self.laser_gate.clock.next = self.clock.val();
+        self.laser_gate.wired.next = self.laser_index_wired.val();
+        self.laser_gate.start.next = self.start_input.level.val();
+        self.laser_gate.started.next = self.start_input.steady.val();
+        self.laser_gate.index.next = self.laser_index_input.steady.val();
 
         // Supervisor.
         self.lines.clock.next = self.clock.val();
@@ -340,14 +432,24 @@ impl Logic for BoardShell {
         self.supervisor.opening.next = self.device.grating_divided.val();
         self.supervisor.shutting.next = self.device.laser_divided.val();
         self.supervisor.enable.next = self.enable_input.steady.val() | !self.enable_wired.val();
-        self.supervisor.stop.next = self.stop_input.level.val();
+        self.supervisor.stop.next = self.stop_input.level.val()
+            | (self.grating_decoder.lost.val() & self.grating_b_wired.val())
+            | (self.laser_decoder.lost.val() & self.laser_b_wired.val());
 
         // The device.
         self.device.clock.next = self.clock.val();
         self.device.master_reset.next = self.reset.val();
-        self.device.grating.next = self.grating_input.level.val();
-        self.device.laser.next = self.laser_input.level.val();
-        self.device.start.next = self.start_input.level.val();
+        if self.grating_b_wired.val() {
+            self.device.grating.next = self.grating_decoder.pulse.val();
+        } else {
+            self.device.grating.next = self.grating_input.level.val();
+        }
+        if self.laser_b_wired.val() {
+            self.device.laser.next = self.laser_decoder.pulse.val();
+        } else {
+            self.device.laser.next = self.laser_input.level.val();
+        }
+        self.device.start.next = self.grating_gate.open.val() & self.laser_gate.open.val();
         self.device.correct.next =
             self.correct_input.level.val() & self.supervisor.may_correct.val();
         self.device.playback.next =

@@ -65,6 +65,15 @@ pub struct Settings {
     pub step_period: u32,
 }
 
+/// What an encoder has beside its one signal.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Encoder {
+    /// A second signal, a quarter of a line behind: it may go back.
+    pub quadrature: bool,
+    /// An index, at which a pass begins.
+    pub index: bool,
+}
+
 /// What stands between the pins of a board and the device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Conditioning {
@@ -84,6 +93,10 @@ pub struct Conditioning {
     pub range_pin: bool,
     /// Steps need a switch that allows them.
     pub enable_pin: bool,
+    /// The grating.
+    pub grating: Encoder,
+    /// The interferometer, or a scale in its place.
+    pub laser: Encoder,
 }
 
 impl Conditioning {
@@ -97,6 +110,8 @@ impl Conditioning {
         active_low: false,
         range_pin: false,
         enable_pin: false,
+        grating: Encoder { quadrature: false, index: false },
+        laser: Encoder { quadrature: false, index: false },
     };
 
     /// Checks that counters can hold the numbers.

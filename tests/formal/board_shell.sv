@@ -4,14 +4,15 @@
 module board_shell_proof(
     input clock, input grating, input laser, input start, input correct, input playback,
     input [1:0] calibrate, input manual_step, input manual_forward, input range_x2, input enable,
-    input emergency_stop
+    input emergency_stop, input grating_b, input laser_b, input grating_index, input laser_index
 );
     wire t1, t2, phase_a, phase_b, phase_c, step, direction, zero, fault, measuring, alarm,
         tx;
     board_shell dut(.clock(clock), .grating(grating), .laser(laser), .start(start),
         .correct(correct), .playback(playback), .calibrate(calibrate), .manual_step(manual_step),
         .manual_forward(manual_forward), .range_x2(range_x2), .enable(enable),
-        .emergency_stop(emergency_stop), .t1(t1), .t2(t2), .phase_a(phase_a), .phase_b(phase_b),
+        .emergency_stop(emergency_stop), .grating_b(grating_b), .laser_b(laser_b),
+        .grating_index(grating_index), .laser_index(laser_index), .t1(t1), .t2(t2), .phase_a(phase_a), .phase_b(phase_b),
         .phase_c(phase_c), .step(step), .direction(direction), .zero(zero), .fault(fault),
         .measuring(measuring), .alarm(alarm), .tx(tx));
 
@@ -33,11 +34,23 @@ module board_shell_proof(
     (* hierconn *) wire \dut.device.manual_forward ;
     (* hierconn *) wire \dut.device.range_x2 ;
     (* hierconn *) wire [1:0] \dut.device.calibrate ;
+    (* hierconn *) wire \dut.device.grating ;
+    (* hierconn *) wire \dut.device.laser ;
+    (* hierconn *) wire \dut.device.start ;
+    (* hierconn *) wire \dut.grating_decoder_pulse ;
+    (* hierconn *) wire \dut.laser_decoder_pulse ;
+    (* hierconn *) wire \dut.grating_decoder.clear ;
+    (* hierconn *) wire \dut.laser_decoder.clear ;
+    (* hierconn *) wire \dut.grating_decoder_lost ;
+    (* hierconn *) wire \dut.laser_decoder_lost ;
+    (* hierconn *) wire \dut.grating_gate_open ;
+    (* hierconn *) wire \dut.laser_gate_open ;
 
     // What was, and how long it is since the first clock, to 15.
     reg known = 0;
     reg [3:0] age = 0;
-    reg stop_1, stop_2, stop_3, was_reset, was_stopped, was_off;
+    reg stop_1, stop_2, stop_3, was_reset, was_stopped, was_off, was_lost;
+    wire lost = \dut.grating_decoder_lost || \dut.laser_decoder_lost ;
     wire off = !\dut.start_input_steady && !\dut.correct_input_steady
         && !\dut.playback_input_steady ;
     always @(posedge clock) begin
@@ -45,6 +58,7 @@ module board_shell_proof(
         if (age != 15) age <= age + 1;
         {stop_3, stop_2, stop_1} <= {stop_2, stop_1, emergency_stop};
         {was_reset, was_stopped, was_off} <= {\dut.reset , \dut.supervisor_stopped , off};
+        was_lost <= lost;
     end
 
     // The reset ends within 15 clocks of any power-up, and does not come back.
@@ -52,6 +66,17 @@ module board_shell_proof(
         assert (\dut.power_up_q >= age);
         assert (\dut.device.master_reset == (\dut.power_up_q != 15));
         if (known && !was_reset) assert (!\dut.device.master_reset );
+    end
+
+    // With a second signal the device counts what the decoders let through; a pass waits for both
+    // indices, and what is owed is forgotten without one.
+    always @* begin
+        assert (\dut.device.grating == \dut.grating_decoder_pulse );
+        assert (\dut.device.laser == \dut.laser_decoder_pulse );
+        assert (\dut.device.start == (\dut.grating_gate_open && \dut.laser_gate_open ));
+        assert (\dut.grating_decoder.clear == (\dut.reset || !\dut.start_input_steady ));
+        assert (\dut.laser_decoder.clear == (\dut.reset || !\dut.start_input_steady ));
+        if (lost) assert (\dut.supervisor_stopped );
     end
 
     // What may ask the device for steps.
@@ -79,7 +104,7 @@ module board_shell_proof(
         if (old >= 2 && stop_2) assert (\dut.supervisor_stopped );
         if (\dut.supervisor_stopped ) assert (alarm);
         if (known && was_stopped && !was_off && !was_reset) assert (\dut.supervisor_stopped );
-        if (old == 3 && !stop_2 && !stop_3 && (was_off || was_reset))
+        if (old == 3 && !stop_2 && !stop_3 && !lost && !was_lost && (was_off || was_reset))
             assert (!\dut.supervisor_stopped );
         assert (\dut.supervisor.wrap_watched == \dut.correct_input_steady );
         assert (t2 == !t1);

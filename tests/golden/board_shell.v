@@ -28,6 +28,14 @@ module board_shell (
     input  wire         enable,
     // emergency_stop: * contact to ground that opens: high stops all steps
     input  wire         emergency_stop,
+    // grating_b: * second signal of the grating, a quarter of a line late
+    input  wire         grating_b,
+    // laser_b: * second signal of the laser, a quarter of a fringe late
+    input  wire         laser_b,
+    // grating_index: * index of the grating: a pass begins there
+    input  wire         grating_index,
+    // laser_index: * index of a scale in the laser's place, likewise
+    input  wire         laser_index,
     // t1: RC low-pass each, the difference to the recorder
     output wire         t1,
     // t2: RC low-pass each, the difference to the recorder
@@ -57,6 +65,7 @@ module board_shell (
     wire [3:0] power_up_next;
     wire reset;
     wire idle;
+    wire at_rest;
     wire every_clock;
     wire nothing;
     localparam [11:0] divide_a = 12'h4;
@@ -68,6 +77,10 @@ module board_shell (
     localparam range_set = 1'b0;
     localparam range_wired = 1'b1;
     localparam enable_wired = 1'b1;
+    localparam grating_b_wired = 1'b1;
+    localparam laser_b_wired = 1'b1;
+    localparam grating_index_wired = 1'b1;
+    localparam laser_index_wired = 1'b1;
     localparam [3:0] glitch_clocks = 4'd2;
     localparam [3:0] debounce_ticks = 4'd3;
     localparam [23:0] tick_period = 24'h5;
@@ -75,6 +88,9 @@ module board_shell (
     localparam active_low = 1'b0;
     localparam [11:0] bit_clocks = 12'h2;
     localparam [1:0] calibrate_inverted = 2'd0;
+    reg device_grating;
+    reg device_laser;
+    wire device_start;
     wire device_correct;
     wire device_playback;
     wire [1:0] device_calibrate;
@@ -107,6 +123,7 @@ module board_shell (
     wire supervisor_clear;
     wire supervisor_wrap_watched;
     wire supervisor_enable;
+    wire supervisor_stop;
     wire supervisor_may_correct;
     wire supervisor_may_step;
     wire supervisor_stopped;
@@ -135,6 +152,22 @@ module board_shell (
     wire enable_input_level;
     wire enable_input_steady;
     wire stop_input_level;
+    wire grating_b_input_level;
+    wire grating_b_input_steady;
+    wire laser_b_input_level;
+    wire laser_b_input_steady;
+    wire grating_index_input_level;
+    wire grating_index_input_steady;
+    wire laser_index_input_level;
+    wire laser_index_input_steady;
+    wire grating_decoder_pulse;
+    wire [15:0] grating_decoder_behind;
+    wire grating_decoder_lost;
+    wire laser_decoder_pulse;
+    wire [15:0] laser_decoder_behind;
+    wire laser_decoder_lost;
+    wire grating_gate_open;
+    wire laser_gate_open;
     wire lines_rising;
     wire fringes_rising;
     reg [3:0] power_up_d;
@@ -143,9 +176,9 @@ module board_shell (
     device device (
         .clock(clock),
         .master_reset(reset),
-        .grating(grating_input_level),
-        .laser(laser_input_level),
-        .start(start_input_level),
+        .grating(device_grating),
+        .laser(device_laser),
+        .start(device_start),
         .correct(device_correct),
         .playback(device_playback),
         .calibrate(device_calibrate),
@@ -208,7 +241,7 @@ module board_shell (
         .opening(device_grating_divided),
         .shutting(device_laser_divided),
         .enable(supervisor_enable),
-        .stop(stop_input_level),
+        .stop(supervisor_stop),
         .may_correct(supervisor_may_correct),
         .may_step(supervisor_may_step),
         .stopped(supervisor_stopped),
@@ -330,6 +363,84 @@ module board_shell (
         .level(stop_input_level)
     );
 
+    input_conditioner grating_b_input (
+        .clock(clock),
+        .pin(grating_b),
+        .active_low(nothing),
+        .tick(every_clock),
+        .ticks(glitch_clocks),
+        .level(grating_b_input_level),
+        .steady(grating_b_input_steady)
+    );
+
+    input_conditioner laser_b_input (
+        .clock(clock),
+        .pin(laser_b),
+        .active_low(nothing),
+        .tick(every_clock),
+        .ticks(glitch_clocks),
+        .level(laser_b_input_level),
+        .steady(laser_b_input_steady)
+    );
+
+    input_conditioner grating_index_input (
+        .clock(clock),
+        .pin(grating_index),
+        .active_low(nothing),
+        .tick(every_clock),
+        .ticks(glitch_clocks),
+        .level(grating_index_input_level),
+        .steady(grating_index_input_steady)
+    );
+
+    input_conditioner laser_index_input (
+        .clock(clock),
+        .pin(laser_index),
+        .active_low(nothing),
+        .tick(every_clock),
+        .ticks(glitch_clocks),
+        .level(laser_index_input_level),
+        .steady(laser_index_input_steady)
+    );
+
+    quadrature_decoder grating_decoder (
+        .clock(clock),
+        .clear(at_rest),
+        .a(grating_input_steady),
+        .b(grating_b_input_steady),
+        .pulse(grating_decoder_pulse),
+        .behind(grating_decoder_behind),
+        .lost(grating_decoder_lost)
+    );
+
+    quadrature_decoder laser_decoder (
+        .clock(clock),
+        .clear(at_rest),
+        .a(laser_input_steady),
+        .b(laser_b_input_steady),
+        .pulse(laser_decoder_pulse),
+        .behind(laser_decoder_behind),
+        .lost(laser_decoder_lost)
+    );
+
+    index_gate grating_gate (
+        .clock(clock),
+        .wired(grating_index_wired),
+        .start(start_input_level),
+        .started(start_input_steady),
+        .index(grating_index_input_steady),
+        .open(grating_gate_open)
+    );
+
+    index_gate laser_gate (
+        .clock(clock),
+        .wired(laser_index_wired),
+        .start(start_input_level),
+        .started(start_input_steady),
+        .index(laser_index_input_steady),
+        .open(laser_gate_open)
+    );
+
     input_synchroniser lines (
         .clock(clock),
         .pin(grating_input_steady),
@@ -354,10 +465,31 @@ module board_shell (
 
     assign every_clock = 1'b1;
     assign nothing = 1'b0;
+    assign at_rest = reset | ~start_input_steady;
     assign idle = ~start_input_steady & ~correct_input_steady & ~playback_input_steady;
     assign supervisor_clear = reset | idle;
     assign supervisor_wrap_watched = correct_input_steady & (|watchdog_ticks);
     assign supervisor_enable = enable_input_steady | ~enable_wired;
+    assign supervisor_stop = stop_input_level | (grating_decoder_lost & grating_b_wired)
+        | (laser_decoder_lost & laser_b_wired);
+
+    always @* begin
+        if (grating_b_wired) begin
+            device_grating = grating_decoder_pulse;
+        end else begin
+            device_grating = grating_input_level;
+        end
+    end
+
+    always @* begin
+        if (laser_b_wired) begin
+            device_laser = laser_decoder_pulse;
+        end else begin
+            device_laser = laser_input_level;
+        end
+    end
+
+    assign device_start = grating_gate_open & laser_gate_open;
     assign device_correct = correct_input_level & supervisor_may_correct;
     assign device_playback = playback_input_level & supervisor_may_step;
     assign device_calibrate = calibrate ^ calibrate_inverted;
@@ -386,7 +518,7 @@ module board_shell (
     end
 
     // Without a reader here; named so that linters know it is meant.
-    wire unused_bits = &{1'b0, device_standard, device_cp1, device_cp2, device_q_bar, device_reverse, supervisor_lines_missing, supervisor_fringes_missing, supervisor_wrapped, manual_step_input_steady, range_input_level, enable_input_level};
+    wire unused_bits = &{1'b0, device_standard, device_cp1, device_cp2, device_q_bar, device_reverse, supervisor_lines_missing, supervisor_fringes_missing, supervisor_wrapped, manual_step_input_steady, range_input_level, enable_input_level, grating_b_input_level, laser_b_input_level, grating_index_input_level, laser_index_input_level, grating_decoder_behind, laser_decoder_behind};
 endmodule
 
 `default_nettype wire

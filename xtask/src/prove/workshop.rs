@@ -70,6 +70,18 @@ const BOUNCES: usize = 12;
 #[derive(Default)]
 pub(super) struct Workshop {
     drawn: BTreeMap<String, (u64, usize)>,
+    encoders: BTreeMap<&'static str, Turn>,
+}
+
+/// Where an encoder is.
+#[derive(Default)]
+struct Turn {
+    /// Quarters of a line.
+    quarters: u64,
+    /// Clock of the next one.
+    until: usize,
+    /// Quarters that it still goes back.
+    back: u64,
 }
 
 impl Workshop {
@@ -80,8 +92,11 @@ impl Workshop {
         match pin {
             _ if pin == scene.silent => 0,
             // Four lines take about as long as three fringes.
-            "grating" => self.drawn(pin, clock, 2..5, random) ^ glitch,
-            "laser" => self.drawn(pin, clock, 3..6, random) ^ glitch,
+            "grating" => self.encoder("grating", clock, 1..3, random) ^ glitch,
+            "laser" => self.encoder("laser", clock, 2..3, random) ^ glitch,
+            "grating_b" => self.second("grating"),
+            "laser_b" => self.second("laser"),
+            "grating_index" | "laser_index" => self.drawn(pin, clock, 5..60, random),
             "calibrate" => {
                 2 * self.drawn("high", clock, 300..1500, random)
                     + self.drawn("low", clock, 300..1500, random)
@@ -91,6 +106,36 @@ impl Workshop {
             _ if since < BOUNCES && pin != "emergency_stop" => random.random_range(0..2),
             _ => scene.on.contains(&pin).into(),
         }
+    }
+
+    /// First signal of an encoder, which mostly goes forward, a quarter of a line in so many clocks.
+    fn encoder(
+        &mut self,
+        pin: &'static str,
+        clock: usize,
+        rests: std::ops::Range<usize>,
+        random: &mut ChaCha8Rng,
+    ) -> u64 {
+        let turn = self.encoders.entry(pin).or_default();
+        if turn.until <= clock {
+            turn.until = clock + random.random_range(rests);
+            if turn.back == 0 && random.random_range(0..200) == 0 {
+                turn.back = random.random_range(1..20);
+            }
+            turn.quarters = if turn.back > 0 && turn.quarters > 0 {
+                turn.quarters - 1
+            } else {
+                turn.quarters + 1
+            };
+            turn.back = turn.back.saturating_sub(1);
+        }
+        u64::from(matches!(turn.quarters % 4, 1 | 2))
+    }
+
+    /// Its second signal, a quarter behind.
+    fn second(&self, pin: &str) -> u64 {
+        let quarters = self.encoders.get(pin).map_or(0, |turn| turn.quarters);
+        u64::from(matches!(quarters % 4, 2 | 3))
     }
 
     /// A level that changes after a drawn number of clocks.
