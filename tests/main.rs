@@ -51,6 +51,7 @@ mod outputs;
 mod pages;
 mod parquet_readers;
 mod phase_meter;
+mod print;
 mod programmable_divider;
 mod properties;
 mod python;

