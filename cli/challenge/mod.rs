@@ -18,7 +18,7 @@ use helixlock_traces::Table;
 use helixlock_traces::csv::write_csv;
 
 use self::json::{AnswerJson, ExperimentedJson, ScoreJson};
-use crate::shared::cases::{Campaign, Cases, Row, Shard, cells};
+use crate::shared::cases::{Campaign, Cases, Row, Shard, cells, write_numbers};
 use crate::shared::next::Next;
 use crate::shared::output::{Batch, print_json};
 use crate::shared::progress;
@@ -26,7 +26,7 @@ use crate::shared::progress;
 /// Challenges of a score.
 pub(crate) const CAMPAIGN: Campaign = Campaign {
     word: "challenges",
-    write_csv: |table, mut file| Ok(write_csv(table, &mut file)?),
+    write_csv: write_numbers,
     print: |table, out| {
         text::print(&score_of(table)?, out)?;
         Ok(ExitCode::SUCCESS)

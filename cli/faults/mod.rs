@@ -69,21 +69,21 @@ impl FaultsCommand {
                 keep(Row { case, cells: cells_of(&outcome, course), failure: None })
             })
         })?;
+        let faults = faults_of(&worked.table)?;
         if let Some(path) = &self.page {
-            let page = page::page(&file.model.title, &faults_of(&worked.table)?);
+            let page = page::page(&file.model.title, &faults);
             write_page(path, machine_files(&self.machine, &file.model), &page)?;
         }
         if self.json {
-            print_json(out, &FaultsJson::new(&faults_of(&worked.table)?))?;
+            print_json(out, &FaultsJson::new(&faults))?;
             return Ok(ExitCode::SUCCESS);
         }
         worked.print(&CAMPAIGN, out)?;
-        let code = match self.shard {
-            Some(_) => ExitCode::SUCCESS,
-            None => (CAMPAIGN.print)(&worked.table, out)?,
-        };
+        if self.shard.is_none() {
+            print(out, &faults)?;
+        }
         print_page(out, self.page.as_deref())?;
-        Ok(code)
+        Ok(ExitCode::SUCCESS)
     }
 
     fn cases(&self, file: &MachineFile) -> Cases {

@@ -3,7 +3,7 @@
 mod page;
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::bail;
@@ -12,10 +12,9 @@ use helixlock_plant::{Formula, MachineFile, MeasuredCurve, Model};
 use helixlock_sim::sweep::{Axis, Case, DrawnAxis, FIGURES, MOST_CASES, Plan};
 use helixlock_sim::{Options, parallel};
 use helixlock_traces::Table;
-use helixlock_traces::csv::write_csv;
 
 use crate::shared::answer::{Answer, Answering};
-use crate::shared::cases::{Campaign, Cases, Row, Shard};
+use crate::shared::cases::{Campaign, Cases, Row, Shard, Worked, write_numbers};
 use crate::shared::input::machine_files;
 use crate::shared::keys::keys;
 use crate::shared::output::{print_page, write_page};
@@ -24,11 +23,8 @@ use crate::shared::output::{print_page, write_page};
 const NAMED: usize = 10;
 
 /// Cases of a sweep.
-pub(crate) const CAMPAIGN: Campaign = Campaign {
-    word: "cases",
-    write_csv: |table, mut file| Ok(write_csv(table, &mut file)?),
-    print: print_merged,
-};
+pub(crate) const CAMPAIGN: Campaign =
+    Campaign { word: "cases", write_csv: write_numbers, print: print_merged };
 
 /// Simulate many machines: any value of the file over a range, or by chance
 ///
@@ -70,11 +66,8 @@ impl Sweep {
     /// Runs what is missing and writes the table.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         let file = MachineFile::read(&self.machine)?;
-        let (plan, options) = (self.plan()?, self.options());
-        let cases = self.cases(&file, &plan);
-        let worked = cases.work_out(self.output.as_deref(), |missing, keep| {
-            parallel(missing, |index| keep(row(&plan.case(*index), &file, &options)))
-        })?;
+        let plan = self.plan()?;
+        let worked = self.worked(&file, &plan, self.output.as_deref())?;
         if let Some(path) = &self.page {
             let title = &file.model.title;
             let page = page::page(title, &worked.table, &plan.columns(), &worked.rows);
@@ -88,6 +81,19 @@ impl Sweep {
         }
         print_page(out, self.page.as_deref())?;
         Ok(if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+    }
+
+    /// All cases, those that are missing simulated on all cores.
+    fn worked(
+        &self,
+        file: &MachineFile,
+        plan: &Plan,
+        output: Option<&Path>,
+    ) -> anyhow::Result<Worked> {
+        let options = self.options();
+        self.cases(file, plan).work_out(output, |missing, keep| {
+            parallel(missing, |index| keep(row(&plan.case(*index), file, &options)))
+        })
     }
 
     fn cases(&self, file: &MachineFile, plan: &Plan) -> Cases {
@@ -136,10 +142,7 @@ impl Answering for Sweep {
     /// With the table `cases`; nothing is kept for a later run.
     fn answer(&self) -> anyhow::Result<Answer> {
         let file = MachineFile::read(&self.machine)?;
-        let (plan, options) = (self.plan()?, self.options());
-        let worked = self.cases(&file, &plan).work_out(None, |missing, keep| {
-            parallel(missing, |index| keep(row(&plan.case(*index), &file, &options)))
-        })?;
+        let worked = self.worked(&file, &self.plan()?, None)?;
         Ok(Answer::new(&SweptJson::new(&worked.rows))?.with_table("cases", worked.table))
     }
 }

@@ -15,4 +15,4 @@ pub use diagnosis::{Diagnosis, FittedEffect, FittedParameter, Ranked, Round, Ver
 pub use experiment::Advice;
 pub(crate) use experiment::{apart, carried_out};
 pub use final_check::{FinalCheck, SensorCheck, final_check};
-pub use learn::{Ledger, LedgerEntry, Spectra, fingerprint, ledger, spectra, written};
+pub use learn::{Ledger, LedgerEntry, Spectra, fingerprint, fnv1a64, ledger, spectra, written};

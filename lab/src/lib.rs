@@ -31,7 +31,8 @@ mod challenge;
 pub use answer::{
     Added, Advice, Comparison, Diagnosis, FinalCheck, FittedEffect, FittedParameter, Ledger,
     LedgerEntry, NoiseSize, PassSize, Ranked, Round, SensorCheck, SensorResidual, SlowSize,
-    Spectra, Verdict, add, compare, diagnose, final_check, fingerprint, ledger, spectra, written,
+    Spectra, Verdict, add, compare, diagnose, final_check, fingerprint, fnv1a64, ledger, spectra,
+    written,
 };
 pub use challenge::{
     Challenge, ChallengeError, Experimented, Figure, Hidden, Outcome, Score, Scored, Share,

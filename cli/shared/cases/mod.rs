@@ -11,6 +11,8 @@ use std::process::ExitCode;
 use std::sync::Mutex;
 
 use anyhow::{Context, anyhow, bail};
+use helixlock_lab::fnv1a64;
+use helixlock_traces::csv::write_csv;
 use helixlock_traces::parquet::write_parquet;
 use helixlock_traces::table::{Column, Table};
 
@@ -134,12 +136,9 @@ impl Cases {
         format!("{} {:016x}", self.campaign.word, self.fingerprint())
     }
 
-    /// FNV-1a over the identity and the version.
+    /// Of the version and the identity.
     fn fingerprint(&self) -> u64 {
-        let text = format!("{}\n{}", env!("CARGO_PKG_VERSION"), self.identity);
-        text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-            (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-        })
+        fnv1a64(format!("{}\n{}", env!("CARGO_PKG_VERSION"), self.identity).as_bytes())
     }
 
     #[expect(clippy::cast_precision_loss, reason = "fewer than 2⁵³ cases")]
@@ -168,6 +167,11 @@ impl Worked {
 pub(crate) fn cells(table: &Table) -> impl Iterator<Item = Vec<f64>> {
     let columns = table.columns.get(1..).unwrap_or_default();
     (0..table.rows()).map(move |row| columns.iter().map(|column| column.values[row]).collect())
+}
+
+/// The CSV of cases that are nothing but numbers.
+pub(crate) fn write_numbers(table: &Table, mut file: &mut dyn Write) -> anyhow::Result<()> {
+    Ok(write_csv(table, &mut file)?)
 }
 
 /// What a name's ending asks for.

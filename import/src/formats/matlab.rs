@@ -30,12 +30,12 @@ pub(crate) fn grid(bytes: &[u8], decisions: &mut Decisions<'_>) -> Result<Grid, 
     let refused = |found: &str, expected: &str| {
         ImportError::found(Place::file(decisions.file()), found, expected)
     };
-    let plain = unpacked(bytes)
+    let is_swapped = bytes.get(126..HEADER) == Some(b"MI");
+    let plain = unpacked(bytes, is_swapped)
         .ok_or_else(|| refused("a MATLAB file that contradicts itself", "one that MATLAB opens"))?;
     if limits::UNPACKED < plain.len() {
         return Err(refused("more than it may unpack to", &format!("{} bytes", limits::UNPACKED)));
     }
-    let is_swapped = bytes.get(126..HEADER) == Some(b"MI");
     let elements = Elements { rest: &plain, is_swapped };
     let matrices = elements.filter(|(kind, _)| *kind == MATRIX);
     let arrays: Vec<Array> =
@@ -50,9 +50,8 @@ pub(crate) fn grid(bytes: &[u8], decisions: &mut Decisions<'_>) -> Result<Grid, 
 /// The elements behind the header, those that are packed unpacked, until they are too many.
 ///
 /// `None` where one is longer than the file, or cannot be unpacked.
-fn unpacked(bytes: &[u8]) -> Option<Vec<u8>> {
-    let is_swapped = bytes.get(126..HEADER)? == b"MI";
-    let (mut plain, mut rest) = (Vec::new(), &bytes[HEADER..]);
+fn unpacked(bytes: &[u8], is_swapped: bool) -> Option<Vec<u8>> {
+    let (mut plain, mut rest) = (Vec::new(), bytes.get(HEADER..)?);
     while let Some((tag, behind)) = rest.split_at_checked(TAG) {
         let [kind, size] = [0, 4].map(|at| word(&tag[at..], is_swapped));
         let element = behind.get(..size as usize)?;

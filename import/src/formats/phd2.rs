@@ -47,6 +47,30 @@ struct Reader<'a> {
 
 /// Reads a guide log.
 pub(crate) fn read(lines: &[&str], decisions: &mut Decisions<'_>) -> Result<Built, ImportError> {
+    let Wanted { is_dec, unguided, scale } = wanted(decisions);
+    let axis = if is_dec {
+        Axis { raw: "DECRawDistance", push: "DECGuideDistance" }
+    } else {
+        Axis { raw: "RARawDistance", push: "RAGuideDistance" }
+    };
+    let mut reader = Reader::new(decisions.file(), axis, unguided, scale);
+    for (index, line) in lines.iter().enumerate() {
+        reader.line(index + 1, line.trim())?;
+    }
+    reader.finish(decisions)
+}
+
+/// What is wanted of a log.
+pub(super) struct Wanted {
+    pub(super) is_dec: bool,
+    /// What the drive would do without the guider's pushes.
+    pub(super) unguided: bool,
+    /// Arc seconds a pixel, where the recipe says it.
+    pub(super) scale: Option<f64>,
+}
+
+/// What the recipe wants of a log, and what is wanted without one.
+pub(super) fn wanted(decisions: &mut Decisions<'_>) -> Wanted {
     let axis = decisions
         .text("phd2", "axis", || ("ra".into(), "right ascension turns with the worm".into()));
     let error = decisions.text("phd2", "error", || {
@@ -55,19 +79,11 @@ pub(crate) fn read(lines: &[&str], decisions: &mut Decisions<'_>) -> Result<Buil
             "the reading and all pushes before it: what the drive does alone".into(),
         )
     });
-    let given_scale = match decisions.given("phd2", "scale_arcsec") {
+    let scale = match decisions.given("phd2", "scale_arcsec") {
         Some(Value::Number(scale)) => Some(*scale),
         _ => None,
     };
-    let axis = match axis.as_str() {
-        "dec" => Axis { raw: "DECRawDistance", push: "DECGuideDistance" },
-        _ => Axis { raw: "RARawDistance", push: "RAGuideDistance" },
-    };
-    let mut reader = Reader::new(decisions.file(), axis, error == "unguided", given_scale);
-    for (index, line) in lines.iter().enumerate() {
-        reader.line(index + 1, line.trim())?;
-    }
-    reader.finish(decisions)
+    Wanted { is_dec: axis == "dec", unguided: error == "unguided", scale }
 }
 
 /// Asks how many arc seconds a pixel is.

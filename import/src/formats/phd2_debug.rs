@@ -8,13 +8,12 @@
 
 use helixlock_traces::Column;
 
-use super::phd2::ask_for_scale;
+use super::phd2::{Wanted, ask_for_scale, wanted};
 use crate::build::Built;
 use crate::decide::Decisions;
 use crate::error::{ImportError, Place, quoted};
 use crate::instant::{Order, parse};
 use crate::number::number;
-use crate::recipe::Value;
 
 const DAY_S: f64 = 86_400.0;
 
@@ -45,23 +44,13 @@ fn parted(line: &str) -> Option<(&str, &str)> {
 
 /// Reads a debug log.
 pub(crate) fn read(lines: &[&str], decisions: &mut Decisions<'_>) -> Result<Built, ImportError> {
-    let axis = decisions
-        .text("phd2", "axis", || ("ra".into(), "right ascension turns with the worm".into()));
-    let error = decisions.text("phd2", "error", || {
-        (
-            "unguided".into(),
-            "the reading and all pushes before it: what the drive does alone".into(),
-        )
-    });
-    let frames = frames(decisions.file(), lines, axis == "dec")?;
-    let scale = if let Some(Value::Number(scale)) = decisions.given("phd2", "scale_arcsec") {
-        *scale
-    } else {
+    let Wanted { is_dec, unguided, scale } = wanted(decisions);
+    let frames = frames(decisions.file(), lines, is_dec)?;
+    if scale.is_none() {
         ask_for_scale(decisions);
-        1.0
-    };
+    }
     decisions.note("time counts from the first reading, by the clock of the log");
-    let table = Table::of(&frames, scale, error == "unguided");
+    let table = Table::of(&frames, scale.unwrap_or(1.0), unguided);
     if 1.0 < table.passes.last().copied().unwrap_or(1.0) {
         decisions.note("a pause of more than ten intervals begins a pass");
     }

@@ -107,14 +107,18 @@ pub fn ledger(
     Ok(Ledger { data_hash, accepted: true, entries })
 }
 
-/// 64-bit FNV-1a of some bytes, in hexadecimal: tells files apart, proves nothing.
+/// 64-bit FNV-1a of some bytes, in hexadecimal.
 #[must_use]
 pub fn fingerprint(bytes: &[u8]) -> String {
-    let mut hash: u64 = 0xcbf2_9ce4_8422_2325;
-    for byte in bytes {
-        hash = (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
-    }
-    format!("fnv1a64:{hash:016x}")
+    format!("fnv1a64:{:016x}", fnv1a64(bytes))
+}
+
+/// 64-bit FNV-1a of some bytes: tells files apart, proves nothing.
+#[must_use]
+pub fn fnv1a64(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
 }
 
 #[cfg(test)]
