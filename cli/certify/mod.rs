@@ -17,10 +17,9 @@ use helixlock_sim::blocks::{BlockCheck, Blocks, Spread};
 use helixlock_sim::{
     Course, FLIP_FLOP, FlipFlop, Options, certify, certify_gates, mtbf_log10_years, parallel,
 };
-use helixlock_traces::csv::write_csv;
 
 use self::json::{BlockJson, CertificateJson, GatesJson, HazardJson, WholeJson};
-use crate::shared::cases::{Campaign, Cases, Row, Shard, Worked};
+use crate::shared::cases::{Campaign, Cases, Row, Shard, Worked, write_numbers};
 use crate::shared::input::machine_files;
 use crate::shared::next::Next;
 use crate::shared::output::{print_json, print_page, write_page};
@@ -30,7 +29,7 @@ use crate::shared::quantity::length_mm;
 /// Sets of gate delays, each tried on every figure.
 pub(crate) const CAMPAIGN: Campaign = Campaign {
     word: "sets",
-    write_csv: |table, mut file| Ok(write_csv(table, &mut file)?),
+    write_csv: write_numbers,
     print: |table, out| {
         let checks = sets::checks_of(table, &Spread::default())?;
         gates::print(&checks, out)?;
@@ -105,14 +104,14 @@ impl Certify {
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
         let machine = Model::read(&self.machine)?;
         if self.shard.is_some() {
-            self.delay_sets()?.print(&CAMPAIGN, out)?;
+            self.delay_sets(&machine)?.print(&CAMPAIGN, out)?;
             return Ok(ExitCode::SUCCESS);
         }
         let options = Options { length_mm: self.length, ..Options::default() };
         let bar = progress::bar(Course::new(&machine, &options)?.clocks(), "clocks");
         let certificate = certify(&machine, self.length, &mut |clocks| bar.set_position(clocks))?;
         bar.finish_and_clear();
-        let sets = self.delay_sets()?;
+        let sets = self.delay_sets(&machine)?;
         let checks = sets::checks_of(&sets.table, &self.spread())?;
         let hazards = hazards()?;
         let whole =
@@ -147,7 +146,7 @@ impl Certify {
     }
 
     /// The figures with typical delays and with drawn ones, or a part of the sets.
-    fn delay_sets(&self) -> anyhow::Result<Worked> {
+    fn delay_sets(&self, machine: &Model) -> anyhow::Result<Worked> {
         let (spread, blocks) = (self.spread(), Blocks::all());
         let cases = Cases {
             campaign: &CAMPAIGN,
@@ -155,7 +154,7 @@ impl Certify {
             shard: self.shard,
             columns: sets::columns(),
             identity: format!("{spread:?}"),
-            inputs: vec![self.machine.clone()],
+            inputs: machine_files(&self.machine, machine),
         };
         cases.work_out(self.output.as_deref(), |missing, keep| {
             parallel(missing, |case| {
