@@ -16,6 +16,7 @@ use crate::model::{
 };
 use crate::noise::{Noise, rms};
 use crate::numerics::{chi_squared_tail, count, median};
+use crate::policy::chance::NAMED;
 use crate::policy::evidence::SET_MARGIN;
 use crate::policy::extent::{KNOWN_IN_SETS, MOST_ROUNDS, NEAR_THE_BEST, SHORTLIST};
 
@@ -96,7 +97,10 @@ fn add_together(problem: &mut Problem, steps: &mut Vec<Step>, members: Vec<Compo
 /// Several effects of known size that together beat every single effect.
 ///
 /// Logged physics comes together: a warm day has weather too, and one part of it alone may fit
-/// worse than none. Their coefficients are known, so a set of them has hardly any freedom.
+/// worse than none. Which of the sets it is, is chosen at the price of a number for each member.
+/// Whether it is there at all is another question: their sizes are known, so that noise multiplies
+/// the likelihood by `x` no oftener than once in `x` (Markov's inequality), and by as much in one
+/// of `n` sets `n` times as often.
 fn known_together(problem: &Problem, now: &State, tried: &[Judged]) -> Option<Vec<Component>> {
     let coloured = Stage::new(problem, &now.columns, &now.fit.noises);
     let known: Vec<Component> = candidates(&coloured, &now.components)
@@ -111,7 +115,8 @@ fn known_together(problem: &Problem, now: &State, tried: &[Judged]) -> Option<Ve
     let single = tried.first().map_or(0.0, |best| best.evidence);
     let known = &known[..known.len().min(KNOWN_IN_SETS)];
     let sets = (1_usize..1 << known.len()).filter(|set| 1 < set.count_ones());
-    let best = sets
+    let looks = 2.0 * libm::log(count(sets.clone().count().max(1)));
+    let (_, gain, members) = sets
         .filter_map(|set| {
             let members: Vec<Component> = (0..known.len())
                 .filter(|index| set & (1 << index) != 0)
@@ -127,10 +132,11 @@ fn known_together(problem: &Problem, now: &State, tried: &[Judged]) -> Option<Ve
             );
             let state = State::of(problem, all, &noises_of(problem, &rough.left))?;
             let gain = 2.0 * (state.fit.log_likelihood - now.fit.log_likelihood);
-            Some((gain - price * count(members.len()), members))
+            Some((gain - price * count(members.len()), gain, members))
         })
         .max_by(|a, b| a.0.total_cmp(&b.0))?;
-    (single.max(0.0) + SET_MARGIN < best.0).then_some(best.1)
+    let least = (single.max(0.0) + SET_MARGIN).max(-2.0 * libm::log(NAMED));
+    (least < gain - looks).then_some(members)
 }
 
 /// All candidates on what a model leaves, best evidence first.
