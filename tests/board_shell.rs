@@ -19,7 +19,7 @@ const SETTINGS: Settings = Settings {
 };
 
 /// Pins that say nothing without conditioning.
-const QUIET: [&str; 7] = [
+const QUIET: [&str; 8] = [
     "range_x2",
     "enable",
     "emergency_stop",
@@ -27,6 +27,7 @@ const QUIET: [&str; 7] = [
     "laser_b",
     "grating_index",
     "laser_index",
+    "rx",
 ];
 
 fn shell(conditioning: &Conditioning) -> Netlist {

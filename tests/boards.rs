@@ -258,6 +258,49 @@ fn pins_are_those_asked_for() {
     }
 }
 
+/// Settings over the serial port, where they are asked for and there is room; otherwise no trace.
+#[test]
+fn a_settings_port_is_there_when_asked_for() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let shell_of = |name: &str, words: &[&str]| {
+        let output = folder.path().join(name);
+        let run = generate(Path::new(MACHINE), &output, words);
+        assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+        let port = output.join("rtl/settings_port.v").exists();
+        (port, fs::read_to_string(output.join("rtl/board_shell.v")).expect("text"))
+    };
+    let (port, shell) = shell_of("without", &["--board", "hx8k"]);
+    assert!(!port && !shell.contains("settings_port") && !shell.contains("rx"), "{shell}");
+    assert!(shell.contains(".divide_a(divide_a),"), "{shell}");
+    let (port, shell) = shell_of("with", &["--board", "hx8k", "--pins", "rx"]);
+    assert!(port && shell.contains("input  wire         rx,"), "{shell}");
+
+    let said = |words: &[&str]| failure(&generate(Path::new(MACHINE), folder.path(), words));
+    assert_eq!(
+        said(&["--pins", "rx"]),
+        "helixlock: board `icestick` has no room for `rx`, expected one of icebreaker, hx8k, \
+         upduino, tinyfpga-bx, ulx3s, colorlight-i5, tang-nano-9k, tang-nano-20k\n"
+    );
+    let both = said(&["--board", "hx8k", "--pins", "rx,range"]);
+    assert!(both.contains("found the pins `rx` and `range`, expected one of them"), "{both}");
+}
+
+/// A block is taken out when nothing is left that reads it.
+#[test]
+fn what_is_read_is_not_taken_out() {
+    let mut design = crate::golden_verilog::whole_design();
+    let said = |result: Result<(), helixlock_gen::GenError>| result.unwrap_err().to_string();
+    assert_eq!(
+        said(helixlock_gen::bypass(&mut design, "nobody", &[])),
+        "block `nobody` is not one of the design"
+    );
+    assert_eq!(
+        said(helixlock_gen::bypass(&mut design, "receiver", &[])),
+        "block `receiver`: `data` is read, and nothing stands in its place"
+    );
+    assert_eq!(design, crate::golden_verilog::whole_design());
+}
+
 /// Words in a title that tools take for orders stay words.
 #[test]
 fn a_title_is_no_pragma() {

@@ -83,7 +83,7 @@ impl Gen {
             Bench {
                 module: format!("{}{TOP}", self.prefix),
                 vectors: vectors(netlist, &dialled.settings, &conditioning),
-                constants: constants(&dialled.settings, &conditioning)?,
+                constants: self.constants(&dialled.settings, &conditioning)?,
             },
             Bench {
                 module: format!("{}device", self.prefix),
@@ -106,6 +106,21 @@ impl Gen {
             summary.print(&self.output, out)?;
         }
         Ok(if summary.is_fast_enough() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+    }
+
+    /// Levels of the device's settings for ever, but of a range that is a switch; none where a
+    /// computer may turn them.
+    fn constants(
+        &self,
+        settings: &Settings,
+        conditioning: &Conditioning,
+    ) -> anyhow::Result<Vec<(String, u64)>> {
+        if self.front.is_set_from_outside() {
+            return Ok(vec![]);
+        }
+        let levels = settings.wheels()?.named().into_iter();
+        let fixed = levels.filter(|(name, _)| *name != "range_x2" || !conditioning.range_pin);
+        Ok(fixed.map(|(name, level)| (format!("device.{name}"), level)).collect())
     }
 
     /// The board asked for; its clock must be the one the machine file was written for.
@@ -158,16 +173,6 @@ impl Gen {
         files.keep()?;
         Ok(synthesis)
     }
-}
-
-/// Levels of the device's settings for ever, but of a range that is a switch.
-fn constants(
-    settings: &Settings,
-    conditioning: &Conditioning,
-) -> anyhow::Result<Vec<(String, u64)>> {
-    let levels = settings.wheels()?.named().into_iter();
-    let fixed = levels.filter(|(name, _)| *name != "range_x2" || !conditioning.range_pin);
-    Ok(fixed.map(|(name, level)| (format!("device.{name}"), level)).collect())
 }
 
 /// Says in the top module's comment which machine and board it is for.

@@ -61,19 +61,7 @@ impl Summary {
     /// Prints it for people.
     pub(crate) fn print(&self, output: &Path, out: &mut impl Write) -> anyhow::Result<()> {
         writeln!(out, "{}, {}, {}", self.title, self.part, self.clock_source)?;
-        let wheels = &self.settings;
-        writeln!(
-            out,
-            "A {}, B {}, range x{}, initial phase {}, compensation {:+.3} µm/m, step every {} \
-             clocks ({:.3} Hz)",
-            wheels.divide_a,
-            wheels.divide_b,
-            wheels.range,
-            wheels.initial_phase,
-            wheels.compensation_um_per_m,
-            wheels.step_period_clocks,
-            wheels.step_frequency_hz,
-        )?;
+        writeln!(out, "{}", self.settings)?;
         #[expect(clippy::cast_precision_loss, reason = "megahertz are far below 2^53 Hz")]
         let clock_hz = self.clock_hz as f64;
         if (clock_hz - self.machine_file_clock_hz).abs() >= 0.5 {

@@ -1,10 +1,12 @@
 //! The device on a board: what is between its pins and the logic, and the design that comes of it.
 
+use anyhow::bail;
 use clap::{Args, ValueEnum};
-use helixlock_gen::{Board, leave_out};
+use helixlock_gen::{Board, bypass, leave_out};
 use helixlock_netlist::{Design, elaborate};
 use helixlock_rtl::board_shell::BoardShell;
 use helixlock_rtl::settings::{Conditioning, Encoder, Settings};
+use helixlock_rtl::settings_port::PASSED;
 use helixlock_sim::library;
 
 /// Name of the top module.
@@ -50,10 +52,12 @@ enum Pin {
     GratingIndex,
     /// Index of a scale in the laser's place
     LaserIndex,
+    /// Serial port: settings from a computer, by `helixlock board set`
+    Rx,
 }
 
 impl Pin {
-    const ALL: [(Self, &str); 7] = [
+    const ALL: [(Self, &str); 8] = [
         (Self::Range, "range_x2"),
         (Self::Enable, "enable"),
         (Self::EmergencyStop, "emergency_stop"),
@@ -61,6 +65,7 @@ impl Pin {
         (Self::LaserB, "laser_b"),
         (Self::GratingIndex, "grating_index"),
         (Self::LaserIndex, "laser_index"),
+        (Self::Rx, "rx"),
     ];
 }
 
@@ -81,7 +86,35 @@ impl Front {
             laser: Encoder { quadrature: has(Pin::LaserB), index: has(Pin::LaserIndex) },
         };
         conditioning.check()?;
+        self.check_settings_port(board)?;
         Ok(conditioning)
+    }
+
+    /// True when the bitstream's settings are those it wakes up with.
+    pub(crate) fn is_set_from_outside(&self) -> bool {
+        self.pins.contains(&Pin::Rx)
+    }
+
+    /// The port has a pin and, on the small FPGAs, room; a range is set in one way.
+    fn check_settings_port(&self, board: &Board) -> anyhow::Result<()> {
+        let takes = |board: &Board| board.pins.iter().any(|pin| pin.port == "rx");
+        if !self.is_set_from_outside() {
+            return Ok(());
+        }
+        if !takes(board) {
+            let all = Board::all()?;
+            let others: Vec<_> = all.iter().filter(|board| takes(board)).collect();
+            let names: Vec<_> = others.iter().map(|board| board.name.as_str()).collect();
+            bail!(
+                "board `{}` has no room for `rx`, expected one of {}",
+                board.name,
+                names.join(", ")
+            );
+        }
+        if self.pins.contains(&Pin::Range) {
+            bail!("found the pins `rx` and `range`, expected one of them: settings have a range");
+        }
+        Ok(())
     }
 
     /// The board shell with these settings, without the pins that nobody asked for: their levels
@@ -93,6 +126,10 @@ impl Front {
     ) -> anyhow::Result<Design> {
         let shell = BoardShell::connected(settings, conditioning)?;
         let mut design = elaborate(TOP, &shell, &library())?;
+        if !self.pins.contains(&Pin::Rx) {
+            bypass(&mut design, "settings_port", &PASSED)?;
+            bypass(&mut design, "receiver", &[])?;
+        }
         for (pin, port) in Pin::ALL {
             if !self.pins.contains(&pin) {
                 leave_out(&mut design, port, 0)?;

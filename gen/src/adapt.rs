@@ -3,6 +3,7 @@
 use helixlock_netlist::{Design, PortKind, Role};
 
 use crate::GenError;
+use crate::bypass::{forget, is_read};
 
 /// Puts a prefix before the name of every module, so that a core meets no other of its name.
 pub fn prefix(design: &mut Design, prefix: &str) {
@@ -11,7 +12,8 @@ pub fn prefix(design: &mut Design, prefix: &str) {
     }
 }
 
-/// Takes a pin from the top: inside, an input then has the level for ever, an output no reader.
+/// Takes a pin from the top: inside, an input then has the level for ever, an output no reader. An
+/// input that nothing reads goes altogether.
 ///
 /// # Errors
 ///
@@ -26,6 +28,7 @@ pub fn leave_out(design: &mut Design, pin: &str, level: u64) -> Result<(), GenEr
     }
     match port.kind {
         PortKind::Clock => return Err(missing()),
+        PortKind::Input(id) if !is_read(top, id) => forget(top, &[id]),
         PortKind::Input(id) => top.signals[id.0 as usize].role = Role::Constant(level),
         PortKind::Output(id) => top.signals[id.0 as usize].role = Role::Local,
     }

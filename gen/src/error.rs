@@ -83,6 +83,20 @@ pub enum GenError {
         /// As asked for.
         pin: String,
     },
+    /// A block the design does not have.
+    #[error("block `{block}` is not one of the design")]
+    NoBlock {
+        /// As asked for.
+        block: String,
+    },
+    /// A block that cannot be taken out.
+    #[error("block `{block}`: `{output}` is read, and nothing stands in its place")]
+    NoWay {
+        /// The block.
+        block: String,
+        /// Its output.
+        output: String,
+    },
     /// A module the design does not have.
     #[error("module `{module}` is not one of the design")]
     NoModule {

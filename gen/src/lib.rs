@@ -5,6 +5,7 @@
 
 mod adapt;
 mod board;
+mod bypass;
 mod constraints;
 mod error;
 mod family;
@@ -24,6 +25,7 @@ mod verilog;
 
 pub use adapt::{leave_out, prefix};
 pub use board::Board;
+pub use bypass::bypass;
 pub use constraints::Pin;
 pub use error::{GenError, Origin};
 pub use family::Family;

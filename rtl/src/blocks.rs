@@ -125,6 +125,12 @@ pub const BLOCKS: &[BlockCard] = &[
         "A frame for every comparison: width, period, steps"),
     card!(uart_transmitter::UartTransmitter(clock, clear, bit_clocks, send, data)
         "Bytes out on one wire"),
+    card!(uart_receiver::UartReceiver(clock, clear, bit_clocks, line)
+        "Bytes in from one wire"),
+    card!(settings_port::SettingsPort(clock, clear, at_rest, received, received_byte,
+            telemetry_send, telemetry_byte, ready, tick_period, built_divide_a, built_divide_b, built_range_x2,
+            built_initial_phase, built_compensation, built_compensation_insert, built_step_period)
+        "Wheels turned over a serial port while the device is at rest"),
     BlockCard {
         name: "board_shell",
         summary: "The device with its wheels set, and the pins a builder wires",

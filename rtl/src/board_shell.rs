@@ -21,6 +21,7 @@
 //! | `laser_b`             | in  | * second signal of the laser, a quarter of a fringe late |
 //! | `grating_index`       | in  | * index of the grating: a pass begins there              |
 //! | `laser_index`         | in  | * index of a scale in the laser's place, likewise        |
+//! | `rx`                  | in  | * serial port: settings from the computer                |
 //! | `t1`, `t2`            | out | RC low-pass each, the difference to the recorder         |
 //! | `phase_a` … `phase_c` | out | power stage of the three windings                        |
 //! | `step`, `direction`   | out | … or a bought stepper driver                             |
@@ -60,10 +61,12 @@ use crate::input_synchroniser::InputSynchroniser;
 use crate::level_synchroniser::LevelSynchroniser;
 use crate::quadrature_decoder::QuadratureDecoder;
 use crate::settings::{Conditioning, Settings, SettingsError};
+use crate::settings_port::SettingsPort;
 use crate::step_clock::StepClock;
 use crate::step_driver::{PULSE_CLOCKS, StepDriver};
 use crate::supervisor::Supervisor;
 use crate::telemetry::Telemetry;
+use crate::uart_receiver::UartReceiver;
 use crate::uart_transmitter::UartTransmitter;
 
 /// The device on a board; see the [module](self) for pins.
@@ -101,6 +104,8 @@ pub struct BoardShell {
     pub grating_index: Signal<In, Bit>,
     /// Index in the place of the laser.
     pub laser_index: Signal<In, Bit>,
+    /// Settings from the computer.
+    pub rx: Signal<In, Bit>,
     /// Meter, or the calibration.
     pub t1: Signal<Out, Bit>,
     /// Its complement.
@@ -131,6 +136,8 @@ pub struct BoardShell {
     supervisor: Supervisor,
     telemetry: Telemetry,
     transmitter: UartTransmitter,
+    receiver: UartReceiver,
+    settings_port: SettingsPort,
     grating_input: InputConditioner,
     laser_input: InputConditioner,
     start_input: InputConditioner,
@@ -213,6 +220,7 @@ impl BoardShell {
             laser_b: Signal::default(),
             grating_index: Signal::default(),
             laser_index: Signal::default(),
+            rx: Signal::default(),
             t1: Signal::default(),
             t2: Signal::default(),
             phase_a: Signal::default(),
@@ -231,6 +239,8 @@ impl BoardShell {
             supervisor: Supervisor::default(),
             telemetry: Telemetry::default(),
             transmitter: UartTransmitter::default(),
+            receiver: UartReceiver::default(),
+            settings_port: SettingsPort::default(),
             grating_input: InputConditioner::default(),
             laser_input: InputConditioner::default(),
             start_input: InputConditioner::default(),
@@ -306,6 +316,7 @@ impl BoardShell {
         shell.laser_b.connect();
         shell.grating_index.connect();
         shell.laser_index.connect();
+        shell.rx.connect();
         shell.connect_all();
         Ok(shell)
     }
@@ -458,14 +469,14 @@ impl Logic for BoardShell {
         self.device.manual_step.next =
             self.manual_step_input.level.val() & self.supervisor.may_step.val();
         self.device.manual_forward.next = self.manual_forward.val() ^ self.active_low.val();
-        self.device.divide_a.next = self.divide_a.val();
-        self.device.divide_b.next = self.divide_b.val();
-        self.device.range_x2.next =
-            self.range_set.val() | (self.range_input.steady.val() & self.range_wired.val());
-        self.device.initial_phase.next = self.initial_phase.val();
-        self.device.compensation.next = self.compensation.val();
-        self.device.compensation_insert.next = self.compensation_insert.val();
-        self.device.step_period.next = self.step_period.val();
+        self.device.divide_a.next = self.settings_port.divide_a.val();
+        self.device.divide_b.next = self.settings_port.divide_b.val();
+        self.device.range_x2.next = self.settings_port.range_x2.val()
+            | (self.range_input.steady.val() & self.range_wired.val());
+        self.device.initial_phase.next = self.settings_port.initial_phase.val();
+        self.device.compensation.next = self.settings_port.compensation.val();
+        self.device.compensation_insert.next = self.settings_port.compensation_insert.val();
+        self.device.step_period.next = self.settings_port.step_period.val();
         self.step_driver.clock.next = self.clock.val();
         self.step_driver.clear.next = self.reset.val();
         self.step_driver.step.next = self.device.step.val();
@@ -482,13 +493,35 @@ impl Logic for BoardShell {
         self.telemetry.count_forward.next = self.device.count_forward.val();
         self.telemetry.fault.next = self.device.fault.val();
         self.telemetry.alarm.next = self.supervisor.alarm.val();
-        self.telemetry.ready.next = self.transmitter.ready.val();
+        self.telemetry.ready.next = self.settings_port.telemetry_ready.val();
         self.transmitter.clock.next = self.clock.val();
         self.transmitter.clear.next = self.reset.val();
         self.transmitter.bit_clocks.next = self.bit_clocks.val();
-        self.transmitter.send.next = self.telemetry.send.val();
-        self.transmitter.data.next = self.telemetry.data.val();
+        self.transmitter.send.next = self.settings_port.send.val();
+        self.transmitter.data.next = self.settings_port.data.val();
         self.tx.next = self.transmitter.line.val();
+
+        // Settings from the computer.
+        self.receiver.clock.next = self.clock.val();
+        self.receiver.clear.next = self.reset.val();
+        self.receiver.bit_clocks.next = self.bit_clocks.val();
+        self.receiver.line.next = self.rx.val();
+        self.settings_port.clock.next = self.clock.val();
+        self.settings_port.clear.next = self.reset.val();
+        self.settings_port.at_rest.next = self.idle.val() & !self.device.measuring.val();
+        self.settings_port.received.next = self.receiver.received.val();
+        self.settings_port.received_byte.next = self.receiver.data.val();
+        self.settings_port.telemetry_send.next = self.telemetry.send.val();
+        self.settings_port.telemetry_byte.next = self.telemetry.data.val();
+        self.settings_port.ready.next = self.transmitter.ready.val();
+        self.settings_port.tick_period.next = self.tick_period.val();
+        self.settings_port.built_divide_a.next = self.divide_a.val();
+        self.settings_port.built_divide_b.next = self.divide_b.val();
+        self.settings_port.built_range_x2.next = self.range_set.val();
+        self.settings_port.built_initial_phase.next = self.initial_phase.val();
+        self.settings_port.built_compensation.next = self.compensation.val();
+        self.settings_port.built_compensation_insert.next = self.compensation_insert.val();
+        self.settings_port.built_step_period.next = self.step_period.val();
 
         self.t1.next = self.device.t1.val();
         self.t2.next = self.device.t2.val();

@@ -26,6 +26,7 @@ pub mod reset_counter;
 pub mod ring_distributor;
 pub mod scale_lookup;
 pub mod settings;
+pub mod settings_port;
 pub mod standard_wave;
 pub mod step_clock;
 pub mod step_driver;
@@ -33,6 +34,7 @@ pub mod step_selector;
 pub mod subdivided_comparison;
 pub mod supervisor;
 pub mod telemetry;
+pub mod uart_receiver;
 pub mod uart_transmitter;
 
 mod blocks;

@@ -1,10 +1,12 @@
 // Stopped, the windings are off and nothing is asked for; nothing moves without enable, the loop
-// corrects with nothing wrong only, and a stop is remembered until the panel is off.
+// corrects with nothing wrong only, a stop is remembered until the panel is off, and settings rest in
+// a pass.
 
 module board_shell_proof(
     input clock, input grating, input laser, input start, input correct, input playback,
     input [1:0] calibrate, input manual_step, input manual_forward, input range_x2, input enable,
-    input emergency_stop, input grating_b, input laser_b, input grating_index, input laser_index
+    input emergency_stop, input grating_b, input laser_b, input grating_index, input laser_index,
+    input rx
 );
     wire t1, t2, phase_a, phase_b, phase_c, step, direction, zero, fault, measuring, alarm,
         tx;
@@ -12,7 +14,8 @@ module board_shell_proof(
         .correct(correct), .playback(playback), .calibrate(calibrate), .manual_step(manual_step),
         .manual_forward(manual_forward), .range_x2(range_x2), .enable(enable),
         .emergency_stop(emergency_stop), .grating_b(grating_b), .laser_b(laser_b),
-        .grating_index(grating_index), .laser_index(laser_index), .t1(t1), .t2(t2), .phase_a(phase_a), .phase_b(phase_b),
+        .grating_index(grating_index), .laser_index(laser_index), .rx(rx), .t1(t1), .t2(t2),
+        .phase_a(phase_a), .phase_b(phase_b),
         .phase_c(phase_c), .step(step), .direction(direction), .zero(zero), .fault(fault),
         .measuring(measuring), .alarm(alarm), .tx(tx));
 
@@ -33,6 +36,16 @@ module board_shell_proof(
     (* hierconn *) wire \dut.device.manual_step ;
     (* hierconn *) wire \dut.device.manual_forward ;
     (* hierconn *) wire \dut.device.range_x2 ;
+    (* hierconn *) wire [11:0] \dut.device.divide_a ;
+    (* hierconn *) wire [11:0] \dut.device.divide_b ;
+    (* hierconn *) wire [11:0] \dut.device.initial_phase ;
+    (* hierconn *) wire [15:0] \dut.device.compensation ;
+    (* hierconn *) wire \dut.device.compensation_insert ;
+    (* hierconn *) wire [23:0] \dut.device.step_period ;
+    (* hierconn *) wire \dut.settings_port.range_x2 ;
+    (* hierconn *) wire \dut.settings_port.clear ;
+    (* hierconn *) wire \dut.settings_port.at_rest ;
+    (* hierconn *) wire \dut.receiver.clear ;
     (* hierconn *) wire [1:0] \dut.device.calibrate ;
     (* hierconn *) wire \dut.device.grating ;
     (* hierconn *) wire \dut.device.laser ;
@@ -87,7 +100,28 @@ module board_shell_proof(
         assert (\dut.device.manual_step == (\dut.manual_step_input_level && may_step));
         assert (\dut.device.manual_forward == manual_forward);
         assert (\dut.device.calibrate == calibrate);
-        assert (\dut.device.range_x2 == \dut.range_input_steady );
+        assert (\dut.device.range_x2 == (\dut.settings_port.range_x2 || \dut.range_input_steady ));
+    end
+
+    // Settings: those of the bitstream after a reset, and the same as long as the panel is not off.
+    wire [76:0] settings = { \dut.device.divide_a , \dut.device.divide_b ,
+        \dut.device.initial_phase , \dut.device.compensation , \dut.device.compensation_insert ,
+        \dut.device.step_period };
+    reg [76:0] settings_before;
+    reg was_measuring;
+    always @(posedge clock) begin
+        settings_before <= settings;
+        was_measuring <= measuring;
+    end
+    always @* begin
+        assert (\dut.settings_port.clear == \dut.reset );
+        assert (\dut.receiver.clear == \dut.reset );
+        assert (\dut.settings_port.at_rest == (off && !measuring));
+        if (known && was_reset)
+            assert (settings == {12'h4, 12'h3, 12'h2, 16'h1, 1'b1, 24'd200}
+                && !\dut.settings_port.range_x2 );
+        if (known && !was_reset && (!was_off || was_measuring))
+            assert (settings == settings_before);
     end
 
     // Windings: one or two have current, none when stopped.

@@ -36,6 +36,8 @@ module board_shell (
     input  wire         grating_index,
     // laser_index: * index of a scale in the laser's place, likewise
     input  wire         laser_index,
+    // rx: * serial port: settings from the computer
+    input  wire         rx,
     // t1: RC low-pass each, the difference to the recorder
     output wire         t1,
     // t2: RC low-pass each, the difference to the recorder
@@ -135,6 +137,19 @@ module board_shell (
     wire [7:0] telemetry_data;
     wire transmitter_line;
     wire transmitter_ready;
+    wire receiver_received;
+    wire [7:0] receiver_data;
+    wire settings_port_at_rest;
+    wire [11:0] settings_port_divide_a;
+    wire [11:0] settings_port_divide_b;
+    wire settings_port_range_x2;
+    wire [11:0] settings_port_initial_phase;
+    wire [15:0] settings_port_compensation;
+    wire settings_port_compensation_insert;
+    wire [23:0] settings_port_step_period;
+    wire settings_port_telemetry_ready;
+    wire settings_port_send;
+    wire [7:0] settings_port_data;
     wire grating_input_level;
     wire grating_input_steady;
     wire laser_input_level;
@@ -184,13 +199,13 @@ module board_shell (
         .calibrate(device_calibrate),
         .manual_step(device_manual_step),
         .manual_forward(device_manual_forward),
-        .divide_a(divide_a),
-        .divide_b(divide_b),
+        .divide_a(settings_port_divide_a),
+        .divide_b(settings_port_divide_b),
         .range_x2(device_range_x2),
-        .initial_phase(initial_phase),
-        .compensation(compensation),
-        .compensation_insert(compensation_insert),
-        .step_period(step_period),
+        .initial_phase(settings_port_initial_phase),
+        .compensation(settings_port_compensation),
+        .compensation_insert(settings_port_compensation_insert),
+        .step_period(settings_port_step_period),
         .t1(device_t1),
         .t2(device_t2),
         .standard(device_standard),
@@ -262,7 +277,7 @@ module board_shell (
         .count_forward(device_count_forward),
         .fault(device_fault),
         .alarm(supervisor_alarm),
-        .ready(transmitter_ready),
+        .ready(settings_port_telemetry_ready),
         .send(telemetry_send),
         .data(telemetry_data)
     );
@@ -271,10 +286,48 @@ module board_shell (
         .clock(clock),
         .clear(reset),
         .bit_clocks(bit_clocks),
-        .send(telemetry_send),
-        .data(telemetry_data),
+        .send(settings_port_send),
+        .data(settings_port_data),
         .line(transmitter_line),
         .ready(transmitter_ready)
+    );
+
+    uart_receiver receiver (
+        .clock(clock),
+        .clear(reset),
+        .bit_clocks(bit_clocks),
+        .line(rx),
+        .received(receiver_received),
+        .data(receiver_data)
+    );
+
+    settings_port settings_port (
+        .clock(clock),
+        .clear(reset),
+        .at_rest(settings_port_at_rest),
+        .received(receiver_received),
+        .received_byte(receiver_data),
+        .telemetry_send(telemetry_send),
+        .telemetry_byte(telemetry_data),
+        .ready(transmitter_ready),
+        .tick_period(tick_period),
+        .built_divide_a(divide_a),
+        .built_divide_b(divide_b),
+        .built_range_x2(range_set),
+        .built_initial_phase(initial_phase),
+        .built_compensation(compensation),
+        .built_compensation_insert(compensation_insert),
+        .built_step_period(step_period),
+        .divide_a(settings_port_divide_a),
+        .divide_b(settings_port_divide_b),
+        .range_x2(settings_port_range_x2),
+        .initial_phase(settings_port_initial_phase),
+        .compensation(settings_port_compensation),
+        .compensation_insert(settings_port_compensation_insert),
+        .step_period(settings_port_step_period),
+        .telemetry_ready(settings_port_telemetry_ready),
+        .send(settings_port_send),
+        .data(settings_port_data)
     );
 
     input_conditioner grating_input (
@@ -495,8 +548,9 @@ module board_shell (
     assign device_calibrate = calibrate ^ calibrate_inverted;
     assign device_manual_step = manual_step_input_level & supervisor_may_step;
     assign device_manual_forward = manual_forward ^ active_low;
-    assign device_range_x2 = range_set | (range_input_steady & range_wired);
+    assign device_range_x2 = settings_port_range_x2 | (range_input_steady & range_wired);
     assign tx = transmitter_line;
+    assign settings_port_at_rest = idle & ~device_measuring;
     assign t1 = device_t1;
     assign t2 = device_t2;
     assign phase_a = device_phase_a & ~supervisor_stopped;

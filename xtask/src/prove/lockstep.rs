@@ -13,6 +13,7 @@ use helixlock_sim::{Engine, Interpreter};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+use super::computer::Computer;
 use super::consequence::worth;
 use super::sources::Sources;
 use super::workshop::Workshop;
@@ -49,12 +50,15 @@ impl History {
         let mut engine = Interpreter::new(&netlist);
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut workshop = (block == "board_shell").then(Workshop::default);
+        let mut computer = (block == "settings_port").then(Computer::wild);
         let mut lines = Vec::with_capacity(clocks);
         for clock in 0..clocks {
             for input in &inputs {
-                let level = match &mut workshop {
-                    Some(workshop) => workshop.level(&input.name, clock, &mut random),
-                    None => next_level(input, engine.value(input.id), clock, &mut random),
+                let level = match (&mut workshop, &mut computer, input.name.as_str()) {
+                    (Some(workshop), ..) => workshop.level(&input.name, clock, &mut random),
+                    (_, Some(computer), "received") => computer.received(clock, &mut random).into(),
+                    (_, Some(computer), "received_byte") => computer.byte(),
+                    _ => next_level(input, engine.value(input.id), clock, &mut random),
                 };
                 engine.set_input(input.id, level);
             }
@@ -160,19 +164,32 @@ const UNTOUCHED: usize = 4000;
 
 /// What an input does next: wheels are turned now and then and to small numbers, switches thrown
 /// seldom, resets are rare, and pulses come in bursts of changing density.
+#[expect(clippy::too_many_lines, reason = "a list of inputs")]
 fn next_level(input: &Port, now: u64, clock: usize, random: &mut ChaCha8Rng) -> u64 {
     let mut one_in = |n: u32| random.random_range(0..n) == 0;
     let seldom = clock > 0 && !one_in(512);
     match input.name.as_str() {
-        "data" => random.random_range(0..=mask(input.width)),
+        "telemetry_byte" if one_in(3) => 0,
+        "data" | "telemetry_byte" => random.random_range(0..=mask(input.width)),
         "count" if input.width > 1 => random.random_range(0..=mask(input.width)),
         "ready" => u64::from(!one_in(3)),
-        "send" | "take" | "level" => u64::from(one_in(3)),
+        "send" | "telemetry_send" | "take" | "level" => u64::from(one_in(3)),
+        "at_rest" => u64::from(!one_in(4)),
         "stop" => u64::from(one_in(4096)),
         "clear" | "master_reset" => {
             u64::from(UNTOUCHED <= clock && (clock < UNTOUCHED + 4 || one_in(4096)))
         }
-        "divide_a" | "divide_b" | "preset" | "initial_phase" | "compensation" if !seldom => {
+        "divide_a"
+        | "divide_b"
+        | "preset"
+        | "initial_phase"
+        | "compensation"
+        | "built_divide_a"
+        | "built_divide_b"
+        | "built_initial_phase"
+        | "built_compensation"
+            if !seldom =>
+        {
             wheel(input, random)
         }
         "step_period" | "period" | "bit_clocks" | "ticks" | "limit" if !seldom => {
@@ -181,6 +198,8 @@ fn next_level(input: &Port, now: u64, clock: usize, random: &mut ChaCha8Rng) -> 
         "measuring" => u64::from(!one_in(2048)),
         "start" | "enable" => u64::from(clock > 8 && !one_in(2048)),
         "calibrate"
+        | "tick_period"
+        | "built_step_period"
         | "range_x2"
         | "insert"
         | "correct"
@@ -189,6 +208,8 @@ fn next_level(input: &Port, now: u64, clock: usize, random: &mut ChaCha8Rng) -> 
         | "hold"
         | "correcting"
         | "compensation_insert"
+        | "built_range_x2"
+        | "built_compensation_insert"
         | "active_low"
         | "wrap_watched"
         | "fault"

@@ -9,6 +9,8 @@ use std::collections::BTreeMap;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
+use super::computer::Computer;
+
 /// Some clocks in which the panel rests.
 struct Scene {
     clocks: usize,
@@ -28,7 +30,8 @@ const fn without(silent: &'static str, clocks: usize, on: &'static [&'static str
 
 /// After each pass the panel is off, and what was wrong is forgotten.
 const DAY: &[Scene] = &[
-    scene(300, &["enable"]),
+    // Time for a computer to turn the wheels.
+    scene(2500, &["enable"]),
     // A pass, and back.
     scene(3000, &["enable", "start", "correct"]),
     scene(800, &["enable", "playback"]),
@@ -69,6 +72,7 @@ const BOUNCES: usize = 12;
 /// Levels at the pins, and when drawn ones change next.
 #[derive(Default)]
 pub(super) struct Workshop {
+    computer: Computer,
     drawn: BTreeMap<String, (u64, usize)>,
     encoders: BTreeMap<&'static str, Turn>,
 }
@@ -102,6 +106,7 @@ impl Workshop {
                     + self.drawn("low", clock, 300..1500, random)
             }
             "range_x2" | "manual_forward" => self.drawn(pin, clock, 300..2500, random),
+            "rx" => self.computer.line(clock, random),
             "manual_step" => self.drawn(pin, clock, 8..300, random),
             _ if since < BOUNCES && pin != "emergency_stop" => random.random_range(0..2),
             _ => scene.on.contains(&pin).into(),
