@@ -1,13 +1,17 @@
 //! The commands that talk to a board, with the gates of a bitstream in its place.
 
 mod compare;
+mod line;
 mod recorded;
+mod refused;
 mod rig;
+mod set;
 mod verilog;
 mod watch;
 
+use std::os::fd::{AsFd, AsRawFd};
 use std::path::PathBuf;
-use std::process::{Child, Output};
+use std::process::{Child, Command, Output, Stdio};
 use std::time::Duration;
 
 use helixlock_plant::Model;
@@ -15,7 +19,7 @@ use serial2::SerialPort;
 use tempfile::TempDir;
 
 use self::rig::Board;
-use crate::support::command::{put, scratch, word};
+use crate::support::command::{put, repository, scratch, word};
 
 /// A short pass: a comparison is 20 lines or 40 fringes, 24 000 clocks, longer than its frame.
 const MACHINE: &str = "title = 'a short pass'\n\
@@ -41,6 +45,22 @@ fn machine(folder: &TempDir) -> (PathBuf, String) {
     (path, name)
 }
 
+/// `helixlock board` with these words at the end of a pseudo-terminal, which is called PORT in them.
+fn at_port(port: &SerialPort, words: &[&str]) -> Child {
+    let link = format!("/proc/self/fd/{}", port.as_fd().as_raw_fd());
+    let name = std::fs::read_link(link).expect("a pseudo-terminal has a name");
+    let name = name.to_str().expect("a path of text");
+    let words = words.iter().map(|word| if *word == "PORT" { name } else { word });
+    Command::new(env!("CARGO_BIN_EXE_helixlock"))
+        .arg("board")
+        .args(words)
+        .current_dir(repository())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("helixlock starts")
+}
+
 /// What a command at the other end of a line said; the line is hung up when it does not end by
 /// itself, so that a frame too few is a failure and not a wait.
 fn hung_up(mut child: Child, line: SerialPort) -> Output {
@@ -60,7 +80,7 @@ fn a_bitstream_is_watched_and_held_to_its_logic() {
     let folder = scratch();
     let (path, name) = machine(&folder);
     let model = Model::read(&path).expect("a sound machine");
-    let board = Board::of_bitstream(&name, &FRONT);
+    let board = Board::of_bitstream(&name, "icestick", &FRONT);
     watch::a_pass_is_watched_to_the_clock(&board, &model, &name);
     compare::faults_are_found_at_their_clocks(&board, &model, &name);
 }

@@ -1,6 +1,8 @@
-//! Frames of the telemetry: bytes of a line become comparisons.
+//! Frames of a board: bytes of a line become comparisons, and answers of its settings port.
 //!
-//! The layout is that of the block's page, `rtl/src/telemetry.rs`.
+//! The layout of a comparison is that of the block's page, `rtl/src/telemetry.rs`.
+
+use super::message::Answer;
 
 /// Bytes of a frame, its check included.
 const LENGTH: usize = 15;
@@ -30,8 +32,10 @@ pub(super) struct Frame {
 /// What bytes that end with a zero were.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Received {
-    /// A frame that came over whole.
+    /// A comparison that came over whole.
     Whole(Frame),
+    /// An answer that did.
+    Answer(Answer),
     /// Something else.
     Damaged,
 }
@@ -55,17 +59,19 @@ impl Decoder {
             return None;
         }
         let held = std::mem::take(&mut self.held);
-        let whole = decode(&held);
         let known = std::mem::replace(&mut self.in_step, true);
-        match whole {
-            Some(frame) => Some(Received::Whole(frame)),
-            None => known.then_some(Received::Damaged),
-        }
+        let plain = cobs::decode_vec(&held).ok();
+        let whole = plain.as_ref().and_then(|plain| {
+            decode(plain).map(Received::Whole).or_else(|| Answer::read(plain).map(Received::Answer))
+        });
+        whole.or(known.then_some(Received::Damaged))
     }
 }
 
-fn decode(stuffed: &[u8]) -> Option<Frame> {
-    let plain = cobs::decode_vec(stuffed).ok().filter(|plain| plain.len() == LENGTH)?;
+fn decode(plain: &[u8]) -> Option<Frame> {
+    if plain.len() != LENGTH {
+        return None;
+    }
     let (content, check) = plain.split_at(LENGTH - 2);
     if content[0] != COMPARISON || check != check_of(content).to_le_bytes() {
         return None;
@@ -91,10 +97,13 @@ fn decode(stuffed: &[u8]) -> Option<Frame> {
     })
 }
 
-/// CRC-16/IBM-SDLC.
 fn check_of(content: &[u8]) -> u16 {
-    let bits = content.iter().flat_map(|byte| (0..8).map(move |bit| u16::from(byte >> bit & 1)));
-    !bits.fold(0xffff, |crc: u16, bit| (crc >> 1) ^ (0x8408 * ((crc ^ bit) & 1)))
+    check_of_bits(content.iter().flat_map(|byte| (0..8).map(move |bit| byte >> bit & 1)))
+}
+
+/// CRC-16/IBM-SDLC.
+pub(super) fn check_of_bits(bits: impl Iterator<Item = u8>) -> u16 {
+    !bits.fold(0xffff, |crc: u16, bit| (crc >> 1) ^ (0x8408 * ((crc ^ u16::from(bit)) & 1)))
 }
 
 #[cfg(test)]

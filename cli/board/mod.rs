@@ -1,10 +1,12 @@
-//! `helixlock board`: what a board says while it grinds.
+//! `helixlock board`: what a board is told, and what it says while it grinds.
 
 mod compare;
 mod flash;
 mod frame;
 mod log;
+mod message;
 mod port;
+mod set;
 mod watch;
 
 use std::io::Write;
@@ -12,7 +14,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Subcommand};
 
-/// Talk to a board: find it, load it, watch its comparisons
+/// Talk to a board: find it, load it, set it, watch its comparisons
 #[derive(Debug, Args)]
 pub(crate) struct BoardCommand {
     #[command(subcommand)]
@@ -25,6 +27,7 @@ enum What {
     List,
     Compare(compare::Compare),
     Flash(flash::Flash),
+    Set(set::Set),
     Watch(watch::Watch),
 }
 
@@ -35,6 +38,7 @@ impl BoardCommand {
             What::List => port::list(out),
             What::Compare(compare) => compare.run(out),
             What::Flash(flash) => flash.run(out),
+            What::Set(set) => set.run(out),
             What::Watch(watch) => watch.run(out),
         }
     }

@@ -93,9 +93,14 @@ impl Watch {
                 return Ok(heard);
             }
             for received in bytes[..got].iter().filter_map(|byte| decoder.take(*byte)) {
-                let Received::Whole(frame) = received else {
-                    log.damaged += 1;
-                    continue;
+                let frame = match received {
+                    Received::Whole(frame) => frame,
+                    // Settings were read while it measured.
+                    Received::Answer(_) => continue,
+                    Received::Damaged => {
+                        log.damaged += 1;
+                        continue;
+                    }
                 };
                 let row = log.row(&frame);
                 if self.csv.is_some() && row.pass > 1 {

@@ -17,7 +17,7 @@ use crate::support::command::{Run, helixlock, scratch};
 const CLOCK_HZ: u64 = 12_000_000;
 
 /// Writes what was seen at the pins.
-fn write_log(path: &std::path::Path, first: &Levels, log: &[Change], end: u64) {
+pub(super) fn write_log(path: &std::path::Path, first: &Levels, log: &[Change], end: u64) {
     let file = BufWriter::new(create(path));
     let variables: Vec<_> =
         first.iter().map(|(pin, _)| Variable::bits(format!("board.{pin}"), 1)).collect();

@@ -1,29 +1,19 @@
 //! `board watch` on bytes: lost and damaged ones, and a pass as a measurement.
 
-use std::os::fd::{AsFd, AsRawFd};
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Output};
 use std::time::Duration;
 
 use serial2::SerialPort;
 use tempfile::TempDir;
 
-use super::hung_up;
+use super::{at_port, hung_up};
 
 /// `board watch` at one end of a pseudo-terminal, these bytes at the other.
 fn watched(bytes: &[u8], words: &[&str]) -> Output {
     let (mut here, there) = SerialPort::pair().expect("a pseudo-terminal");
     here.set_write_timeout(Duration::from_secs(20)).expect("it can be set");
-    let link = format!("/proc/self/fd/{}", there.as_fd().as_raw_fd());
-    let name = std::fs::read_link(link).expect("a pseudo-terminal has a name");
-    let child = Command::new(env!("CARGO_BIN_EXE_helixlock"))
-        .args(["board", "watch"])
-        .arg(name)
-        .args(words)
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("helixlock starts");
+    let child = at_port(&there, &[&["watch", "PORT"], words].concat());
     here.write_all(bytes).expect("the other side reads");
     hung_up(child, here)
 }

@@ -33,11 +33,11 @@ pub(crate) struct Board {
 }
 
 impl Board {
-    /// The bitstream of a machine file on an iCEstick, with these words for `gen`.
-    pub(crate) fn of_bitstream(machine: &str, words: &[&str]) -> Self {
-        let folder = project(machine, &[words, &["--synth"]].concat());
+    /// The bitstream of a machine file on a board of an iCE40, with these words for `gen`.
+    pub(crate) fn of_bitstream(machine: &str, board: &str, words: &[&str]) -> Self {
+        let folder = project(machine, board, &[words, &["--synth"]].concat());
         let mut constraints = String::new();
-        for pin in Card::find("icestick").expect("it is known").pins {
+        for pin in Card::find(board).expect("it is known").pins {
             let name = bit_name(&pin.port);
             writeln!(constraints, "set_io {name} {}", pin.pin).expect("a string takes everything");
         }
@@ -52,7 +52,7 @@ impl Board {
 
     /// The emitted Verilog with a text of a block exchanged.
     pub(crate) fn of_mutant(machine: &str, words: &[&str], mutant: &Mutant) -> Self {
-        let folder = project(machine, words);
+        let folder = project(machine, "icestick", words);
         let block = folder.path().join(format!("rtl/{}.v", mutant.block));
         let sound = std::fs::read_to_string(&block).expect("the block is there");
         assert!(sound.contains(mutant.was), "{}: {}", mutant.block, mutant.was);
@@ -119,11 +119,11 @@ pub(crate) struct Mutant {
     pub(crate) now: &'static str,
 }
 
-/// What `gen` writes for an iCEstick.
-fn project(machine: &str, words: &[&str]) -> TempDir {
+/// What `gen` writes for a board.
+fn project(machine: &str, board: &str, words: &[&str]) -> TempDir {
     let folder = scratch();
     let output = folder.path().to_str().expect("a path of text");
-    let fixed = ["gen", machine, "--board", "icestick", "-o", output];
+    let fixed = ["gen", machine, "--board", board, "-o", output];
     let built = helixlock(&[&fixed[..], words].concat());
     assert_eq!(built.status, 0, "{}", built.stderr);
     folder
@@ -255,8 +255,8 @@ impl Train {
     }
 }
 
-/// Grinds from power-up to a clock with `start` and `correct` on: the plant makes lines and fringes,
-/// and its table moves at every step. `heard` sees the board after each change.
+/// Grinds to a clock with `start` and `correct` on: the plant makes lines and fringes, and its table
+/// moves at every step. `heard` sees the board after each change.
 pub(crate) fn grind(
     gates: &mut Gates<'_>,
     model: &Model,
@@ -264,12 +264,14 @@ pub(crate) fn grind(
     mut heard: impl FnMut(&Gates<'_>),
 ) {
     let clock_hz = 12e6;
+    let begin = gates.clock();
+    let at = |time_s| begin + clock_of(time_s, clock_hz);
     let mut grinder = Grinder::new(model, model.workpiece.length_mm).expect("a sound machine");
-    gates.run_until(40);
+    gates.run_until(begin + 40);
     for pin in ["grating", "laser", "start", "correct"] {
         gates.set(pin, false);
     }
-    let train = |pin, time_s| Train { pin, rise: clock_of(time_s, clock_hz).max(100), fall: None };
+    let train = |pin, time_s| Train { pin, rise: at(time_s).max(begin + 100), fall: None };
     let mut lines = train("grating", grinder.next_line_s());
     let mut fringes = train("laser", grinder.next_fringe_s());
     while gates.clock() < end {
@@ -277,17 +279,16 @@ pub(crate) fn grind(
         let clock = gates.clock();
         heard(gates);
         if rose.iter().any(|pin| pin == "step") {
-            grinder.step(time_of(clock, clock_hz), gates.high("direction"));
-            fringes.rise = clock_of(grinder.next_fringe_s(), clock_hz).max(clock + 1);
+            grinder.step(time_of(clock - begin, clock_hz), gates.high("direction"));
+            fringes.rise = at(grinder.next_fringe_s()).max(clock + 1);
         }
         if lines.drive(gates, clock) {
             grinder.pass_line();
-            lines.rise = clock_of(grinder.next_line_s(), clock_hz).max(clock + 2 * PULSE_CLOCKS);
+            lines.rise = at(grinder.next_line_s()).max(clock + 2 * PULSE_CLOCKS);
         }
         if fringes.drive(gates, clock) {
             grinder.pass_fringe();
-            fringes.rise =
-                clock_of(grinder.next_fringe_s(), clock_hz).max(clock + 2 * PULSE_CLOCKS);
+            fringes.rise = at(grinder.next_fringe_s()).max(clock + 2 * PULSE_CLOCKS);
         }
     }
 }

@@ -1,66 +1,15 @@
 //! `board watch` at a pseudo-terminal: it reads what the gates did, to the clock.
 
-use std::os::fd::{AsFd, AsRawFd};
-use std::process::{Child, Command, Output, Stdio};
+use std::process::Output;
 use std::time::Duration;
 
 use helixlock_plant::Model;
 use serde_json::Value;
 use serial2::SerialPort;
 
+use super::line::Line;
 use super::rig::{Board, Change, Gates, grind};
-use super::{PERIOD, hung_up};
-
-/// Clocks of a bit: 12 MHz at 115 200 baud.
-const BIT_CLOCKS: u64 = 104;
-
-/// The other end of a serial line: bits become bytes as the clocks go on.
-#[derive(Default)]
-struct Line {
-    /// Changes of `tx` that were heard.
-    heard: usize,
-    low_since: Option<u64>,
-    byte: u8,
-    bits: u64,
-    low: bool,
-}
-
-impl Line {
-    /// Bytes that are over at that clock.
-    fn bytes(&mut self, log: &[Change], clock: u64) -> Vec<u8> {
-        let mut bytes = vec![];
-        for change in &log[self.heard..] {
-            if change.pin == "tx" {
-                bytes.extend(self.until(change.clock));
-                self.low = !change.high;
-                if self.low && self.low_since.is_none() {
-                    (self.low_since, self.bits, self.byte) = (Some(change.clock), 0, 0);
-                }
-            }
-        }
-        self.heard = log.len();
-        bytes.extend(self.until(clock));
-        bytes
-    }
-
-    /// Takes the bits whose middle has passed; gives the byte when the stop bit has.
-    fn until(&mut self, clock: u64) -> Option<u8> {
-        while let Some(since) = self.low_since {
-            let middle = since + BIT_CLOCKS / 2 + (self.bits + 1) * BIT_CLOCKS;
-            if clock <= middle {
-                return None;
-            }
-            if self.bits == 8 {
-                assert!(!self.low, "a stop bit after the clock {since}");
-                self.low_since = None;
-                return Some(self.byte);
-            }
-            self.byte |= u8::from(!self.low) << self.bits;
-            self.bits += 1;
-        }
-        None
-    }
-}
+use super::{PERIOD, at_port, hung_up};
 
 /// Widths and periods of T1 from the log of the pins, from rising edge to rising edge.
 fn measured(log: &[Change]) -> Vec<(u64, u64)> {
@@ -73,19 +22,6 @@ fn measured(log: &[Change]) -> Vec<(u64, u64)> {
     between.collect()
 }
 
-fn watching(port: &SerialPort, words: &[&str]) -> Child {
-    let link = format!("/proc/self/fd/{}", port.as_fd().as_raw_fd());
-    let name = std::fs::read_link(link).expect("a pseudo-terminal has a name");
-    Command::new(env!("CARGO_BIN_EXE_helixlock"))
-        .args(["board", "watch"])
-        .arg(name)
-        .args(words)
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("helixlock starts")
-}
-
 fn rows(output: &Output) -> Vec<Value> {
     let lines = String::from_utf8_lossy(&output.stdout).into_owned();
     lines.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect()
@@ -95,7 +31,8 @@ fn rows(output: &Output) -> Vec<Value> {
 pub(super) fn a_pass_is_watched_to_the_clock(board: &Board, model: &Model, name: &str) {
     let (mut here, there) = SerialPort::pair().expect("a pseudo-terminal");
     here.set_write_timeout(Duration::from_secs(20)).expect("it can be set");
-    let child = watching(&there, &["--json", "--count", "12", "--machine", name]);
+    let words = ["watch", "PORT", "--json", "--count", "12", "--machine", name];
+    let child = at_port(&there, &words);
 
     let mut gates = board.start(0);
     let mut line = Line::default();
