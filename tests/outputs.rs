@@ -83,6 +83,68 @@ fn a_measured_curve_is_not_replaced() {
     assert_eq!(listing(folder.path()), ["data.csv", "machine.toml", "trace.csv"]);
 }
 
+/// One of several names is refused by the file system: none of the files appears.
+#[test]
+fn a_name_that_is_too_long_is_refused_before_anything_is_written() {
+    let folder = workplace();
+    let files = || -> Vec<String> {
+        let all = listing(folder.path());
+        all.into_iter().filter(|name| folder.path().join(name).is_file()).collect()
+    };
+    let before = files();
+    let long = "x".repeat(246) + ".csv"; // a name may have 255 bytes; its recipe would have 258
+    let prefix = "p".repeat(300);
+    for words in [
+        &["import", "data.csv", "-o", &long][..],
+        &["gen", "machine.toml", "-o", ".", "--prefix", &prefix],
+    ] {
+        let run = run_in(folder.path(), words);
+        assert_eq!(run.status.code(), Some(2), "{words:?}: {run:?}");
+        assert_eq!(files(), before, "{words:?}");
+    }
+    let run = run_in(folder.path(), &["import", "data.csv", "-o", "ok.csv"]);
+    assert_eq!(run.status.code(), Some(0), "{run:?}");
+}
+
+/// Whatever a journal says that cannot be done, one command says so, nothing is lost, and the next
+/// one goes on.
+#[test]
+fn a_journal_that_cannot_be_finished_is_put_aside() {
+    let long =
+        format!("[[\".helixlock-1-0\",\"ok.csv\"],[\".helixlock-1-1\",\"{}\"]]", "x".repeat(300));
+    for (journal, left) in [
+        (long.as_str(), &["helixlock-1-1", "helixlock-commit"][..]),
+        (
+            "[[\".helixlock-1-0\",\"none/x\"]]",
+            &["helixlock-1-0", "helixlock-1-1", "helixlock-commit"],
+        ),
+        (
+            "[[\".helixlock-1-0\",\"../x\"]]",
+            &["helixlock-1-0", "helixlock-1-1", "helixlock-commit"],
+        ),
+        ("[[\"data.csv\",\"x\"]]", &["helixlock-1-0", "helixlock-1-1", "helixlock-commit"]),
+        ("not a journal", &["helixlock-1-0", "helixlock-1-1", "helixlock-commit"]),
+    ] {
+        let folder = workplace();
+        let path = |name: &str| folder.path().join(name);
+        put(&path(".helixlock-1-0"), "first");
+        put(&path(".helixlock-1-1"), "second");
+        put(&path(".helixlock-commit"), journal);
+        let data = fs::read(path("data.csv")).expect("it is there");
+        let import = ["import", "data.csv", "-o", "new.csv"];
+        let run = run_in(folder.path(), &import);
+        assert_eq!(run.status.code(), Some(2), "{journal}: {run:?}");
+        assert!(said(&run).contains("its files are in ./unfinished-1 now"), "{}", said(&run));
+        assert_eq!(listing(&path("unfinished-1")), left, "{journal}");
+        let second = fs::read_to_string(path("unfinished-1/helixlock-1-1"));
+        assert_eq!(second.expect("it is kept"), "second", "{journal}");
+        assert_eq!(fs::read(path("data.csv")).expect("it stays"), data, "{journal}");
+        let run = run_in(folder.path(), &import);
+        assert_eq!(run.status.code(), Some(0), "{journal}: {run:?}");
+        assert!(listing(folder.path()).iter().all(|name| !name.starts_with('.')), "{journal}");
+    }
+}
+
 #[test]
 fn a_makefile_of_the_user_stays() {
     let folder = workplace();

@@ -3,15 +3,15 @@
 //! The order: every file is whole and on disk under a temporary name; then a journal that says
 //! which name each is to have; then the names; then the journal goes. Whoever finds a journal
 //! finishes what it says, so that the folder holds the old files before the journal stands and the
-//! new ones after it.
+//! new ones after it. What can never be finished is put aside, so that it stands in nobody's way.
 
 use std::fs::File;
 use std::io::Write;
 use std::path::{Component, Path, PathBuf};
 
-use anyhow::{Context, bail};
+use anyhow::{Context, anyhow, bail};
 
-use super::unfinished::{PREFIX, Unfinished, clear};
+use super::unfinished::{PREFIX, Unfinished, abandoned, clear};
 
 /// Name of the journal in its folder.
 const JOURNAL: &str = ".helixlock-commit";
@@ -52,23 +52,51 @@ fn finish(folder: &Path) -> anyhow::Result<()> {
         clear(folder);
         return Ok(());
     };
-    let unfinished = || {
-        format!(
-            "{}: what an interrupted command began cannot be finished\n\
-             hint: remove that file to leave it as it is",
-            journal.display()
-        )
+    let renames: serde_json::Result<Renames> = serde_json::from_slice(&text);
+    let known = renames.as_ref().map_or(&[][..], Vec::as_slice);
+    let renamed = match &renames {
+        Ok(renames) => rename(folder, renames),
+        Err(error) => Err(anyhow!("{error}")),
     };
-    let renames: Renames = serde_json::from_slice(&text).with_context(unfinished)?;
-    rename(folder, &renames).with_context(unfinished)?;
-    std::fs::remove_file(&journal).with_context(unfinished)
+    let place = journal.display();
+    if let Err(error) = renamed {
+        let begun = format!("{place}: what a command began cannot be finished: {error:#}");
+        let aside = put_aside(folder, known).with_context(|| begun.clone())?;
+        bail!(
+            "{begun}\n\
+             hint: its files are in {} now, with the list of the names they were to have; the same \
+             command may be run again",
+            aside.display()
+        );
+    }
+    std::fs::remove_file(&journal).with_context(|| format!("{place}: cannot be removed"))
+}
+
+/// Moves a journal, the temporary names that it knows, and those without a writer into a folder of
+/// its own, where they have names that are seen.
+fn put_aside(folder: &Path, known: &[(String, PathBuf)]) -> anyhow::Result<PathBuf> {
+    let aside = (1..).map(|number: u32| folder.join(format!("unfinished-{number}")));
+    let aside = aside.into_iter().find(|path| path.symlink_metadata().is_err());
+    let aside = aside.with_context(|| format!("{}: holds too much", folder.display()))?;
+    let place = || format!("{}: cannot be made", aside.display());
+    std::fs::create_dir(&aside).with_context(place)?;
+    let known = known.iter().filter(|(name, _)| is_temporary(name));
+    let known = known.map(|(name, _)| folder.join(name));
+    for path in known.chain(abandoned(folder)).chain([folder.join(JOURNAL)]) {
+        let name = path.file_name().and_then(|name| name.to_str()).unwrap_or(JOURNAL);
+        let end = aside.join(name.trim_start_matches('.'));
+        if path.exists() {
+            std::fs::rename(&path, &end).with_context(|| super::cannot(&end))?;
+        }
+    }
+    Ok(aside)
 }
 
 /// Renames those that still have their temporary names.
 fn rename(folder: &Path, renames: &Renames) -> anyhow::Result<()> {
     for (temporary, name) in renames {
         let place = folder.join(name);
-        if !temporary.starts_with(PREFIX) || !is_below(Path::new(temporary)) || !is_below(name) {
+        if !is_temporary(temporary) || !is_below(name) {
             bail!("{}: is not in the folder", place.display());
         }
         let temporary = folder.join(temporary);
@@ -80,6 +108,11 @@ fn rename(folder: &Path, renames: &Renames) -> anyhow::Result<()> {
     // Names are on disk before the journal goes; a system that cannot say so has them anyway.
     let _ = File::open(folder).and_then(|folder| folder.sync_all());
     Ok(())
+}
+
+/// True for a name that only files on their way have.
+fn is_temporary(name: &str) -> bool {
+    name.starts_with(PREFIX) && Path::new(name).file_name().is_some_and(|whole| whole == name)
 }
 
 /// True for a path that does not lead out of its folder.

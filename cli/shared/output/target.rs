@@ -1,6 +1,7 @@
 //! Where an output goes: what stands there decides how it is written.
 
 use std::fs::{Metadata, Permissions};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
@@ -25,11 +26,16 @@ pub(super) enum Target {
 impl Target {
     /// Looks at what stands at a path.
     ///
-    /// Refuses a folder, a file that may not be written, and one that the command itself has read.
+    /// Refuses a name that the system does not take, a folder, a file that may not be written, and one that the command itself has read.
     pub(super) fn of(path: &Path, inputs: &[PathBuf]) -> anyhow::Result<Self> {
         let place = path.display();
-        let Ok(found) = std::fs::metadata(path) else {
-            return Ok(Self::File { path: followed(path), mode: None });
+        let found = match std::fs::metadata(path) {
+            Ok(found) => found,
+            Err(error) if error.kind() == ErrorKind::NotFound => {
+                return Ok(Self::File { path: followed(path), mode: None });
+            }
+            // A name that is too long, say: no file could ever have it.
+            Err(error) => return Err(error).with_context(|| super::cannot(path)),
         };
         if found.is_dir() {
             bail!("{place}: found a folder, expected a file or nothing");
@@ -52,7 +58,7 @@ impl Target {
 }
 
 /// The end of a chain of links that leads to nothing yet.
-fn followed(path: &Path) -> PathBuf {
+pub(super) fn followed(path: &Path) -> PathBuf {
     let mut path = path.to_owned();
     for _ in 0..MOST_LINKS {
         let Ok(next) = std::fs::read_link(&path) else { break };

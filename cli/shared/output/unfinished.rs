@@ -1,6 +1,6 @@
 //! A file while it is filled: it has no name, so that an interruption leaves nothing behind.
 
-use std::fs::File;
+use std::fs::{DirEntry, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -55,16 +55,21 @@ impl Unfinished {
 
 /// Removes what writers that live no more have left under temporary names.
 pub(super) fn clear(folder: &Path) {
-    let Ok(entries) = std::fs::read_dir(folder) else { return };
-    for entry in entries.flatten() {
+    for path in abandoned(folder) {
+        // Who cannot remove it can still write beside it.
+        let _ = std::fs::remove_file(path);
+    }
+}
+
+/// Files under temporary names whose writers live no more.
+pub(super) fn abandoned(folder: &Path) -> Vec<PathBuf> {
+    let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
+    let is_abandoned = |entry: &DirEntry| {
         let temporary = entry.file_name().to_str().is_some_and(|name| name.starts_with(PREFIX));
         let plain = entry.file_type().is_ok_and(|kind| kind.is_file());
-        if temporary && plain && File::open(entry.path()).is_ok_and(|file| file.try_lock().is_ok())
-        {
-            // Who cannot remove it can still write beside it.
-            let _ = std::fs::remove_file(entry.path());
-        }
-    }
+        temporary && plain && File::open(entry.path()).is_ok_and(|file| file.try_lock().is_ok())
+    };
+    entries.flatten().filter(is_abandoned).map(|entry| entry.path()).collect()
 }
 
 #[cfg(target_os = "linux")]
