@@ -83,6 +83,61 @@ fn a_measured_curve_is_not_replaced() {
     assert_eq!(listing(folder.path()), ["data.csv", "machine.toml", "trace.csv"]);
 }
 
+/// No output of a command is another one of it, by whatever name, nor the journal of another; it
+/// is told before any work.
+#[test]
+fn outputs_of_one_command_are_apart() {
+    let folder = workplace();
+    let path = |name: &str| folder.path().join(name);
+    fs::create_dir(path("below")).expect("a folder can be made");
+    let sweep = ["sweep", "machine.toml", "--set", "drive.frequency=60 Hz", "--length", "1"];
+    let certify = ["certify", "machine.toml", "--length", "1"];
+    let faults = ["faults", "machine.toml"];
+    let discover = ["discover", "machine.toml", "data.csv"];
+    let absolute = path("r.csv").to_string_lossy().into_owned();
+    for (words, journal) in
+        [(&sweep[..], true), (&certify, true), (&faults, true), (&discover, false)]
+    {
+        for (page, other) in [
+            ("r.csv", "`-o`"),
+            ("./r.csv", "`-o`"),
+            ("below/../r.csv", "`-o`"),
+            (absolute.as_str(), "`-o`"),
+            ("r.csv.journal", "the journal of `-o`"),
+            ("below/.././r.csv.journal", "the journal of `-o`"),
+        ] {
+            if !journal && page.ends_with(".journal") {
+                continue;
+            }
+            let run = run_in(folder.path(), &[words, &["-o", "r.csv", "--page", page]].concat());
+            assert_eq!(run.status.code(), Some(2), "{words:?} {page}: {run:?}");
+            let expected = format!(
+                "helixlock: {page}: is both {other} and `--page` of this command, expected a file each\n"
+            );
+            assert_eq!(said(&run), expected, "{words:?}");
+            assert_eq!(listing(folder.path()), ["below", "data.csv", "machine.toml"], "{words:?}");
+        }
+    }
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("r.csv", path("link.html")).expect("a link can be made");
+        let words = [&discover[..], &["-o", "r.csv", "--page", "link.html"]].concat();
+        assert_eq!(run_in(folder.path(), &words).status.code(), Some(2));
+    }
+}
+
+/// What a recipe was read from is no place for the data.
+#[test]
+fn a_recipe_is_not_replaced_by_data() {
+    let folder = workplace();
+    let recipe = "[text]\ndecimal = \".\"\n";
+    put(&folder.path().join("r.toml"), recipe);
+    let run = run_in(folder.path(), &["import", "data.csv", "--recipe", "r.toml", "-o", "r.toml"]);
+    assert_eq!(run.status.code(), Some(2), "{run:?}");
+    assert!(said(&run).contains("r.toml: is read by this command"), "{}", said(&run));
+    assert_eq!(fs::read_to_string(folder.path().join("r.toml")).expect("text"), recipe);
+}
+
 /// One of several names is refused by the file system: none of the files appears.
 #[test]
 fn a_name_that_is_too_long_is_refused_before_anything_is_written() {

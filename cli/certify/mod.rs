@@ -19,7 +19,7 @@ use helixlock_sim::{
 };
 
 use self::json::{BlockJson, CertificateJson, GatesJson, HazardJson, WholeJson};
-use crate::shared::cases::{Campaign, Cases, Row, Shard, Worked, write_numbers};
+use crate::shared::cases::{Campaign, Cases, Row, Shard, Worked, apart_from_cases, write_numbers};
 use crate::shared::input::machine_files;
 use crate::shared::next::Next;
 use crate::shared::output::{print_json, print_page, write_page};
@@ -102,6 +102,7 @@ fn positive_ns(word: &str) -> Result<f64, String> {
 impl Certify {
     /// Runs the pass through both and prints what differs.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+        apart_from_cases(self.output.as_deref(), [("`--page`", self.page.as_deref())])?;
         let machine = Model::read(&self.machine)?;
         if self.shard.is_some() {
             self.delay_sets(&machine)?.print(&CAMPAIGN, out)?;

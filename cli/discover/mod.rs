@@ -18,7 +18,7 @@ use crate::shared::angular::in_unit;
 use crate::shared::answer::{Answer, Answering};
 use crate::shared::measured::Files;
 use crate::shared::next::Next;
-use crate::shared::output::{print_json, print_page, write_content, write_page};
+use crate::shared::output::{apart, print_json, print_page, write_content, write_page};
 
 /// Propose a formula for what no effect of the catalogue explains
 #[derive(Debug, Args)]
@@ -40,6 +40,7 @@ impl Discover {
     /// Prints the proposals; exit status 1 when the input itself is doubted, or nothing was
     /// proposed that could be written.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+        apart([("`-o`", self.output.as_deref()), ("`--page`", self.page.as_deref())])?;
         let (file, problem, discovery) = self.found()?;
         let written = match &self.output {
             Some(path) if !discovery.proposals.is_empty() => {

@@ -15,7 +15,7 @@ use helixlock_sim::faults::{Flips, Outcome, flip_flops};
 
 use self::blocks::{HEADER, by_block, safeguards};
 use self::rows::{COLUMNS, Faults, cells_of, faults_of, word, write_csv};
-use crate::shared::cases::{Campaign, Cases, Row, Shard};
+use crate::shared::cases::{Campaign, Cases, Row, Shard, apart_from_cases};
 use crate::shared::input::machine_files;
 use crate::shared::keys::keys;
 use crate::shared::output::{print_json, print_page, write_page};
@@ -61,6 +61,7 @@ pub(crate) struct FaultsCommand {
 impl FaultsCommand {
     /// Runs what is missing of the campaign, writes and prints it.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+        apart_from_cases(self.output.as_deref(), [("`--page`", self.page.as_deref())])?;
         let file = MachineFile::read(&self.machine)?;
         let flips = Flips::new(&file.model, self.instants)?;
         let course = [flips.window_s(), flips.band_um()];

@@ -90,7 +90,9 @@ impl Import {
             );
         }
         let folder = output.parent().filter(|folder| !folder.as_os_str().is_empty());
-        let mut batch = Batch::new(folder.unwrap_or(Path::new(".")), self.files.clone())?;
+        let given = self.recipe.clone().filter(|_| !replayed);
+        let inputs = self.files.iter().cloned().chain(given);
+        let mut batch = Batch::new(folder.unwrap_or(Path::new(".")), inputs)?;
         batch.write(name_of(output)?, |file| {
             let mut buffer = Vec::new();
             write_csv(&proposal.table, &mut buffer)?;

@@ -15,10 +15,12 @@ use serde::Serialize;
 use self::target::Target;
 use self::unfinished::Unfinished;
 
+mod apart;
 mod commit;
 mod target;
 mod unfinished;
 
+pub(crate) use apart::apart;
 pub(crate) use commit::recover;
 
 /// Files of one folder that belong together: all of them appear, or none.

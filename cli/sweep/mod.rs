@@ -14,7 +14,7 @@ use helixlock_sim::{Options, parallel};
 use helixlock_traces::Table;
 
 use crate::shared::answer::{Answer, Answering};
-use crate::shared::cases::{Campaign, Cases, Row, Shard, Worked, write_numbers};
+use crate::shared::cases::{Campaign, Cases, Row, Shard, Worked, apart_from_cases, write_numbers};
 use crate::shared::input::machine_files;
 use crate::shared::keys::keys;
 use crate::shared::output::{print_page, write_page};
@@ -65,6 +65,7 @@ pub(crate) struct Sweep {
 impl Sweep {
     /// Runs what is missing and writes the table.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+        apart_from_cases(self.output.as_deref(), [("`--page`", self.page.as_deref())])?;
         let file = MachineFile::read(&self.machine)?;
         let plan = self.plan()?;
         let worked = self.worked(&file, &plan, self.output.as_deref())?;

@@ -88,7 +88,8 @@ impl Journal {
     }
 }
 
-fn path_beside(output: &Path) -> PathBuf {
+/// Name of the journal of some results.
+pub(super) fn path_beside(output: &Path) -> PathBuf {
     let mut name = output.as_os_str().to_owned();
     name.push(".journal");
     name.into()

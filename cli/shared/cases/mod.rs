@@ -16,8 +16,8 @@ use helixlock_traces::csv::write_csv;
 use helixlock_traces::parquet::write_parquet;
 use helixlock_traces::table::{Column, Table};
 
-use self::journal::Journal;
-use super::output::{make_folder, write_whole};
+use self::journal::{Journal, path_beside};
+use super::output::{apart, make_folder, write_whole};
 use super::progress;
 
 pub(crate) use self::journal::Row;
@@ -149,6 +149,18 @@ impl Cases {
         });
         Table::new(std::iter::once(Column::new("case", numbers)).chain(cells).collect())
     }
+}
+
+/// Refuses outputs of a command that would replace its table of cases, the journal of that, or one
+/// another.
+pub(crate) fn apart_from_cases<const N: usize>(
+    table: Option<&Path>,
+    others: [(&str, Option<&Path>); N],
+) -> anyhow::Result<()> {
+    let known =
+        [("`-o`", table.map(Path::to_owned)), ("the journal of `-o`", table.map(path_beside))];
+    let others = others.map(|(option, path)| (option, path.map(Path::to_owned)));
+    apart(known.into_iter().chain(others))
 }
 
 impl Worked {
