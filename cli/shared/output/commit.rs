@@ -54,12 +54,12 @@ fn finish(folder: &Path) -> anyhow::Result<()> {
     };
     let renames: serde_json::Result<Renames> = serde_json::from_slice(&text);
     let known = renames.as_ref().map_or(&[][..], Vec::as_slice);
-    let renamed = match &renames {
+    let done = match &renames {
         Ok(renames) => rename(folder, renames),
         Err(error) => Err(anyhow!("{error}")),
     };
     let place = journal.display();
-    if let Err(error) = renamed {
+    if let Err(error) = done {
         let begun = format!("{place}: what a command began cannot be finished: {error:#}");
         let aside = put_aside(folder, known).with_context(|| begun.clone())?;
         bail!(
