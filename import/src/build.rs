@@ -15,7 +15,7 @@ use crate::header::Header;
 use crate::outline::Outline;
 use crate::recipe::ColumnRule;
 use crate::rules::{NONE, by_column};
-use crate::runs::{direction_of, run_of};
+use crate::runs::{counts_rows, direction_of, run_of};
 use crate::samples::{Holds, Samples, rows, seconds};
 use figures::{difference, micro, rounded, whole};
 use instants::{decide_order, decide_zone};
@@ -51,9 +51,7 @@ impl Understood<'_> {
                 continue;
             }
             let values = match to {
-                "pass" => {
-                    self.named(index, |cell| run_of(cell)?.number.map(whole), "a run number")?
-                }
+                "pass" => self.passes(index)?,
                 "direction" => {
                     self.named(index, direction_of, "a direction: 1, -1, or a word for it")?
                 }
@@ -68,6 +66,19 @@ impl Understood<'_> {
         }
         let columns = self.with_runs(columns, decisions)?;
         Ok(Built { columns: in_order(columns), origin_s })
+    }
+
+    /// Numbers of the runs; a counter of rows says nothing of runs.
+    fn passes(&self, index: usize) -> Result<Vec<f64>, ImportError> {
+        let values = self.named(index, |cell| run_of(cell)?.number.map(whole), "a run number")?;
+        if counts_rows(&values) {
+            let name = quoted(&self.headers[index].name);
+            let place = self.grid.place(self.outline.header.first().copied().unwrap_or(0), None);
+            let found = format!("a run for almost every row in column {name}");
+            let error = ImportError::found(place, found, "runs of two rows or more");
+            return Err(error.hinted("`to = \"none\"` for a column that counts the rows"));
+        }
+        Ok(values)
     }
 
     /// Values of a column in our unit.

@@ -10,6 +10,7 @@ use crate::fringes::{COUNT, DETECTORS};
 use crate::header::{self, Header};
 use crate::question::Answer;
 use crate::recipe::ColumnRule;
+use crate::runs::counts_rows;
 use crate::samples::{Holds, Samples};
 use runs::{run_columns, run_values};
 use units::units;
@@ -110,6 +111,9 @@ fn by_content(candidate: &mut Candidate<'_>) {
         Holds::Instants => candidate.decide("time_s", "it holds instants"),
         Holds::Words if told => {}
         Holds::Words => candidate.decide(NONE, "it holds words"),
+        Holds::Numbers if name == "pass" && counts_rows(&candidate.samples.values) => {
+            candidate.decide(NONE, "it counts the rows");
+        }
         Holds::Numbers if known && candidate.rule.to.is_none() => {
             candidate.rule.to = Some(name.to_owned());
             "the name says it all".clone_into(&mut candidate.rule.reason);
@@ -180,6 +184,9 @@ fn by_word(candidate: &mut Candidate<'_>) {
     let meaning = match word.meaning {
         "error" if angle => "angular error",
         "position" | "actual" if angle => "angle",
+        "pass" if counts_rows(&candidate.samples.values) => {
+            return candidate.decide(NONE, "it counts the rows");
+        }
         "number" => return candidate.decide(NONE, "it counts the rows"),
         "date" | "clock" if candidate.samples.holds == Holds::Instants => "time",
         meaning => meaning,

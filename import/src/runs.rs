@@ -1,5 +1,7 @@
 //! Words for a run and its direction, as in `Run 2 rückwärts` or `第3次正向`.
 
+use std::collections::BTreeMap;
+
 /// Words for the way there.
 const FORWARD: [&str; 16] = [
     "forward",
@@ -144,6 +146,16 @@ fn run_number(token: &str) -> Option<i64> {
         i64::try_from(at + 1).ok()
     };
     token.parse().ok().filter(|number| (0..100_000).contains(number)).or_else(spelled)
+}
+
+/// True where more than half of the runs have a single row: such numbers count rows.
+pub(crate) fn counts_rows(numbers: &[f64]) -> bool {
+    let mut rows = BTreeMap::<u64, usize>::new();
+    for number in numbers.iter().filter(|number| number.is_finite()) {
+        *rows.entry(number.to_bits()).or_default() += 1;
+    }
+    let lone = rows.values().filter(|rows| **rows == 1).count();
+    1 < rows.len() && rows.len() < 2 * lone
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 mod broken;
 mod fringes;
+mod guesses;
 mod properties;
 mod samples;
 mod stage;

@@ -68,6 +68,20 @@ pub enum LabError {
         /// Fewest that can be analysed.
         expected: usize,
     },
+    /// Passes that say nothing, as each has a zero of its own.
+    #[error(
+        "{path}: column `pass`: found {passes} passes of which {lone} have a single sample, \
+         expected passes of two samples or more\n\nhint: a column that counts rows is no pass; \
+         take it out, or call it something else"
+    )]
+    LonePasses {
+        /// The file.
+        path: String,
+        /// Passes there are.
+        passes: usize,
+        /// Those of one sample.
+        lone: usize,
+    },
     /// A captured pulse train is too short.
     #[error("{path}: found {found} {train} pulses, expected at least {expected}")]
     FewPulses {
@@ -106,6 +120,7 @@ impl LabError {
             | Self::NoCoordinate { path, .. }
             | Self::OtherKind { path, .. }
             | Self::TooFew { path, .. }
+            | Self::LonePasses { path, .. }
             | Self::FewPulses { path, .. }
             | Self::PulseRatio { path, .. } => At::file(path),
         }
@@ -117,6 +132,7 @@ impl LabError {
         match self {
             Self::Trace(error) => error.column(),
             Self::Cell { column, .. } => Some(column),
+            Self::LonePasses { .. } => Some("pass"),
             _ => None,
         }
     }

@@ -7,7 +7,8 @@ use helixlock_traces::Table;
 use super::coordinates::Coordinates;
 use crate::numerics::{count, median, spread};
 use crate::policy::reading::{
-    DIRECTION_REACH, JUMP_OF_MOVES, JUMP_OF_TRAVEL, REVERSAL_REACH, ROWS_A_PASS, ROWS_A_REVERSAL,
+    DIRECTION_REACH, JUMP_OF_MOVES, JUMP_OF_TRAVEL, LONE_PASSES, REVERSAL_REACH, ROWS_A_PASS,
+    ROWS_A_REVERSAL,
 };
 
 /// Rows of the table in pass and time order, with what follows from that order.
@@ -18,6 +19,18 @@ pub(crate) struct Passes {
     pub(crate) names: Vec<f64>,
     pub(crate) direction: Vec<f64>,
     pub(crate) speed_rpm: Vec<f64>,
+}
+
+impl Passes {
+    /// How many there are, and how many of one sample, where these are too many.
+    pub(crate) fn lone(&self) -> Option<(usize, usize)> {
+        let (passes, mut samples) = (self.names.len(), vec![0; self.names.len()]);
+        for pass in &self.pass {
+            samples[*pass] += 1;
+        }
+        let lone = samples.iter().filter(|samples| **samples == 1).count();
+        (LONE_PASSES * (passes - lone) < lone).then_some((passes, lone))
+    }
 }
 
 /// Sorts rows into passes by the column `pass`, or where the table jumps back to a start.
@@ -224,5 +237,49 @@ fn bridge(values: &mut [f64], overall: f64) {
         for (step, value) in values[pair[0]..pair[1]].iter_mut().enumerate().skip(1) {
             *value = a + (b - a) * count(step) / width;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::{Measurement, Nominal};
+    use super::*;
+    use helixlock_traces::Column;
+
+    /// Passes of a hundred samples, by the number of each row.
+    fn read(pass: impl Fn(f64) -> f64) -> Result<usize, String> {
+        let rows: Vec<f64> = (0..100).map(f64::from).collect();
+        let column = |name: &str, values| Column::new(name.to_owned(), values);
+        let table = Table::new(vec![
+            column("position_mm", rows.clone()),
+            column("error_um", rows.iter().map(|row| libm::sin(row / 9.0)).collect()),
+            column("pass", rows.iter().map(|row| pass(*row)).collect()),
+        ]);
+        let nominal = Nominal {
+            lead_mm: 6.0,
+            speed_rpm: 10.0,
+            step_um: 1.0,
+            rotary: false,
+            drive: false,
+            closed: false,
+        };
+        let read = Measurement::from_table(&table, &nominal);
+        read.map(|read| read.pass_names.len()).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn passes_of_one_sample_are_refused_and_longer_ones_are_not() {
+        let message = read(|row| row).expect_err("each row has a zero of its own");
+        assert!(message.contains("column `pass`: found 100 passes of which 100 have a single"));
+        // Two rows together and then four apart; two together and then two apart; a row left over.
+        let grouped = |of: f64, together: f64| {
+            move |row: f64| of * (row / of).floor() + (row % of - together + 1.0).max(0.0)
+        };
+        assert!(read(grouped(6.0, 2.0)).is_err());
+        assert!(read(grouped(4.0, 2.0)).is_err());
+        assert_eq!(read(grouped(4.0, 3.0)), Ok(50));
+        assert_eq!(read(|row| (row / 2.0).floor()), Ok(50));
+        assert_eq!(read(|row| if row < 99.0 { 1.0 } else { 2.0 }), Ok(2));
+        assert_eq!(read(|_| 1.0), Ok(1));
     }
 }

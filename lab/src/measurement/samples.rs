@@ -125,7 +125,7 @@ impl Measurement {
     /// # Errors
     ///
     /// A missing observation or coordinate, an observation of the other kind of machine, a reading
-    /// that its sensor cannot show, or fewer than 16 usable samples.
+    /// that its sensor cannot show, fewer than 16 usable samples, or passes of which most have one.
     pub fn from_table(table: &Table, nominal: &Nominal) -> Result<Self, LabError> {
         let mut notes = left_out(table)?;
         let mut measurement = match headers::understood(table) {
@@ -172,6 +172,9 @@ impl Measurement {
             ));
         }
         let passes = passes::split(table, &coordinates, &rows, &mut notes);
+        if let Some((passes, lone)) = passes.lone() {
+            return Err(LabError::LonePasses { path, passes, lone });
+        }
         Ok(assemble(table, nominal, &coordinates, passes, notes).without_holds().without_treads())
     }
 

@@ -54,6 +54,13 @@ pub(crate) const ROWS_A_PASS: usize = 20;
 /// Chosen. Doubled: a record that reverses every twelve rows is sorted by its travel.
 pub(crate) const ROWS_A_REVERSAL: usize = 8;
 
+/// Most passes of a single sample for each that has more: a zero of its own takes all that such a
+/// pass says.
+///
+/// Chosen: with more, `pass` is a counter of rows. Doubled: a file is read of whose passes two in
+/// three say nothing.
+pub(crate) const LONE_PASSES: usize = 1;
+
 /// Samples on each side over whose way the direction is told, so that a jitter is no reversal.
 ///
 /// Chosen. Doubled: reversals are told later, and moved back to the farthest sample all the same.
