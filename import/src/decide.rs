@@ -11,12 +11,14 @@ pub(crate) struct Decisions<'a> {
     pub(crate) made: Recipe,
     pub(crate) questions: Vec<Question>,
     pub(crate) notes: Vec<String>,
+    /// Names of the columns that the file has, where it has such.
+    pub(crate) headers: Vec<String>,
 }
 
 impl<'a> Decisions<'a> {
     pub(crate) fn new(file: &'a str, given: &'a Recipe) -> Self {
         let made = Recipe { columns: Vec::new(), ..given.clone() };
-        Self { file, given, made, questions: Vec::new(), notes: Vec::new() }
+        Self { file, given, made, questions: Vec::new(), notes: Vec::new(), headers: Vec::new() }
     }
 
     /// The file's name, for messages.

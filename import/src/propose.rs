@@ -7,7 +7,7 @@ use crate::data;
 use crate::decide::Decisions;
 use crate::delimited;
 use crate::encoding;
-use crate::error::{ImportError, Place};
+use crate::error::{ImportError, Place, quoted};
 use crate::formats;
 use crate::fringes;
 use crate::grid::Grid;
@@ -15,7 +15,7 @@ use crate::header;
 use crate::limits;
 use crate::outline::{Outline, outline};
 use crate::question::Question;
-use crate::recipe::Recipe;
+use crate::recipe::{ColumnRule, Recipe};
 use crate::rules;
 use crate::samples::samples;
 use crate::text;
@@ -50,6 +50,7 @@ pub struct Proposal {
 pub fn propose(sources: &[Source<'_>], given: &Recipe) -> Result<Proposal, ImportError> {
     let mut recipe = given.clone();
     let (mut parts, mut questions, mut notes) = (Vec::new(), Vec::new(), Vec::new());
+    let mut headers = Vec::new();
     for (index, source) in sources.iter().enumerate() {
         let mut decisions = Decisions::new(source.name, &recipe);
         let part = read(*source, &mut decisions)?;
@@ -59,12 +60,32 @@ pub fn propose(sources: &[Source<'_>], given: &Recipe) -> Result<Proposal, Impor
         parts.push(part);
         notes.append(&mut decisions.notes);
         questions.append(&mut decisions.questions);
+        headers.append(&mut decisions.headers);
         let made = decisions.made;
         if index == 0 {
             recipe = made;
         }
     }
+    all_are_there(given, &headers)?;
     Ok(Proposal { recipe, questions, notes, table: build::joined(parts) })
+}
+
+/// Refuses a rule for a column that no file has: what it says would be lost without a word.
+///
+/// One that leaves the column out has what it wants.
+fn all_are_there(given: &Recipe, headers: &[String]) -> Result<(), ImportError> {
+    let lost = |rule: &&ColumnRule| {
+        rule.to.as_deref() != Some(rules::NONE) && !headers.contains(&rule.from)
+    };
+    let Some(rule) = given.columns.iter().find(lost) else { return Ok(()) };
+    let mut names: Vec<String> = headers.iter().map(|name| quoted(name)).collect();
+    names.dedup();
+    let expected = match names.len() {
+        0 => "no `[[column]]`, as the format has no columns to name".to_owned(),
+        _ => format!("one of {}", names.join(", ")),
+    };
+    let found = format!("`from` with {}, which no file has as a column", quoted(&rule.from));
+    Err(ImportError::found(rule.place.clone(), found, expected))
 }
 
 /// Reads files by a recipe.
@@ -159,6 +180,7 @@ pub(crate) fn understand(
     }
     let missing = delimited::missing_words(grid, decisions);
     let headers = header::headers(grid, &outline)?;
+    decisions.headers.extend(headers.iter().map(|header| header.name.clone()));
     let samples = samples(grid, &outline, decimal, &missing);
     let unit = preamble_unit(grid, &outline);
     let rules = rules::propose(&headers, &samples, unit.as_deref(), decisions);

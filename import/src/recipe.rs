@@ -5,6 +5,8 @@ mod render;
 
 use std::collections::BTreeMap;
 
+use crate::error::Place;
+
 /// A value of a setting.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
@@ -175,6 +177,8 @@ pub struct ColumnRule {
     pub direction: Option<i64>,
     /// Why.
     pub reason: String,
+    /// Where a recipe says so; nowhere when it was found out.
+    pub place: Place,
 }
 
 /// Every decision about a file; what is not said is found out.

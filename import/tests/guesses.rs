@@ -41,3 +41,27 @@ fn a_counter_of_rows_is_no_run() {
         assert_eq!(column(&proposed(&runs, ""), "pass")[39].to_bits(), 1.0_f64.to_bits(), "{name}");
     }
 }
+
+/// A rule for a column that is not there would be lost with its sign.
+#[test]
+fn a_rule_for_no_column_is_refused() {
+    let text = file("Position (mm),Error (um)", |index| format!("{},{}", 10 * index, index % 7));
+    let wrong = "[text]\ndecimal = \".\"\n[[column]]\nfrom = \"Eror (um)\"\nsign = -1\n";
+    assert_eq!(
+        refused(&text, wrong),
+        "given:3:1: found `from` with `Eror (um)`, which no file has as a column, expected one of \
+         `Position (mm)`, `Error (um)`"
+    );
+    let left_out = wrong.replace("sign = -1", "to = \"none\"");
+    assert!(proposed(&text, &left_out).questions.is_empty());
+    let bytes = include_bytes!("samples/laser.rtl");
+    let rule = Recipe::parse("[[column]]\nfrom = \"Error\"\nsign = -1", "given").expect("a recipe");
+    let error = propose(&[Source { name: "laser.rtl", bytes }], &rule).expect_err("no column");
+    assert!(
+        error
+            .to_string()
+            .ends_with("expected no `[[column]]`, as the format has no columns to name")
+    );
+    let right = wrong.replace("Eror", "Error");
+    assert_eq!(column(&proposed(&text, &right), "error_um")[3].to_bits(), (-3.0_f64).to_bits());
+}

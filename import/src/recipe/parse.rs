@@ -133,7 +133,11 @@ impl Source<'_> {
         const NAMES: [&str; 8] =
             ["from", "to", "unit", "sign", "minus", "with", "pass", "direction"];
         const SIGNS: Kind = Kind::Whole(-1, 1);
-        let mut rule = ColumnRule { reason: self.reason(table.span()), ..ColumnRule::default() };
+        let mut rule = ColumnRule {
+            reason: self.reason(table.span()),
+            place: self.place(table.span()),
+            ..ColumnRule::default()
+        };
         for (word, item) in table {
             let kind = match word {
                 "sign" | "direction" => SIGNS,
