@@ -17,10 +17,11 @@ use crate::recipe::ColumnRule;
 use crate::rules::{NONE, by_column};
 use crate::runs::{counts_rows, direction_of, run_of};
 use crate::samples::{Holds, Samples, rows, seconds};
-use figures::{difference, micro, rounded, whole};
+use figures::{difference, micro, whole};
 use instants::{decide_order, decide_zone};
 use table::in_order;
 
+pub(crate) use figures::rounded;
 pub(crate) use table::{check, joined};
 
 /// A grid that is understood.

@@ -103,7 +103,7 @@ fn decide_decimal(grid: &Grid, delimiter: Delimiter, decisions: &mut Decisions<'
             let (point, comma) = (number(cell, '.').is_some(), number(cell, ',').is_some());
             points += usize::from(point);
             commas += usize::from(comma);
-            if point && comma && marked.is_none() && cell.contains(',') {
+            if point && comma && marked.is_none() {
                 marked = Some(cell.to_owned());
             }
         }
@@ -116,21 +116,24 @@ fn decide_decimal(grid: &Grid, delimiter: Delimiter, decisions: &mut Decisions<'
             (",", format!("{commas} numbers read with a comma, {points} with a point"))
         }
         std::cmp::Ordering::Equal if marked.is_some() && delimiter != Delimiter::Char(',') => {
-            let cell = marked.unwrap_or_default();
-            let text = format!(
-                "`{cell}` may be a fraction or thousands, and nothing in the file tells which"
-            );
-            decisions.ask(
-                "text",
-                "decimal",
-                &text,
-                &[(",", "the comma is the decimal sign"), (".", "the comma groups thousands")],
-            );
-            (",", "not sure".to_owned())
+            (ask_decimal(&marked.unwrap_or_default(), decisions), "not sure".to_owned())
         }
         std::cmp::Ordering::Equal => (".", "no number has a fraction".to_owned()),
     };
     decisions.text("text", "decimal", || (sign.to_owned(), reason));
+}
+
+/// Asks what a mark before three digits is; it is more often a fraction's.
+fn ask_decimal(cell: &str, decisions: &mut Decisions<'_>) -> &'static str {
+    let text =
+        format!("`{cell}` may be a fraction or thousands, and nothing in the file tells which");
+    let answers: [(&'static str, &str); 2] = if cell.contains(',') {
+        [(",", "the comma is the decimal sign"), (".", "the comma groups thousands")]
+    } else {
+        [(".", "the point is the decimal sign"), (",", "the point groups thousands")]
+    };
+    decisions.ask("text", "decimal", &text, &answers);
+    answers[0].0
 }
 
 /// Words for missing values that occur in the file.

@@ -68,7 +68,9 @@ fn without_groups(whole: &str, decimal: char) -> Option<String> {
     let mut groups = whole.split(mark);
     let first = groups.next().unwrap_or_default().trim_start_matches(['+', '-']);
     let whole_group = |group: &str| group.len() == 3 && group.bytes().all(|b| b.is_ascii_digit());
-    let fits = (1..=3).contains(&first.len()) && groups.all(whole_group);
+    // Nobody groups the digits of a fraction: `0,125` is one.
+    let leads = (1..=3).contains(&first.len()) && !first.starts_with('0');
+    let fits = leads && groups.all(whole_group);
     fits.then(|| whole.replace(mark, ""))
 }
 
@@ -98,7 +100,7 @@ mod tests {
     fn words_units_and_infinities_are_none() {
         for cell in [
             "", "abc", "1.5 mm", "inf", "NaN", "1e999", "1e170", "1.2.3", "1,23,4", "--1", "e5",
-            "0x1",
+            "0x1", "0,125", "-0,125", "00,125",
         ] {
             assert_eq!(number(cell, '.'), None, "{cell}");
         }

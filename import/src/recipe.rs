@@ -89,6 +89,12 @@ pub const KEYS: &[Key] = &[
         Kind::Whole(2, 1 << 30),
         "how many numbers the arrays have that are columns",
     ),
+    key(
+        "arrays",
+        "unpacked",
+        Kind::List,
+        "arrays of HDF5 that are multiplied by their `scale_factor`, with `add_offset` added",
+    ),
     key("phd2", "axis", Kind::Text(&["ra", "dec"]), "the axis"),
     key(
         "phd2",

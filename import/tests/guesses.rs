@@ -20,6 +20,48 @@ fn refused(text: &str, recipe: &str) -> String {
     propose(&[source], &recipe).expect_err("it cannot be read").to_string()
 }
 
+fn asked(text: &str) -> Vec<String> {
+    proposed(text, "").questions.into_iter().map(|question| question.text).collect()
+}
+
+fn column(proposal: &Proposal, name: &str) -> Vec<f64> {
+    proposal.table.column(name).unwrap_or_else(|| panic!("no {name}")).to_vec()
+}
+
+/// Ten millimetres or ten metres: three digits behind a mark tell nothing, whichever mark it is.
+#[test]
+fn a_mark_before_three_digits_is_asked_for() {
+    let row = |index: u32| format!("{}.000;{}.125", 10 + index, 1 + index % 7);
+    let points = file("Position [mm];Fehler [µm]", row);
+    let commas = points.replace('.', ",");
+    for (text, mark) in [(&points, "10.000"), (&commas, "10,000")] {
+        let question =
+            format!("`{mark}` may be a fraction or thousands, and nothing in the file tells which");
+        assert_eq!(asked(text), [question]);
+        let first = |sign: &str| {
+            let proposal = proposed(text, &format!("[text]\ndecimal = \"{sign}\""));
+            assert!(proposal.questions.is_empty(), "{mark} {sign}");
+            column(&proposal, "position_mm")[0].to_bits()
+        };
+        let (fraction, thousands) = if mark.contains('.') { (".", ",") } else { (",", ".") };
+        assert_eq!(first(fraction), 10.0_f64.to_bits());
+        assert_eq!(first(thousands), 10_000.0_f64.to_bits());
+    }
+}
+
+/// One number that cannot be grouped tells for all of them.
+#[test]
+fn a_fraction_without_a_whole_part_tells_the_decimal_sign() {
+    let row = |index: u32| format!("{},000;0,{:03}", 10 + index, 125 + index);
+    let commas = file("Position [mm];Fehler [µm]", row);
+    for (text, sign) in [(commas.clone(), ","), (commas.replace(',', "."), ".")] {
+        let proposal = proposed(&text, "");
+        assert!(proposal.questions.is_empty(), "{sign}: {:?}", proposal.questions);
+        assert_eq!(column(&proposal, "error_um")[0].to_bits(), 0.125_f64.to_bits());
+        assert_eq!(column(&proposal, "position_mm")[0].to_bits(), 10.0_f64.to_bits());
+    }
+}
+
 /// A counter of rows in the column of the runs would take every reading for a run of its own.
 #[test]
 fn a_counter_of_rows_is_no_run() {
@@ -64,4 +106,62 @@ fn a_rule_for_no_column_is_refused() {
     );
     let right = wrong.replace("Eror", "Error");
     assert_eq!(column(&proposed(&text, &right), "error_um")[3].to_bits(), (-3.0_f64).to_bits());
+}
+
+/// Grams in a cubic metre, grams in a kilogram and dew points are between 1 and 100, too.
+#[test]
+fn only_a_plain_humidity_is_taken_as_relative() {
+    let with = |header: &str, divisor: u32| {
+        let row = |index: u32| {
+            let humidity = f64::from(40 + index % 9) / f64::from(divisor);
+            format!("{},{},{humidity}", 10 * index, index % 7)
+        };
+        file(&format!("Position (mm),Error (um),{header}"), row)
+    };
+    for header in [
+        "Humidity (g/m³)",
+        "Humidity [g/kg]",
+        "Humidity (dew point °C)",
+        "absolute humidity",
+        "Humidity g/m3",
+        "绝对湿度",
+    ] {
+        let text = with(header, 4);
+        let asked = asked(&text);
+        assert_eq!(asked, [format!("the unit of column `{header}` is not told")], "{header}");
+        let left_out = format!("[[column]]\nfrom = \"{header}\"\nto = \"none\"");
+        assert!(proposed(&text, &left_out).table.column("humidity_pct").is_none(), "{header}");
+    }
+    for header in
+        ["Humidity", "humidity 2", "Luftfeuchte", "相对湿度", "RH (%)", "rel. Feuchte / %"]
+    {
+        let proposal = proposed(&with(header, 1), "");
+        assert!(proposal.questions.is_empty(), "{header}: {:?}", proposal.questions);
+        assert_eq!(column(&proposal, "humidity_pct")[0].to_bits(), 40.0_f64.to_bits(), "{header}");
+    }
+    let text = with("Humidity (%)", 100);
+    assert_eq!(asked(&text), ["column `Humidity (%)` is in %, and nowhere above 1"]);
+    for (unit, value) in [("ratio", 40.0_f64), ("%", 0.4)] {
+        let given = format!("[[column]]\nfrom = \"Humidity (%)\"\nunit = \"{unit}\"");
+        assert_eq!(column(&proposed(&text, &given), "humidity_pct")[0].to_bits(), value.to_bits());
+    }
+}
+
+/// Packed numbers are what their attributes make of them; a recipe can have them as they are.
+#[test]
+fn packed_arrays_are_unpacked_and_the_recipe_says_so() {
+    let bytes = include_bytes!("samples/packed.h5");
+    let read = |recipe: &str| {
+        let recipe = Recipe::parse(recipe, "given").expect("a recipe");
+        let proposal = propose(&[Source { name: "packed.h5", bytes }], &recipe);
+        proposal.unwrap_or_else(|error| panic!("{error}"))
+    };
+    let (unpacked, packed) = (read(""), read("[arrays]\nunpacked = []"));
+    let line = "unpacked = [\"error_um\"] # scale_factor 0.001, add_offset 0";
+    assert!(unpacked.recipe.to_string().contains(line), "{}", unpacked.recipe);
+    let (unpacked, packed) = (column(&unpacked, "error_um"), column(&packed, "error_um"));
+    assert!(packed.iter().any(|value| 100.0 < value.abs()));
+    for (unpacked, packed) in unpacked.iter().zip(packed) {
+        assert!((unpacked - packed / 1000.0).abs() < 1e-12);
+    }
 }

@@ -66,6 +66,7 @@ fn samples_that_leave_nothing_open() {
         "session73.mat",
         "session.feather",
         "logger.h5",
+        "packed.h5",
     ] {
         check(name, "");
     }

@@ -11,7 +11,7 @@ pub(super) fn micro(value: f64) -> f64 {
 }
 
 /// To fifteen digits, so that 0.1 mm is 100 µm and not 100.00000000000001.
-pub(super) fn rounded(value: f64) -> f64 {
+pub(crate) fn rounded(value: f64) -> f64 {
     format!("{value:.14e}").parse().unwrap_or(value)
 }
 

@@ -8,6 +8,7 @@ use hdf5_reader::messages::datatype::Datatype;
 use hdf5_reader::{Dataset, H5Type, Hdf5File, OpenOptions};
 
 use super::arrays::{self, Array};
+use crate::build::rounded;
 use crate::decide::Decisions;
 use crate::error::{ImportError, Place};
 use crate::grid::Grid;
@@ -30,26 +31,73 @@ pub(crate) fn grid(bytes: &[u8], decisions: &mut Decisions<'_>) -> Result<Grid, 
     };
     // A broken file is an error for its user, whatever it is for the library.
     let read = std::panic::catch_unwind(AssertUnwindSafe(|| all(bytes)));
-    let arrays = match read {
-        Ok(Ok(arrays)) => arrays,
+    let (mut arrays, packed) = match read {
+        Ok(Ok(walk)) => (walk.arrays, walk.packed),
         Ok(Err(error)) => return Err(refused(format!("HDF5 that cannot be read ({error})"))),
         Err(_) => return Err(refused("HDF5 that contradicts itself".to_owned())),
     };
+    unpack(&mut arrays, &packed, decisions);
     arrays::grid("data sets", &arrays, decisions)
 }
 
-fn all(bytes: &[u8]) -> Result<Vec<Array>, Error> {
+/// How the numbers of an array are packed: CF conventions, section 8.1, as netCDF has it.
+struct Packing {
+    scale: f64,
+    offset: f64,
+    /// What stands for no value, packed.
+    fill: Option<f64>,
+}
+
+/// Unpacks those arrays that the recipe names, or all that are packed.
+fn unpack(arrays: &mut [Array], packed: &[(String, Packing)], decisions: &mut Decisions<'_>) {
+    if packed.is_empty() {
+        return;
+    }
+    let chosen = decisions.list("arrays", "unpacked", || {
+        let names = packed.iter().map(|(name, _)| name.clone()).collect();
+        let terms = packed.iter().map(|(_, Packing { scale, offset, .. })| {
+            format!("scale_factor {scale}, add_offset {offset}")
+        });
+        (names, terms.collect::<Vec<_>>().join("; "))
+    });
+    for (name, packing) in packed.iter().filter(|(name, _)| chosen.contains(name)) {
+        for array in arrays.iter_mut().filter(|array| array.name == *name) {
+            array.values.iter_mut().for_each(|value| *value = packing.unpacked(*value));
+        }
+    }
+}
+
+impl Packing {
+    /// Of a set; `None` where the numbers are what they are.
+    fn of(set: &Dataset) -> Option<Self> {
+        let number = |name: &str| set.attribute(name).ok()?.read_as_f64().ok();
+        let (scale, offset) = (number("scale_factor"), number("add_offset"));
+        let (scale, offset) = (scale.unwrap_or(1.0), offset.unwrap_or(0.0));
+        let same = (scale - 1.0).abs() <= 0.0 && offset.abs() <= 0.0;
+        (!same).then(|| Self { scale, offset, fill: number("_FillValue") })
+    }
+
+    fn unpacked(&self, value: f64) -> f64 {
+        if self.fill.is_some_and(|fill| (value - fill).abs() <= 0.0) {
+            return f64::NAN;
+        }
+        rounded(value * self.scale + self.offset)
+    }
+}
+
+fn all(bytes: &[u8]) -> Result<Walk, Error> {
     let options = OpenOptions::default()
         .with_max_read_bytes(limits::UNPACKED)
         .with_max_chunk_bytes(limits::UNPACKED);
     let file = Hdf5File::from_bytes_with_options(bytes, options)?;
-    let mut walk = Walk { arrays: Vec::new(), numbers: 0, sets: 0 };
+    let mut walk = Walk { arrays: Vec::new(), packed: Vec::new(), numbers: 0, sets: 0 };
     walk.group(&file.root_group()?, "", 0)?;
-    Ok(walk.arrays)
+    Ok(walk)
 }
 
 struct Walk {
     arrays: Vec<Array>,
+    packed: Vec<(String, Packing)>,
     numbers: usize,
     sets: usize,
 }
@@ -92,7 +140,9 @@ impl Walk {
             (_, true) => (columns, values),
             (_, false) => (rows, transposed(&values, columns)),
         };
-        self.arrays.push(Array { name: format!("{path}{}", last(set.name())), rows, values });
+        let name = format!("{path}{}", last(set.name()));
+        self.packed.extend(Packing::of(set).map(|packing| (name.clone(), packing)));
+        self.arrays.push(Array { name, rows, values });
         Ok(())
     }
 }

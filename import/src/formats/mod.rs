@@ -52,15 +52,38 @@ pub(crate) fn binary(
     if let Some((_, format, reason)) = kinds.iter().find(|(mark, ..)| begins(mark)) {
         return Ok(Some((format, reason)));
     }
-    let foreign: [(&[u8], &str, &str); 3] = [
+    let foreign: [(&[u8], &str, &str); 5] = [
+        (b"FEA1", "Feather of version 1", "write it anew: pyarrow writes version 2"),
+        (
+            b"\xFF\xFF\xFF\xFF",
+            "a stream of Arrow",
+            "write it as a file of Arrow, which begins `ARROW1`",
+        ),
         (b"\x1F\x8B", "a gzip archive", "`gunzip` unpacks it"),
         (b"%PDF", "a PDF", "export the table as text from the program that made it"),
         (b"\x50\x4B", "a broken ZIP archive", "fetch it again"),
     ];
     match foreign.iter().find(|(mark, ..)| begins(mark)) {
         Some((_, found, hint)) => Err(refused(name, found, hint)),
+        None if is_old_matlab(bytes) => {
+            Err(refused(name, "MATLAB of version 4", "`save -v7` writes a newer one"))
+        }
         None => Ok(None),
     }
+}
+
+/// The head of a matrix of version 4: type, rows, columns, imaginary part, length of the name, name.
+fn is_old_matlab(bytes: &[u8]) -> bool {
+    let word = |at: usize| {
+        let four = bytes.get(4 * at..4 * at + 4)?.try_into().ok()?;
+        Some(u32::from_le_bytes(four)).and_then(|word| usize::try_from(word).ok())
+    };
+    let (Some(kind), Some(imaginary), Some(length)) = (word(0), word(3), word(4)) else {
+        return false;
+    };
+    let name = bytes.get(20..20 + length.min(64)).and_then(|name| name.strip_suffix(b"\0"));
+    let named = name.is_some_and(|name| !name.is_empty() && name.iter().all(u8::is_ascii_graphic));
+    kind <= 52 && imaginary <= 1 && named
 }
 
 fn refused(name: &str, found: &str, hint: &str) -> ImportError {

@@ -1,6 +1,6 @@
 //! Units of columns: told, not to be mistaken, or asked for.
 
-use super::{Candidate, by_column};
+use super::{Candidate, NONE, by_column};
 use crate::data::{self, Target};
 use crate::decide::Decisions;
 use crate::error::quoted;
@@ -27,6 +27,10 @@ pub(super) fn units(
         let unit = named
             .or(preamble_unit.filter(fits))
             .or((own || target.kind == "count").then_some(target.unit));
+        if target.kind == "fraction" && unit.is_some() && all_below_one(&candidate.samples.values) {
+            ask_fraction(candidate, decisions);
+            continue;
+        }
         match unit.map(ToOwned::to_owned).or_else(|| guessed(candidate, target)) {
             Some(unit) => candidate.rule.unit = Some(unit),
             None => ask_unit(candidate, target, decisions),
@@ -56,11 +60,34 @@ fn guessed(candidate: &mut Candidate<'_>, target: Target) -> Option<String> {
         {
             "°F"
         }
-        "humidity_pct" if within(1.0, 100.0) => "%",
+        "humidity_pct" if within(1.0, 100.0) && is_plain(candidate) => "%",
         _ => return None,
     };
     candidate.rule.reason.push_str("; the unit fits its values");
     Some(unit.to_owned())
+}
+
+/// True when the name is the word for the quantity, and nothing with it may be another unit or kind
+/// of it: `absolute humidity`, `Humidity (g/m³)`, `Humidity (dew point °C)`.
+fn is_plain(candidate: &Candidate<'_>) -> bool {
+    let bare = candidate.header.bare.trim_end_matches(|c: char| c.is_ascii_digit());
+    let word = candidate.word.map_or("", |word| word.spelling);
+    bare.trim().replace(['_', '-', '.'], " ").to_lowercase() == word
+}
+
+/// True where a fraction of so many per cent would be one of so many hundredths of a per cent.
+fn all_below_one(values: &[f64]) -> bool {
+    let finite = || values.iter().filter(|value| value.is_finite());
+    finite().all(|value| (0.0..=1.0).contains(value)) && finite().any(|value| 0.0 < *value)
+}
+
+/// A workbook shows 0.45 as 45 % and keeps 0.45.
+fn ask_fraction(candidate: &mut Candidate<'_>, decisions: &mut Decisions<'_>) {
+    let name = &candidate.header.name;
+    let text = format!("column {} is in %, and nowhere above 1", quoted(name));
+    decisions.question(&text, unit_answers(name, &["ratio", "%"]));
+    candidate.rule.unit = Some("ratio".to_owned());
+    candidate.rule.reason.push_str("; its unit is not sure");
 }
 
 fn ask_unit(candidate: &mut Candidate<'_>, target: Target, decisions: &mut Decisions<'_>) {
@@ -73,18 +100,29 @@ fn ask_unit(candidate: &mut Candidate<'_>, target: Target, decisions: &mut Decis
         "pressure" => &["hpa", "pa", "kpa", "mmhg"],
         "turning" => &["rpm", "1/s", "deg/s"],
         "force" => &["n", "kn"],
-        _ => &["%"],
+        _ => &["%", "ratio"],
     };
     let name = &candidate.header.name;
-    let answer = |unit: &&str| Answer {
-        label: (*unit).to_owned(),
-        recipe: format!(
-            "[[column]]\nfrom = {}\nunit = \"{unit}\"",
-            toml_edit::Value::from(name.as_str())
-        ),
-    };
     let text = format!("the unit of column {} is not told", quoted(name));
-    decisions.question(&text, units.iter().map(answer).collect());
+    let mut answers = unit_answers(name, units);
+    if target.kind == "fraction" {
+        answers.push(Answer {
+            label: "another quantity: left out".to_owned(),
+            recipe: format!(
+                "[[column]]\nfrom = {}\nto = \"{NONE}\"",
+                toml_edit::Value::from(name.as_str())
+            ),
+        });
+    }
+    decisions.question(&text, answers);
     candidate.rule.unit = Some(units[0].to_owned());
     candidate.rule.reason.push_str("; its unit is not sure");
+}
+
+fn unit_answers(name: &str, units: &[&str]) -> Vec<Answer> {
+    let answer = |unit: &&str| Answer {
+        label: (*unit).to_owned(),
+        recipe: format!("[[column]]\nfrom = {}\nunit = \"{unit}\"", toml_edit::Value::from(name)),
+    };
+    units.iter().map(answer).collect()
 }
