@@ -28,6 +28,7 @@ mod formal;
 mod formulas;
 mod fuzz_corpus;
 mod golden_verilog;
+mod hazards_in_data;
 mod hidden_effects;
 #[cfg(unix)]
 mod hostile;

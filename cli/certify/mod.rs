@@ -17,12 +17,13 @@ use helixlock_sim::blocks::{BlockCheck, Blocks, Spread};
 use helixlock_sim::{
     Course, FLIP_FLOP, FlipFlop, Options, certify, certify_gates, mtbf_log10_years, parallel,
 };
+use helixlock_traces::csv::write_csv;
 
 use self::json::{BlockJson, CertificateJson, GatesJson, HazardJson, WholeJson};
 use crate::shared::cases::{Campaign, Cases, Row, Shard, Worked, apart_from_cases, write_numbers};
 use crate::shared::input::machine_files;
 use crate::shared::next::Next;
-use crate::shared::output::{print_json, print_page, write_page};
+use crate::shared::output::{print_json, print_page, write_page, write_whole};
 use crate::shared::progress;
 use crate::shared::quantity::length_mm;
 
@@ -83,6 +84,9 @@ pub(crate) struct Certify {
     #[arg(long, value_name = "SEED", num_args = 0..=1, require_equals = true)]
     #[expect(clippy::option_option, reason = "the flag may come with a seed or without")]
     gates: Option<Option<u64>>,
+    /// What a recorder at the gates' meter draws, loop open, as a table that `diagnose` reads
+    #[arg(long, value_name = "FILE.csv", requires = "gates")]
+    trace: Option<PathBuf>,
     /// The same as a page
     #[arg(long, value_name = "FILE.html", conflicts_with = "shard")]
     page: Option<PathBuf>,
@@ -119,6 +123,11 @@ impl Certify {
             self.gates.map(|seed| certify_gates(&machine, self.length, seed)).transpose()?;
         let (clock_hz, fringe_hz) = (certificate.clock_hz, certificate.fringe_hz);
         let mtbf = mtbf_log10_years(self.flip_flop(), clock_hz, fringe_hz);
+        if let Some((path, whole)) = self.trace.as_ref().zip(whole.as_ref()) {
+            let trace = gates::trace(&whole.drawn);
+            let inputs = machine_files(&self.machine, &machine);
+            write_whole(path, inputs, |mut file| Ok(write_csv(&trace, &mut file)?))?;
+        }
         if let Some(path) = &self.page {
             let page = page::page(&machine.title, &certificate, &checks, &hazards);
             write_page(path, machine_files(&self.machine, &machine), &page)?;
@@ -136,6 +145,9 @@ impl Certify {
             gates::print(&checks, out)?;
             gates::print_hazards(&hazards, out)?;
             whole.iter().try_for_each(|whole| gates::print_whole(whole, out))?;
+            if let Some(path) = &self.trace {
+                writeln!(out, "{}: what a recorder at the gates draws", path.display())?;
+            }
             sets.print(&CAMPAIGN, out)?;
             print_page(out, self.page.as_deref())?;
             Next::command("faults").words([&self.machine]).print(out)?;

@@ -22,6 +22,7 @@ mod guide;
 mod headstock_growth;
 mod laser_drift;
 mod lever_ratio;
+mod lost_added_pulses;
 mod lost_steps;
 mod meter_dead_zone;
 mod phase_drift;
@@ -66,6 +67,7 @@ pub const CATALOGUE: &[&Card] = &[
     &fringe_nonlinearity::CARD,
     &rationalisation::CARD,
     &compensator_staircase::CARD,
+    &lost_added_pulses::CARD,
     &fringe_slip::CARD,
     &grating_slip::CARD,
     &grating_eccentricity::CARD,

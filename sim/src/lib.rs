@@ -8,7 +8,7 @@ mod error;
 mod historic;
 
 pub use campaigns::{
-    BothClosed, Certificate, FLIP_FLOP, FlipFlop, OpenLoop, WholeGates, blocks, certify,
+    BothClosed, Certificate, Drawn, FLIP_FLOP, FlipFlop, OpenLoop, WholeGates, blocks, certify,
     certify_gates, faults, mtbf_log10_years, parallel, sweep,
 };
 pub use closed_loop::{

@@ -35,7 +35,7 @@ pub fn experiment(seed: u64) -> Result<Experimented, ChallengeError> {
     let mut chance = ChaCha8Rng::seed_from_u64(seed);
     let poor = recipe::poor();
     let recipe = &poor[chance.random_range(0..poor.len())];
-    let machine = scene::machine(&mut chance)?.model;
+    let machine = scene::machine(recipe, &mut chance)?.model;
     let record = scene::record(&machine, recipe, &mut chance);
     let term = hidden_term(&machine, &record, recipe, NOISE_UM, &mut chance)?;
     let hidden = term.name.clone();

@@ -21,6 +21,8 @@ pub(super) struct Recipe {
     pub(super) logs: &'static [&'static str],
     pub(super) recorder: bool,
     pub(super) thread: bool,
+    /// True when the compensation adds pulses.
+    pub(super) adding: bool,
     /// True when physics or counting fixes the size.
     pub(super) fixed_size: bool,
 }
@@ -34,6 +36,7 @@ const PLAIN: Recipe = Recipe {
     logs: &[],
     recorder: true,
     thread: false,
+    adding: false,
     fixed_size: false,
 };
 
@@ -42,7 +45,7 @@ const AIR: &[&str] = &["air_temperature_c", "air_pressure_hpa", "humidity_pct"];
 /// The recipe whose effect is hidden as a second one.
 pub(super) const COMPANION: usize = 0;
 
-pub(super) const RECIPES: [Recipe; 13] = [
+pub(super) const RECIPES: [Recipe; 14] = [
     PLAIN,
     Recipe { kind: "screw-periodic", ..PLAIN },
     Recipe { kind: "screw-wear", passes: 3, ..PLAIN },
@@ -63,6 +66,7 @@ pub(super) const RECIPES: [Recipe; 13] = [
         fixed_size: true,
         ..PLAIN
     },
+    Recipe { kind: "lost-added-pulses", adding: true, fixed_size: true, ..PLAIN },
 ];
 
 /// Recipes without what tells their effects: one speed, one place of the grating, two passes.

@@ -14,12 +14,24 @@ use super::error::ChallengeError;
 use super::recipe::Recipe;
 use crate::numerics::{count, rms_about_means};
 
-/// Leads with dividers that hold them (document 1: B/A = S·5/22).
-const LEADS: [(&str, u32, u32); 3] = [("6 mm", 110, 150), ("5 mm", 110, 125), ("10 mm", 66, 150)];
+/// Leads with dividers that hold them (document 1: B/A = S·5/22), and the compensation.
+const LEADS: [(&str, u32, u32, &str); 3] =
+    [("6 mm", 110, 150, "0 um/m"), ("5 mm", 110, 125, "0 um/m"), ("10 mm", 66, 150, "0 um/m")];
+
+/// The same with pulses added, F = 4000, 7000 and 10000, some of them behind a B-th one.
+const ADDING: [(&str, u32, u32, &str); 3] = [
+    ("6 mm", 22, 30, "-250 um/m"),
+    ("6 mm", 22, 30, "-142.8571 um/m"),
+    ("6 mm", 22, 30, "-100 um/m"),
+];
 
 /// A machine file with a screw, two gears and a length by chance.
-pub(super) fn machine(chance: &mut ChaCha8Rng) -> Result<MachineFile, ChallengeError> {
-    let (lead, a, b) = LEADS[chance.random_range(0..LEADS.len())];
+pub(super) fn machine(
+    recipe: &Recipe,
+    chance: &mut ChaCha8Rng,
+) -> Result<MachineFile, ChallengeError> {
+    let leads = if recipe.adding { ADDING } else { LEADS };
+    let (lead, a, b, compensation) = leads[chance.random_range(0..leads.len())];
     let length = [400, 600, 1000][chance.random_range(0..3)];
     let text = format!(
         r#"title = "A machine with a secret"
@@ -55,6 +67,7 @@ wavelength = "0.63281983 um"
 a = {a}
 b = {b}
 range = 2
+compensation = "{compensation}"
 
 [drive]
 step = "0.0125 um"

@@ -52,7 +52,7 @@ pub fn challenge(seed: u64) -> Result<Challenge, ChallengeError> {
     let mut chance = ChaCha8Rng::seed_from_u64(seed);
     let recipe = &RECIPES[chance.random_range(0..RECIPES.len())];
     let kind = chance.random_range(0..10);
-    let machine = scene::machine(&mut chance)?;
+    let machine = scene::machine(recipe, &mut chance)?;
     let record = scene::record(&machine.model, recipe, &mut chance);
     let noise_um = NOISE_UM;
     let mut terms = Vec::new();

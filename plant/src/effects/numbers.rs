@@ -1,10 +1,12 @@
 //! Every formula against a number worked out by hand.
 
-use super::tests::{delta_um, machine, now};
+use std::path::Path;
+
+use super::tests::{MACHINE, delta_um, machine, now};
 use crate::air::edlen;
 use crate::machine::Air;
 use crate::prediction::{Sensor, predict};
-use crate::{CATALOGUE, Instant, Machine, Model, Record, Samples, Term};
+use crate::{CATALOGUE, Columns, Effect, Instant, Machine, Model, Record, Samples, Term};
 
 /// At 500 mm, 600 s, 6 rpm, forward, on the day of `tests::LOGS`: θ is 83⅓ turns.
 const TABLE: &[(&str, &[f64], f64)] = &[
@@ -63,6 +65,7 @@ fn no_formula_is_left_out() {
         "air-pressure",
         "air-humidity",
         "dead-path",
+        "lost-added-pulses",
         "turbulence",
         "recorder-lag",
         "corrector-lost-motion",
@@ -102,6 +105,27 @@ fn air_effects_follow_the_index() {
     assert!((delta_um("air-temperature", &[1.0], &now()) - 0.93).abs() < 0.03);
     assert!((delta_um("air-pressure", &[1.0], &now()) + 0.268 * 0.875).abs() < 0.002);
     assert!((delta_um("air-humidity", &[1.0], &now()) - 0.0085 * 5.0).abs() < 0.002);
+}
+
+/// 500 mm are 1580.2 times a thousand fringes, and 143 times eleven of these.
+#[test]
+fn one_in_eleven_added_pulses_is_lost_at_30() {
+    let lost_um = |wheels: &str| {
+        let text = MACHINE.replace("a = 110, b = 150", wheels);
+        let machine = Model::parse(&text, Path::new("machine.toml")).expect("a machine");
+        let term = Term::new(Term::card("lost-added-pulses").expect("a card"), &[1.0]);
+        let term = term.expect("one value");
+        term.effect(&machine, &Columns::default()).expect("an effect").delta_um(&now())
+    };
+    let adding = lost_um("a = 22, b = 30, compensation = '-1000 um/m'");
+    assert!((adding - 143.0 * 0.316_409_915).abs() < 1e-9, "{adding}");
+    // Every one where B divides F; none where pulses are blocked, or where B and F + 1 share 3.
+    let every = lost_um("a = 110, b = 125, compensation = '-1000 um/m'");
+    assert!((every - 1580.0 * 0.316_409_915).abs() < 1e-9, "{every}");
+    for none in ["a = 22, b = 30, compensation = '1000 um/m'", "a = 22, b = 30"] {
+        assert_eq!(lost_um(none), 0.0, "{none}");
+    }
+    assert_eq!(lost_um("a = 22, b = 30, compensation = '-500 um/m'"), 0.0);
 }
 
 /// Its size is the strength, it grows with the travel, and the seed decides its course.

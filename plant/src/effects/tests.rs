@@ -9,7 +9,7 @@ use crate::{
     COVARIATES, Columns, Context, Effect, Instant, Model, Parameter, Role, Smoothness, Term,
 };
 
-const MACHINE: &str = r#"
+pub(super) const MACHINE: &str = r#"
 workpiece = { lead = "6 mm", length = "1000 mm" }
 spindle.speed = "6 rpm"
 lead_screw.lead = "12 mm"

@@ -28,6 +28,8 @@ pub(crate) struct HistoricComparison {
     pub(crate) high_s: f64,
     /// How long it lasted, s.
     pub(crate) period_s: f64,
+    /// When it ended, s.
+    pub(crate) ended_s: f64,
     /// How far the laser's edge was behind the middle, s, when it had one.
     pub(crate) behind_middle_s: Option<f64>,
     /// How near a laser's edge, of this or a neighbour, came to its beginning or end, s.
@@ -220,6 +222,7 @@ impl Reading {
             self.comparisons.push(HistoricComparison {
                 high_s,
                 period_s: time_s - begun_s,
+                ended_s: time_s,
                 behind_middle_s: middle_s.zip(last_s).map(|(middle_s, last_s)| last_s - middle_s),
                 from_ends_s: near_s.into_iter().flatten().fold(f64::INFINITY, f64::min),
                 forward: self.forward,

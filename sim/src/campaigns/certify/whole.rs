@@ -17,8 +17,8 @@ use helixlock_rtl::settings::{Range, Settings};
 use super::closed::{self, BothClosed, Synchronous};
 use super::open::{self, Difference, OpenLoop};
 use crate::Error;
-use crate::closed_loop::{Course, Grinder, Options};
-use crate::historic::{GateLoop, GateRun};
+use crate::closed_loop::{Course, Grinder, Options, Process, unwrap_um};
+use crate::historic::{GateLoop, GateRun, HistoricComparison};
 
 /// By how much the ways through the dividers may differ, s.
 const RIPPLE_S: f64 = 568e-9;
@@ -46,6 +46,34 @@ pub struct WholeGates {
     pub swallowed: u64,
     /// By how much the reset counter is off what the motor did, steps.
     pub miscounted: u64,
+    /// What a recorder at the gates' meter draws, loop open.
+    pub drawn: Drawn,
+}
+
+/// One point a comparison, at its middle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawn {
+    /// Since the start of the pass.
+    pub time_s: Vec<f64>,
+    /// Nominal travel.
+    pub position_mm: Vec<f64>,
+    /// Laser lag positive; drawn on past the edge of the range.
+    pub error_um: Vec<f64>,
+}
+
+impl Drawn {
+    /// What is drawn of a run on a machine.
+    fn of(run: &GateRun, mut machine: impl Process, full_scale_um: f64) -> Self {
+        let ended: Vec<_> = run.comparisons.iter().map(|(comparison, _)| comparison).collect();
+        let middle_s = |one: &&HistoricComparison| one.ended_s - 0.5 * one.period_s;
+        let time_s: Vec<f64> = ended.iter().map(middle_s).collect();
+        let position_mm = time_s.iter().map(|time_s| machine.place(*time_s).position_mm).collect();
+        let error_um =
+            |one: &&HistoricComparison| (one.high_s / one.period_s - 0.5) * full_scale_um;
+        let mut error_um: Vec<f64> = ended.iter().map(error_um).collect();
+        unwrap_um(&mut error_um, full_scale_um);
+        Self { time_s, position_mm, error_um }
+    }
 }
 
 impl WholeGates {
@@ -107,6 +135,7 @@ pub fn certify_gates(
         bound_at_ends_s: ends_s,
         violations,
         swallowed,
+        drawn: Drawn::of(&first, grinder()?, course.full_scale_um),
         miscounted: (second.steps.abs() % 4096).abs_diff(second.counted),
     })
 }
