@@ -44,6 +44,51 @@ fn an_effect_without_a_value_is_refused_by_name_and_place() {
     assert_eq!(run.status, 0, "{run:?}");
 }
 
+/// Compared with data the same effects are refused: what is left of them is no number either.
+#[test]
+fn an_effect_without_a_value_at_a_sample_is_no_noise() {
+    let folder = scratch();
+    let (path, machine_word) = word(&folder, "machine.toml");
+    let (data, data_word) = word(&folder, "data.csv");
+    let (out, out_word) = word(&folder, "out");
+    let row = |i: i32| format!("{},{:.4}\n", 2 * i, 0.3 * (0.5 * f64::from(i)).sin());
+    put(&data, &format!("position_mm,error_um\n{}", (0..200).map(row).collect::<String>()));
+    for (formula, found) in [
+        ("1/position_mm", "effect `odd` gives inf µm at 0.000000 s, 0.000000 mm"),
+        ("sqrt(position_mm-100)", "effect `odd` gives NaN µm at 0.000000 s, 0.000000 mm"),
+        ("sqrt(100-position_mm)", "effect `odd` gives NaN µm at 170.000000 s, 102.000000 mm"),
+        ("exp(exp(position_mm))", "effect `odd` gives"),
+    ] {
+        put(&path, &machine(formula, "motion"));
+        for words in [
+            &["diagnose", &machine_word, &data_word][..],
+            &["compare", &machine_word, &data_word],
+            &["discover", &machine_word, &data_word],
+            &["learn", &machine_word, &data_word, "-o", &out_word],
+        ] {
+            let run = helixlock(words);
+            assert_eq!(run.status, 2, "{formula}: {run:?}");
+            assert!(run.stderr.contains(found), "{formula}: {}", run.stderr);
+            assert!(run.stdout.is_empty() && !out.join("machine.toml").exists(), "{run:?}");
+        }
+    }
+    // Nor is such an effect fitted.
+    let plain = machine("0", "motion").split("\n[[effect]]").next().unwrap_or_default().to_owned();
+    put(&path, &plain);
+    let run = helixlock(&[
+        "add",
+        &machine_word,
+        "--formula",
+        "a/position_mm",
+        "--fit",
+        &data_word,
+        "-o",
+        &out_word,
+    ]);
+    assert_eq!(run.status, 2, "{run:?}");
+    assert!(run.stderr.contains("inf µm at 0.000000 s"), "{}", run.stderr);
+}
+
 #[test]
 fn a_pass_without_a_comparison_is_no_result() {
     let folder = scratch();

@@ -5,6 +5,7 @@
 
 use crate::custom::Custom;
 use crate::measured_curve::MeasuredCurve;
+use crate::motion::in_reach;
 use crate::{
     Basis, CATALOGUE, Card, Columns, Context, Effect, EffectError, Entry, Instant, Machine, Nature,
     Parameter, Record, Role, Search,
@@ -289,6 +290,25 @@ impl Term {
         let mut parts: Vec<_> = self.coefficients().into_iter().zip(basis.columns).collect();
         parts.extend(basis.fixed.map(|fixed| (1.0, fixed)));
         Ok(Sum { parts })
+    }
+
+    /// Names the first sample at which one of the values of this effect is none that a machine could
+    /// follow.
+    ///
+    /// # Errors
+    ///
+    /// [`EffectError::OutOfReach`] with that sample, and as [`Self::basis`].
+    pub fn must_be_in_reach(&self, machine: &Machine, record: &Record) -> Result<(), EffectError> {
+        let deltas = self.effect(machine, &record.columns)?.deltas_um(record);
+        let beyond = deltas.iter().position(|delta_um| !in_reach(*delta_um));
+        beyond.map_or(Ok(()), |row| {
+            let (time_s, position_mm) = (record.time_s[row], record.position_mm[row]);
+            Err(EffectError::OutOfReach {
+                effect: format!("effect `{}`", self.name),
+                found: deltas[row].to_string(),
+                place: format!("at {time_s:.6} s, {position_mm:.6} mm"),
+            })
+        })
     }
 
     /// The catalogue's card of this name.

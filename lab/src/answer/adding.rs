@@ -31,9 +31,11 @@ pub struct Added {
 ///
 /// # Errors
 ///
-/// [`EffectError`] when a column of data or a section of the machine file is missing.
+/// [`EffectError`] when a column of data or a section of the machine file is missing, or the effect
+/// has a value somewhere that no machine could follow.
 pub fn add(problem: &Problem, beside: &[Term], term: &Term) -> Result<Option<Added>, EffectError> {
     problem.design(term)?;
+    problem.must_be_in_reach(term)?;
     let before = State::bare(problem);
     let others: Vec<Component> = beside.iter().cloned().map(Component::new).collect();
     let columns = Columns::of(problem, &others)?;

@@ -310,10 +310,27 @@ impl Problem {
         if let Some(finer) = finer.as_mut().map(Arc::make_mut) {
             finer.record.error_um = meter_um(&self.model, &finer.record, &effects).into();
         }
-        Ok(self.stacked(|sensor| match &*finer {
+        let predicted = self.stacked(|sensor| match &*finer {
             None => shown(&self.model, record, &effects, sensor),
             Some(finer) => finer.means(&shown(&self.model, &finer.record, &effects, sensor)),
-        }))
+        });
+        if predicted.iter().all(|value| value.is_finite()) {
+            return Ok(predicted);
+        }
+        for term in &self.model.effects {
+            self.must_be_in_reach(term)?;
+        }
+        Ok(predicted)
+    }
+
+    /// Names the first sample at which an effect has no value that a machine could follow.
+    ///
+    /// # Errors
+    ///
+    /// [`EffectError`] with that sample.
+    pub(crate) fn must_be_in_reach(&self, term: &Term) -> Result<(), EffectError> {
+        let record = self.finer.as_deref().map_or(&self.record, |finer| &finer.record);
+        term.must_be_in_reach(&self.model, record)
     }
 }
 
