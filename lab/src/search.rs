@@ -9,6 +9,7 @@ mod polish;
 mod pruning;
 mod refusal;
 mod rivals;
+mod uneven;
 
 pub(crate) use analysis::{Step, search};
 pub(crate) use court::{Claim, claims, nameless_winner, waves_of_nobody};

@@ -106,3 +106,16 @@ pub(crate) const AT_AN_END: f64 = 0.01;
 /// Derived: 1 is noise, and 16 samples and more hardly double it. Doubled: slips beside something
 /// larger that is still to be found are refused as no whole number.
 pub(crate) const MORE_THAN_NOISE: f64 = 2.0;
+
+/// Standard deviations of its own scatter by which the variance along an effect's curve must exceed
+/// that of the fitted noise to count.
+///
+/// Chosen: white noise passes once in some hundred effects, which then lose a third of their gain.
+/// Doubled: a stretch that is twice as loud goes unseen.
+pub(crate) const UNEVEN_DEVIATIONS: f64 = 3.0;
+
+/// Rows of an effect's curve for each row that the scatter along it may reach.
+///
+/// Chosen: the residual has lost what the effect took, and over more than an eighth of the curve
+/// that shows. Doubled: a filter over a tenth of the curve goes unseen.
+pub(crate) const ROWS_A_LAG: f64 = 8.0;

@@ -2,8 +2,8 @@
 
 use helixlock_plant::{Parameter, Role, Search};
 
-use super::likeness;
 use super::refusal::Refusal;
+use super::{likeness, uneven};
 use crate::hypotheses::{
     chance_in_noise, chance_with_tails, gain_at, least_above_hunting, turn_scan,
 };
@@ -33,6 +33,7 @@ pub(crate) fn refusal(problem: &Problem, now: &State, judged: &Judged) -> Option
         .or_else(|| turns_as_well(problem, now, judged))
         .or_else(|| rests_on_one_sample(problem, now, judged))
         .or_else(|| follows_slow_noise(problem, now, judged))
+        .or_else(|| follows_uneven_noise(problem, now, judged))
 }
 
 /// Refused as chance, or as too small to change a figure.
@@ -100,6 +101,16 @@ fn follows_slow_noise(problem: &Problem, now: &State, judged: &Judged) -> Option
     let drawn = chance_in_noise(problem, &now.columns, &now.fit, &columns.raw, judged.gain);
     let p_value = (judged.p_value * drawn / plain.max(f64::MIN_POSITIVE)).min(1.0);
     (NAMED <= p_value).then_some(Refusal::Chance { p_value })
+}
+
+/// Refused when noise that is louder in places, or smoother, than the model of the noise can be does
+/// as much.
+fn follows_uneven_noise(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
+    let inflation = uneven::inflation(problem, now, judged);
+    let freedom = count(judged.component.width().max(1));
+    let of_gain = |gain| chi_squared_tail(gain, freedom) * judged.looks.max(1.0);
+    let p_value = of_gain(judged.gain / inflation).min(1.0);
+    (1.0 < inflation && NAMED <= p_value).then_some(Refusal::Chance { p_value })
 }
 
 /// True unless an effect that is there once would be added a second time.

@@ -1,0 +1,129 @@
+//! What an effect's gain is worth when the noise is not what the model of the noise says.
+//!
+//! A likelihood ratio takes the whitened residual for equally large and unrelated everywhere. Where
+//! a stretch of the record is louder, or a filter has smoothed it, a coefficient scatters by more.
+//! By how much, the residual tells along the effect's own curve: the estimate of its variance that
+//! allows for both (Newey and West 1987, *A simple, positive semi-definite, heteroskedasticity and
+//! autocorrelation consistent covariance matrix*, Econometrica 55:703), over that of the model.
+
+use std::ops::Range;
+
+use crate::model::{Columns, Judged, Problem, Stage, State};
+use crate::numerics::least_squares::dot;
+use crate::numerics::{count, median};
+use crate::policy::chance::{ROWS_A_LAG, UNEVEN_DEVIATIONS};
+
+/// Median of the square of a standard normal variable, and the square of the relative scatter of
+/// such a median of one value.
+const MEDIAN_OF_A_SQUARE: f64 = 0.455;
+const SCATTER_OF_MEDIAN: f64 = 5.4;
+
+/// By what the variance of an effect's coefficient exceeds the model's, 1 where that is no more than
+/// scatter.
+#[must_use]
+pub(crate) fn inflation(problem: &Problem, now: &State, judged: &Judged) -> f64 {
+    let Ok(columns) = Columns::of(problem, std::slice::from_ref(&judged.component)) else {
+        return 1.0;
+    };
+    let stage = Stage::new(problem, &now.columns, &judged.fit.noises);
+    let (mut curve, mut left) = (vec![0.0; stage.target.len()], stage.target.clone());
+    for direction in stage.span(&columns) {
+        let along = dot(&direction, &stage.target);
+        for (row, value) in direction.iter().enumerate() {
+            curve[row] += along * value;
+            left[row] -= along * value;
+        }
+    }
+    let rows = problem.rows.len();
+    let size = dot(&curve[..rows], &curve[..rows]) * dot(&left[..rows], &left[..rows]);
+    if size <= 0.0 {
+        return 1.0;
+    }
+    let scale = (count(rows) / size).sqrt();
+    let scores: Vec<f64> = (0..rows).map(|row| scale * curve[row] * left[row]).collect();
+    let fourth: f64 = curve[..rows].iter().map(|value| value.powi(4)).sum();
+    let square = dot(&curve[..rows], &curve[..rows]);
+    let stands_on = square * square / fourth;
+    along(problem, &scores, stands_on).max(beside(problem, &curve, &left, stands_on))
+}
+
+/// The largest of the ratios over windows of 1, 2, 4 … lags that stands out of its scatter; `rows`
+/// is how many rows the curve stands on.
+fn along(problem: &Problem, scores: &[f64], rows: f64) -> f64 {
+    let mut most: f64 = 1.0;
+    let mut window = 1;
+    while ROWS_A_LAG * count(window) <= rows.max(ROWS_A_LAG) {
+        let ratio = ratio(problem, scores, window);
+        let deviation = (2.0 / rows * (1.0 + 2.0 / 3.0 * count(window - 1))).sqrt();
+        if 1.0 + UNEVEN_DEVIATIONS * deviation < ratio {
+            most = most.max(ratio);
+        }
+        window *= 2;
+    }
+    most
+}
+
+/// Sum of the products of scores less than `window` rows of a pass apart, weighted to fall linearly.
+fn ratio(problem: &Problem, scores: &[f64], window: usize) -> f64 {
+    let mut sum = 0.0;
+    for block in &problem.layout.blocks {
+        let scores = &scores[block.rows.clone()];
+        for lag in 0..window.min(scores.len()) {
+            let weight = if lag == 0 { 1.0 } else { 2.0 - 2.0 * count(lag) / count(window) };
+            sum += weight * dot(&scores[lag..], &scores[..scores.len() - lag]);
+        }
+    }
+    sum
+}
+
+/// The same for a curve that stands on a small part of a pass, where the residual has lost what the
+/// curve took: how loud the residual is there and on either side, and how well the curve would
+/// follow it elsewhere in the pass.
+///
+/// Elsewhere it is the median that counts, which another curve of that kind does not move.
+fn beside(problem: &Problem, curve: &[f64], left: &[f64], rows: f64) -> f64 {
+    let peak = |row: &usize| curve[*row].abs();
+    let highest = (0..problem.rows.len()).max_by(|a, b| peak(a).total_cmp(&peak(b))).unwrap_or(0);
+    let Some(block) = problem.layout.blocks.iter().find(|one| one.rows.contains(&highest)) else {
+        return 1.0;
+    };
+    let noise = dot(left, left) / count(problem.rows.len());
+    let (curve, left) = (&curve[block.rows.clone()], &left[block.rows.clone()]);
+    if count(curve.len()) < ROWS_A_LAG * rows {
+        return 1.0;
+    }
+    let there = support(curve);
+    let wide = there.len().max(2);
+    let around = &left[there.start.saturating_sub(wide)..(there.end + wide).min(left.len())];
+    let loud = dot(around, around) / count(around.len()) / noise;
+    let steps = (wide..curve.len() / 2).step_by(wide / 2);
+    let squares = steps.flat_map(|step| {
+        [false, true].map(|back| followed(curve, left, step, back).map(|square| square / noise))
+    });
+    let mut elsewhere: Vec<f64> = squares.flatten().collect();
+    let number = elsewhere.len().max(1);
+    let usual = median(&mut elsewhere) / MEDIAN_OF_A_SQUARE;
+    let stands_out = |ratio: f64, scatter: f64, number: usize| {
+        if 1.0 + UNEVEN_DEVIATIONS * (scatter / count(number)).sqrt() < ratio { ratio } else { 1.0 }
+    };
+    stands_out(loud, 2.0, around.len()).max(stands_out(usual, SCATTER_OF_MEDIAN, number))
+}
+
+/// Rows from the first to the last at which a curve is more than a tenth of its peak.
+fn support(curve: &[f64]) -> Range<usize> {
+    let peak = curve.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    let is_high = |value: &f64| 0.1 * peak < value.abs();
+    let first = curve.iter().position(is_high).unwrap_or(0);
+    first..curve.iter().rposition(is_high).map_or(first, |last| last + 1)
+}
+
+/// Square that a curve, moved by so many rows, takes of a residual; `None` where most of it would
+/// leave the pass.
+fn followed(curve: &[f64], left: &[f64], by: usize, back: bool) -> Option<f64> {
+    let rest = curve.len() - by;
+    let (curve_part, left_part) =
+        if back { (&curve[by..], &left[..rest]) } else { (&curve[..rest], &left[by..]) };
+    let size = dot(curve_part, curve_part);
+    let product = dot(curve_part, left_part);
+    (0.5 * dot(curve, curve) < size).then(|| product * product / size)
+}
