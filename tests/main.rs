@@ -83,6 +83,7 @@ mod templates;
 mod uart_receiver;
 mod uart_transmitter;
 mod uncertainty;
+mod uneven_noise;
 mod verdict_properties;
 mod waveform_readers;
 mod what_is_left;

@@ -1,0 +1,94 @@
+//! Noise of another kind than the model of the noise knows is nobody's effect.
+
+use std::f64::consts::TAU;
+use std::path::Path;
+
+use helixlock_lab::{Diagnosis, Measurement, Nominal, Problem, diagnose};
+use helixlock_plant::Model;
+use helixlock_traces::{Column, Table};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+const MACHINE: &str = r#"
+workpiece = { lead = "8 mm", length = "640 mm" }
+spindle.speed = "30 rpm"
+lead_screw.lead = "10 mm"
+gear = [{ name = "change gear 1", order = 2.5, teeth = 48 }]
+grating.lines = 13906
+laser.wavelength = "0.63281983 um"
+"#;
+
+const ROWS: usize = 320;
+const SPACING_MM: f64 = 2.0;
+/// Deviation, µm.
+const NOISE_UM: f64 = 0.05;
+const SEEDS: u64 = 12;
+
+fn diagnosed(error_um: Vec<f64>) -> Diagnosis {
+    let model = Model::parse(MACHINE, Path::new("machine.toml")).expect("a machine");
+    let places =
+        (0..ROWS).scan(0.0, |place, _| Some(std::mem::replace(place, *place + SPACING_MM)));
+    let column = |name: &str, values| Column { name: name.to_owned(), values };
+    let table =
+        Table::new(vec![column("position_mm", places.collect()), column("error_um", error_um)]);
+    let measurement = Measurement::from_table(&table, &Nominal::of(&model));
+    let problem = Problem::new(&model, &measurement.expect("a measurement"));
+    diagnose(&problem.expect("all columns are there"))
+}
+
+fn names(found: &Diagnosis) -> Vec<&str> {
+    let last = found.rounds.last().expect("there is always a round 0");
+    last.effects.iter().map(|effect| effect.name.as_str()).collect()
+}
+
+fn white(chance: &mut ChaCha8Rng, rows: usize) -> Vec<f64> {
+    let drawn = StandardNormal.sample_iter(chance).take(rows);
+    drawn.map(|value: f64| NOISE_UM * value).collect()
+}
+
+/// A wave of the machine's screw, ten standard errors.
+fn wave(row: usize) -> f64 {
+    let turns = SPACING_MM * f64::from(u32::try_from(row).expect("few rows")) / 10.0;
+    0.04 * (TAU * turns).sin()
+}
+
+/// Forty readings beside a motor that runs.
+#[test]
+fn a_louder_stretch_is_no_wear() {
+    for seed in 0..SEEDS {
+        let mut chance = ChaCha8Rng::seed_from_u64(seed);
+        let mut noise = white(&mut chance, ROWS);
+        let start = chance.random_range(20..ROWS - 60);
+        noise[start..start + 40].iter_mut().for_each(|value| *value *= 4.0);
+        let found = diagnosed(noise.clone());
+        assert!(names(&found).is_empty(), "{seed}: {:?}", names(&found));
+        noise.iter_mut().enumerate().for_each(|(row, value)| *value += 2.0 * wave(row));
+        assert_eq!(names(&diagnosed(noise)), ["screw-periodic"], "{seed}");
+    }
+}
+
+/// What an instrument with a filter writes: means that overlap, twice over.
+#[test]
+fn filtered_noise_is_no_effect() {
+    const OVER: usize = 7;
+    for seed in 0..SEEDS {
+        let mut noise = white(&mut ChaCha8Rng::seed_from_u64(seed), ROWS + 2 * OVER);
+        for _ in 0..2 {
+            let means = noise.windows(OVER).map(|part| part.iter().sum::<f64>() / 7.0_f64.sqrt());
+            noise = means.collect();
+        }
+        let found = diagnosed(noise[..ROWS].to_vec());
+        assert!(names(&found).is_empty(), "{seed}: {:?}", names(&found));
+    }
+}
+
+/// Even noise hides no more than it did.
+#[test]
+fn a_wave_in_even_noise_is_named() {
+    for seed in 0..SEEDS {
+        let noise = white(&mut ChaCha8Rng::seed_from_u64(seed), ROWS);
+        let error_um = noise.iter().enumerate().map(|(row, value)| value + wave(row)).collect();
+        assert_eq!(names(&diagnosed(error_um)), ["screw-periodic"], "{seed}");
+    }
+}
