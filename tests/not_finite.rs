@@ -51,7 +51,7 @@ fn an_effect_without_a_value_at_a_sample_is_no_noise() {
     let (path, machine_word) = word(&folder, "machine.toml");
     let (data, data_word) = word(&folder, "data.csv");
     let (out, out_word) = word(&folder, "out");
-    let row = |i: i32| format!("{},{:.4}\n", 2 * i, 0.3 * (0.5 * f64::from(i)).sin());
+    let row = |i: i32| format!("{},{:.4}\n", 2 * i, 0.3 * libm::sin(0.5 * f64::from(i)));
     put(&data, &format!("position_mm,error_um\n{}", (0..200).map(row).collect::<String>()));
     for (formula, found) in [
         ("1/position_mm", "effect `odd` gives inf µm at 0.000000 s, 0.000000 mm"),

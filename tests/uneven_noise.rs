@@ -50,7 +50,7 @@ fn white(chance: &mut ChaCha8Rng, rows: usize) -> Vec<f64> {
 /// A wave of the machine's screw, ten standard errors.
 fn wave(row: usize) -> f64 {
     let turns = SPACING_MM * f64::from(u32::try_from(row).expect("few rows")) / 10.0;
-    0.04 * (TAU * turns).sin()
+    0.04 * libm::sin(TAU * turns)
 }
 
 /// Forty readings beside a motor that runs.

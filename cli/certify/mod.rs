@@ -106,7 +106,9 @@ fn positive_ns(word: &str) -> Result<f64, String> {
 impl Certify {
     /// Runs the pass through both and prints what differs.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
-        apart_from_cases(self.output.as_deref(), [("`--page`", self.page.as_deref())])?;
+        let others = [("`--page`", &self.page), ("`--trace`", &self.trace)];
+        let others = others.map(|(name, path)| (name, path.as_deref()));
+        apart_from_cases(self.output.as_deref(), others)?;
         let machine = Model::read(&self.machine)?;
         if self.shard.is_some() {
             self.delay_sets(&machine)?.print(&CAMPAIGN, out)?;
