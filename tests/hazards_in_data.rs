@@ -53,5 +53,6 @@ fn pulses_that_the_gates_lose_are_named() {
     let scale = &effects[0].parameters[0];
     let stderr = scale.stderr.expect("a standard error");
     assert!((scale.value - 1.0).abs() < 3.0 * stderr, "{scale:?}");
-    assert!((found.noise_um - NOISE_UM).abs() < 0.2 * NOISE_UM, "{}", found.noise_um);
+    // A comparison in which a fringe is lost, or a pulse added, shows a part of it.
+    assert!((found.noise_um - NOISE_UM).abs() < 0.3 * NOISE_UM, "{}", found.noise_um);
 }

@@ -18,7 +18,7 @@ mod channel;
 use channel::{Channel, Reading};
 
 use crate::actuator::Actuator;
-use crate::{EffectError, Model, Motion, motion::Pass, motion::in_reach};
+use crate::{EffectError, Model, Motion, motion::Pass, units::in_reach};
 
 /// Shortest time between two pulses of one channel, s: photo detectors of 1 MHz.
 pub const SHORTEST_S: f64 = 1e-6;

@@ -4,13 +4,8 @@ use std::f64::consts::TAU;
 
 use crate::record::{COVARIATES, Columns, Covariate};
 use crate::term::Sum;
-use crate::units::LARGEST_UM;
+use crate::units::in_reach;
 use crate::{Effect, EffectError, Entry, Instant, Machine, Model};
-
-/// True for a number of µm that a machine can follow.
-pub(crate) fn in_reach(value_um: f64) -> bool {
-    value_um.abs() <= LARGEST_UM
-}
 
 /// A stretch of a pass at constant spindle speed in one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,7 +5,7 @@
 
 use crate::custom::Custom;
 use crate::measured_curve::MeasuredCurve;
-use crate::motion::in_reach;
+use crate::units::in_reach;
 use crate::{
     Basis, CATALOGUE, Card, Columns, Context, Effect, EffectError, Entry, Instant, Machine, Nature,
     Parameter, Record, Role, Search,

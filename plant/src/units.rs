@@ -96,6 +96,11 @@ impl fmt::Display for Unit {
 /// No part of a machine moves further: 1 km, in µm.
 pub(crate) const LARGEST_UM: f64 = 1e9;
 
+/// True for a number of µm that a machine can follow.
+pub(crate) fn in_reach(value_um: f64) -> bool {
+    value_um.abs() <= LARGEST_UM
+}
+
 /// Micrometre.
 pub const UM: Unit = Unit::new("um", Dimension::Length, (1.0, 1e6));
 /// Millimetre.

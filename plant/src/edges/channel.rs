@@ -1,9 +1,10 @@
 //! One pulse train: its reading as a function of time, and the moment it reaches the next pulse.
 
 use super::{MOST_OWED, SHORTEST_S};
-use crate::motion::{Motion, Stretch, in_reach};
+use crate::motion::{Motion, Stretch};
 use crate::piece::Piece;
 use crate::smoothness::combined;
+use crate::units::in_reach;
 use crate::{Effect, EffectError, Entry, Instant, Smoothness};
 
 /// What is left to the root after the last step of Newton's method, s.
