@@ -69,7 +69,7 @@ fn a_louder_stretch_is_no_wear() {
 }
 
 /// What an instrument with a filter writes: means that overlap, twice over.
-/// One record in twenty-five still passes for wear.
+/// One record in thirty still gets the name of wear beside `unexplained`.
 #[test]
 fn filtered_noise_is_hardly_an_effect() {
     const OVER: usize = 7;
