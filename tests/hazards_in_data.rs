@@ -10,6 +10,8 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, Normal};
 
+use crate::support::diagnosed::names;
+
 /// One pulse is added every 4000 fringes, and one in 11 of them meets the clear of divider B.
 const MACHINE: &str = r#"
 workpiece = { lead = "6 mm", length = "100 mm" }
@@ -46,9 +48,8 @@ fn pulses_that_the_gates_lose_are_named() {
     let problem = Problem::new(&model, &measurement.expect("a measurement"));
     let found = diagnose(&problem.expect("all columns are there"));
     assert_eq!(found.verdict, Verdict::Explained);
+    assert_eq!(names(&found), ["lost-added-pulses"]);
     let effects = &found.rounds.last().expect("a last round").effects;
-    let names: Vec<&str> = effects.iter().map(|effect| effect.name.as_str()).collect();
-    assert_eq!(names, ["lost-added-pulses"]);
     // Seven fringes in 100 mm; the gates lose them whole.
     let scale = &effects[0].parameters[0];
     let stderr = scale.stderr.expect("a standard error");

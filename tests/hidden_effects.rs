@@ -3,10 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use helixlock_lab::{
-    Diagnosis, Measurement, Nominal, Outcome, Problem, Verdict, challenge, compare, diagnose, judge,
+    Measurement, Nominal, Outcome, Problem, Verdict, challenge, compare, diagnose, judge,
 };
 use helixlock_plant::{MachineFile, Model};
 use helixlock_traces::{Column, Table, read_table};
+
+use crate::support::diagnosed::names;
 
 fn example(file: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("examples").join(file)
@@ -21,11 +23,6 @@ fn of_example(folder: &str) -> (Model, Table) {
     let machine = Model::read(&example(&format!("{folder}/machine.toml"))).expect("a machine");
     let table = read_table(&example(&format!("{folder}/data.csv"))).expect("a table");
     (machine, table)
-}
-
-fn names(diagnosis: &Diagnosis) -> Vec<&str> {
-    let last = diagnosis.rounds.last().expect("there is always a round 0");
-    last.effects.iter().map(|effect| effect.name.as_str()).collect()
 }
 
 /// The examples' data come from a generator that shares no code with this program.

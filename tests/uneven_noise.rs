@@ -10,6 +10,8 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
+use crate::support::diagnosed::names;
+
 const MACHINE: &str = r#"
 workpiece = { lead = "8 mm", length = "640 mm" }
 spindle.speed = "30 rpm"
@@ -35,11 +37,6 @@ fn diagnosed(error_um: Vec<f64>) -> Diagnosis {
     let measurement = Measurement::from_table(&table, &Nominal::of(&model));
     let problem = Problem::new(&model, &measurement.expect("a measurement"));
     diagnose(&problem.expect("all columns are there"))
-}
-
-fn names(found: &Diagnosis) -> Vec<&str> {
-    let last = found.rounds.last().expect("there is always a round 0");
-    last.effects.iter().map(|effect| effect.name.as_str()).collect()
 }
 
 fn white(chance: &mut ChaCha8Rng, rows: usize) -> Vec<f64> {

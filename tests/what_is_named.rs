@@ -2,21 +2,16 @@
 
 use std::f64::consts::TAU;
 
-use helixlock_lab::{Diagnosis, Verdict, diagnose};
+use helixlock_lab::{Verdict, diagnose};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal, StudentT};
 
+use crate::support::diagnosed::names;
 use crate::support::passes::{Passes, noise};
 
 /// Half the wavelength of the machine's laser.
 const FRINGE_UM: f64 = 0.316_410_182_654_969;
-
-/// Effects of the final model.
-fn names(diagnosis: &Diagnosis) -> Vec<&str> {
-    let last = &diagnosis.rounds[diagnosis.rounds.len() - 1];
-    last.effects.iter().map(|effect| effect.name.as_str()).collect()
-}
 
 /// Slow noise of 0.1 µm with heavy tails (Student's law of three degrees of freedom).
 fn heavy_noise(seed: u64, kept: f64) -> impl FnMut() -> f64 {

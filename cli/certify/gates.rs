@@ -5,7 +5,9 @@ use std::io::Write;
 use helixlock_original::Hazard;
 use helixlock_sim::blocks::BlockCheck;
 use helixlock_sim::{Drawn, WholeGates};
-use helixlock_traces::{Column, Table};
+use helixlock_traces::Table;
+
+use crate::shared::trace_column::trace_column;
 
 /// Each figure against its block.
 pub(crate) fn print(checks: &[BlockCheck], out: &mut dyn Write) -> anyhow::Result<()> {
@@ -88,19 +90,13 @@ pub(crate) fn print_whole(whole: &WholeGates, out: &mut impl Write) -> anyhow::R
     Ok(())
 }
 
-/// What is drawn at the gates' meter, to the nanosecond and the picometre.
+/// What is drawn at the gates' meter.
 pub(crate) fn trace(drawn: &Drawn) -> Table {
-    let columns = [
-        ("time_s", &drawn.time_s),
-        ("position_mm", &drawn.position_mm),
-        ("error_um", &drawn.error_um),
-    ];
-    let rounded = |values: &[f64]| values.iter().map(|value| (value * 1e9).round() / 1e9).collect();
-    let column = |(name, values): (&str, &Vec<f64>)| Column {
-        name: name.to_owned(),
-        values: rounded(values),
-    };
-    Table::new(columns.into_iter().map(column).collect())
+    Table::new(vec![
+        trace_column("time_s", &drawn.time_s),
+        trace_column("position_mm", &drawn.position_mm),
+        trace_column("error_um", &drawn.error_um),
+    ])
 }
 
 /// Where the gates can go wrong.

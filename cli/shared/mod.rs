@@ -26,5 +26,6 @@ pub(crate) mod series;
 pub(crate) mod sheet;
 pub(crate) mod spectrum;
 pub(crate) mod terminal;
+pub(crate) mod trace_column;
 pub(crate) mod wheels;
 pub(crate) mod words;

@@ -6,8 +6,7 @@ use helixlock_plant::Machine;
 use helixlock_sim::{ANALOGUE, SHOWN_FIRST, Simulation, Trace, Waveform};
 use helixlock_traces::{Column, Table};
 
-/// Digits behind the point: a nanosecond, a picometre of position, a picometre of error.
-const DIGITS: f64 = 1e9;
+use crate::shared::trace_column::trace_column;
 
 /// One row a comparison: the run as the machine file has it, then the other one with a prefix.
 ///
@@ -23,10 +22,8 @@ pub(crate) fn table(machine: &Machine, simulation: &Simulation) -> Table {
 }
 
 fn columns_of(trace: &Trace, prefix: &str, rows: usize) -> Vec<Column> {
-    let column = |name: &str, values: &[f64]| Column {
-        name: format!("{prefix}{name}"),
-        values: values[..rows].iter().map(|value| rounded(*value)).collect(),
-    };
+    let column =
+        |name: &str, values: &[f64]| trace_column(format!("{prefix}{name}"), &values[..rows]);
     #[expect(clippy::cast_precision_loss, reason = "the counter holds 4095 steps")]
     let steps: Vec<f64> = trace.steps.iter().map(|steps| *steps as f64).collect();
     vec![
@@ -37,10 +34,6 @@ fn columns_of(trace: &Trace, prefix: &str, rows: usize) -> Vec<Column> {
         column("steps", &steps),
         column("lead_error_um", &trace.lead_error_um),
     ]
-}
-
-fn rounded(value: f64) -> f64 {
-    (value * DIGITS).round() / DIGITS
 }
 
 /// A save file for GTKWave: what a person looks for, the micrometres drawn as curves.

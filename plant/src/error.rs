@@ -254,3 +254,8 @@ pub enum EffectError {
         message: String,
     },
 }
+
+/// When and where, for a message.
+pub(crate) fn moment(time_s: f64, position_mm: f64) -> String {
+    format!("at {time_s:.6} s, {position_mm:.6} mm")
+}

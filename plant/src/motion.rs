@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use crate::error::moment;
 use crate::record::{COVARIATES, Columns, Covariate};
 use crate::term::Sum;
 use crate::units::in_reach;
@@ -198,7 +199,7 @@ impl Motion {
 
     /// When and where, for a message.
     pub(crate) fn place(&self, time_s: f64) -> String {
-        format!("at {time_s:.6} s, {:.6} mm", self.at(time_s).position_mm)
+        moment(time_s, self.at(time_s).position_mm)
     }
 
     /// The effects, with their entries.

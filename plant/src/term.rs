@@ -4,6 +4,7 @@
 //! `a` with its phase `φ` has the coefficients `a·cos φ` of the sine and `a·sin φ` of the cosine.
 
 use crate::custom::Custom;
+use crate::error::moment;
 use crate::measured_curve::MeasuredCurve;
 use crate::units::in_reach;
 use crate::{
@@ -302,11 +303,10 @@ impl Term {
         let deltas = self.effect(machine, &record.columns)?.deltas_um(record);
         let beyond = deltas.iter().position(|delta_um| !in_reach(*delta_um));
         beyond.map_or(Ok(()), |row| {
-            let (time_s, position_mm) = (record.time_s[row], record.position_mm[row]);
             Err(EffectError::OutOfReach {
                 effect: format!("effect `{}`", self.name),
                 found: deltas[row].to_string(),
-                place: format!("at {time_s:.6} s, {position_mm:.6} mm"),
+                place: moment(record.time_s[row], record.position_mm[row]),
             })
         })
     }

@@ -30,6 +30,7 @@ pub use pins::{PULSE_CLOCKS, PulsePin, clock_of, time_of};
 pub(crate) use probe::Recording;
 pub use probe::{Analogue, Change, Probe, Waveform, signals_of};
 pub use process::{Place, Process};
+pub(crate) use recorder::reading_um;
 pub use recorder::{Comparison, Recorder, unwrap_um};
 pub(crate) use simulate::ready;
 pub use simulate::{Course, Options, Simulation, simulate};

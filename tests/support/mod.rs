@@ -2,4 +2,5 @@
 
 pub(crate) mod bench;
 pub(crate) mod command;
+pub(crate) mod diagnosed;
 pub(crate) mod passes;

@@ -26,7 +26,8 @@ pub(super) enum Target {
 impl Target {
     /// Looks at what stands at a path.
     ///
-    /// Refuses a name that the system does not take, a folder, a file that may not be written, and one that the command itself has read.
+    /// Refuses a name that the system does not take, a folder, a file that may not be written, and
+    /// one that the command itself has read.
     pub(super) fn of(path: &Path, inputs: &[PathBuf]) -> anyhow::Result<Self> {
         let place = path.display();
         let found = match std::fs::metadata(path) {

@@ -24,8 +24,13 @@ impl Comparison {
     #[must_use]
     #[expect(clippy::cast_precision_loss, reason = "a comparison is far below 2⁵³ clocks")]
     pub fn error_um(&self, full_scale_um: f64) -> f64 {
-        (self.high as f64 / (self.end - self.begin) as f64 - 0.5) * full_scale_um
+        reading_um(self.high as f64 / (self.end - self.begin) as f64, full_scale_um)
     }
+}
+
+/// Recorder reading, µm, of a meter that is high for a share of the comparison.
+pub(crate) fn reading_um(high: f64, full_scale_um: f64) -> f64 {
+    (high - 0.5) * full_scale_um
 }
 
 /// Gathers comparisons from the changes of T1 and the divided grating pulses.

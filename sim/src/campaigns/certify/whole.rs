@@ -17,7 +17,7 @@ use helixlock_rtl::settings::{Range, Settings};
 use super::closed::{self, BothClosed, Synchronous};
 use super::open::{self, Difference, OpenLoop};
 use crate::Error;
-use crate::closed_loop::{Course, Grinder, Options, Process, unwrap_um};
+use crate::closed_loop::{Course, Grinder, Options, Process, reading_um, unwrap_um};
 use crate::historic::{GateLoop, GateRun, HistoricComparison};
 
 /// By how much the ways through the dividers may differ, s.
@@ -69,7 +69,7 @@ impl Drawn {
         let time_s: Vec<f64> = ended.iter().map(middle_s).collect();
         let position_mm = time_s.iter().map(|time_s| machine.place(*time_s).position_mm).collect();
         let error_um =
-            |one: &&HistoricComparison| (one.high_s / one.period_s - 0.5) * full_scale_um;
+            |one: &&HistoricComparison| reading_um(one.high_s / one.period_s, full_scale_um);
         let mut error_um: Vec<f64> = ended.iter().map(error_um).collect();
         unwrap_um(&mut error_um, full_scale_um);
         Self { time_s, position_mm, error_um }
