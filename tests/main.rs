@@ -66,6 +66,7 @@ mod rust_hdl_verilog;
 mod scale_lookup;
 mod settable_board;
 mod settings_port;
+mod shapes_of_nobody;
 mod shards;
 mod simulation;
 mod standard_wave;

@@ -6,6 +6,7 @@ mod candidates;
 mod flaws;
 mod grid;
 mod jumps;
+mod local;
 mod probes;
 mod repeatability;
 mod setting_trial;

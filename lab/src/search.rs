@@ -12,8 +12,8 @@ mod rivals;
 mod uneven;
 
 pub(crate) use analysis::{Step, search};
-pub(crate) use court::{Claim, claims, nameless_winner, waves_of_nobody};
+pub(crate) use court::{Claim, Winner, claims, nameless_winner, nobodys};
 pub(crate) use polish::polished;
-pub(crate) use pruning::pruned;
+pub(crate) use pruning::{Dropped, pruned};
 pub(crate) use refusal::Refusal;
 pub(crate) use rivals::{Rivals, rivals};

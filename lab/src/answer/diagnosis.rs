@@ -14,7 +14,8 @@ use crate::numerics::least_squares::covariance_rows;
 use crate::policy::chance::{AT_AN_END, STANDARD_ERRORS};
 use crate::policy::extent::SEARCHED_ROWS;
 use crate::search::{
-    Refusal, Rivals, Step, nameless_winner, polished, pruned, rivals, search, waves_of_nobody,
+    Dropped, Refusal, Rivals, Step, Winner, nameless_winner, nobodys, polished, pruned, rivals,
+    search,
 };
 
 /// What can be said about a model and a measurement.
@@ -175,10 +176,19 @@ fn searched(problem: &Problem) -> Diagnosis {
         states.push(state);
     }
     let last = &steps[steps.len() - 1].state;
-    let found = rivals(&small, last, &steps[0].tried);
+    let mut found = rivals(&small, last, &steps[0].tried);
     let mut residual = structures(&small, &last.columns, &last.fit);
-    residual.extend(nameless_winner(&small, last, &found));
-    residual.extend(waves_of_nobody(&small, &steps));
+    let winner = nameless_winner(&small, last, &found);
+    residual.extend(nobodys(&small, &steps));
+    if let Some(winner) = winner {
+        if let Some((step, state)) = beaten(&problem, &small, &states[states.len() - 1], &winner) {
+            steps.push(step);
+            states.push(state);
+            found = besides(found, &winner.beaten);
+        }
+        residual.push(winner.shown);
+    }
+    let last = &steps[steps.len() - 1].state;
     let experiments = experiment::advice(&small, last, &found);
     let state = states[states.len() - 1].clone();
     Diagnosis {
@@ -219,6 +229,32 @@ fn pruned_again(problem: &Problem, small: &Problem, last: &State) -> Option<(Ste
     }
     let thin = state.on(small)?;
     Some((Step::to(thin, None, dropped), state))
+}
+
+/// One more step without the effects in whose place a shape without a name explains more.
+fn beaten(
+    problem: &Problem,
+    small: &Problem,
+    last: &State,
+    winner: &Winner,
+) -> Option<(Step, State)> {
+    if winner.beaten.is_empty() {
+        return None;
+    }
+    let dropped = winner.beaten.iter().map(|&index| Dropped {
+        name: last.components[index].term.name.clone(),
+        reason: "a shape without a name explains more in its place".to_owned(),
+    });
+    let state = State::settled(problem, last.without(&winner.beaten), &last.fit.noises)?;
+    let thin = state.on(small)?;
+    Some((Step::to(thin, None, dropped.collect()), state))
+}
+
+/// The rivals of the effects that stay when some are taken out.
+fn besides(found: Vec<Rivals>, out: &[usize]) -> Vec<Rivals> {
+    let stays = found.into_iter().filter(|rivals| !out.contains(&rivals.index));
+    let place = |index: usize| index - out.iter().filter(|one| **one < index).count();
+    stays.map(|rivals| Rivals { index: place(rivals.index), ..rivals }).collect()
 }
 
 fn verdict(state: &State, found: &[Rivals], residual: &[Structure]) -> Verdict {

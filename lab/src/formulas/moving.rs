@@ -5,12 +5,19 @@ use std::sync::Arc;
 use super::dimension::Dimension;
 use super::expression::{Expression, Function, Quantity, call, number, turns};
 use super::grammar::{periods, shape, unknown};
-use super::quantities::{Quantities, from_start, lowest, of};
+use super::quantities::{Quantities, about_middle, from_start, lowest, of};
 use super::shape::Shape;
-use crate::numerics::{by_factors, evenly, spread};
+use crate::numerics::{by_factors, count, evenly, spread};
 
 /// First width of a knock, against the distance of two; it is refined.
 const KNOCK: f64 = 0.07;
+
+/// Moments of a pass at which a knock is looked for, and the passes beyond which they lie wider.
+const PLACES_A_PASS: usize = 130;
+const MOST_PASSES: usize = 4;
+
+/// Most that a wave changes over half of the travel, as a share of its frequency in the middle.
+const CHANGE: f64 = 0.9;
 
 fn ramp(from: Expression) -> Expression {
     call(Function::Ramp, from)
@@ -18,8 +25,7 @@ fn ramp(from: Expression) -> Expression {
 
 /// A pulse where the share of a period is a half, of so wide a bell.
 fn knock(share: Expression, width: Expression) -> Expression {
-    let off = Expression::Power(Box::new((share - number(0.5)) / width), 2);
-    call(Function::Exp, number(-0.5) * off)
+    bell((share - number(0.5)) / width)
 }
 
 /// A triangle of so many waves.
@@ -55,7 +61,31 @@ pub(super) fn along_travel(all: &Quantities) -> Vec<Shape> {
             .curve("size", call(Function::Step, from())),
         at("root from one place on", "contact that stiffens under load")
             .curve("size", call(Function::Sqrt, ramp(from()))),
+        decay(x, "position", "length_mm"),
+        shape(
+            "swing at one place",
+            "position",
+            "a dent with the metal beside it, a joint that tilts",
+        )
+        .unknown("at_mm", mm, evenly(low, low + range, 130))
+        .unknown("width_mm", mm, by_factors(0.005 * range, 0.05 * range, 3))
+        .placed()
+        .curve("size", (from() / unknown(1)) * bell(from() / unknown(1))),
     ]
+}
+
+/// A bell over so many standard deviations.
+fn bell(deviations: Expression) -> Expression {
+    call(Function::Exp, number(-0.5) * Expression::Power(Box::new(deviations), 2))
+}
+
+/// An exponential that dies away.
+fn decay(x: &Arc<Quantity>, along: &str, constant: &'static str) -> Shape {
+    let range = spread(&x.values);
+    let (start, _) = from_start(x);
+    shape("decay", along, "warming towards a balance, play that is taken up")
+        .unknown(constant, &x.dimension, by_factors(0.02 * range, 2.0 * range, 24))
+        .curve("size", call(Function::Exp, number(-1.0) * start / unknown(0)))
 }
 
 /// Shapes that come again along the travel.
@@ -99,7 +129,20 @@ pub(super) fn again_and_again(all: &Quantities) -> Vec<Shape> {
         .curve("size", triangle(waves())),
         again("half waves", "contact at one side only: what lifts off", 0.8, 4.0, [16, 12])
             .curve("size", ramp(call(Function::Sin, turns(waves())))),
+        wave_of_changing_length(x),
     ]
+}
+
+/// A sine over the travel that is of its period in the middle, and the faster the farther from
+/// there, or the slower.
+fn wave_of_changing_length(x: &Arc<Quantity>) -> Shape {
+    let (middle, range) = about_middle(x);
+    let growth = evenly(-CHANGE, CHANGE, 21).iter().map(|share| share / range).collect();
+    let angle = middle.clone() / unknown(0) * (number(1.0) + unknown(1) * middle);
+    shape("wave of changing length", "position", "a belt that creeps, a mesh of uneven pitch")
+        .unknown("period_mm", &x.dimension, periods(range, 1.0, 12.0, 23))
+        .unknown("growth_per_mm", &x.dimension.to_the(-1), growth)
+        .wave("amplitude", "phase_rad", None, turns(angle))
 }
 
 /// A step, a parabola, a rise and its decay.
@@ -110,7 +153,9 @@ pub(super) fn in_time(all: &Quantities) -> Vec<Shape> {
     let peaks: Vec<f64> = evenly(0.03, 0.75, 24).iter().map(|share| share * range).collect();
     let (start, _) = from_start(t);
     let share = start.clone() / unknown(0);
-    vec![
+    let passes = all.passes();
+    let widths = by_factors(0.005 * range / count(passes), 0.1 * range / count(passes), 4);
+    let mut shapes = vec![
         shape("step at one moment", "time", "something slipped or was knocked and stayed so")
             .unknown("at_s", s, evenly(low, low + range, 200))
             .placed()
@@ -121,38 +166,48 @@ pub(super) fn in_time(all: &Quantities) -> Vec<Shape> {
         shape("rise and fall", "time", "one part warms first, another takes the heat away")
             .unknown("peak_s", s, peaks)
             .curve("size", share.clone() * call(Function::Exp, number(1.0) - share)),
-    ]
-}
-
-/// Powers and decays along travel and time.
-pub(super) fn powers(all: &Quantities) -> Vec<Shape> {
-    let mut shapes = of_one(&all.position, "position", "length_mm");
-    let (start, _) = from_start(&all.position);
-    shapes.push(
-        shape("parabola", "position", "a bed that sags, a screw of steadily changing lead")
-            .curve("slope", of(&all.position))
-            .curve("size", Expression::Power(Box::new(start), 2)),
-    );
-    if all.timed && 0.0 < spread(&all.time.values) {
-        shapes.extend(of_one(&all.time, "time", "constant_s"));
+    ];
+    // In one pass it stands at one place as well.
+    if 1 < passes {
+        let moments = evenly(low, low + range, PLACES_A_PASS * passes.min(MOST_PASSES));
+        let off = (of(t) - unknown(0)) / unknown(1);
+        shapes.push(
+            shape(
+                "knock at one moment",
+                "time",
+                "a blow, a chip under the slide, a hand on the bed",
+            )
+            .unknown("at_s", s, moments)
+            .unknown("width_s", s, widths)
+            .placed()
+            .curve("size", bell(off)),
+        );
     }
     shapes
 }
 
-fn of_one(x: &Arc<Quantity>, along: &str, constant: &'static str) -> Vec<Shape> {
-    let range = spread(&x.values);
+/// Powers along travel and time, and a decay in time.
+pub(super) fn powers(all: &Quantities) -> Vec<Shape> {
+    let (start, _) = from_start(&all.position);
+    let mut shapes = vec![
+        cube(&all.position, "position"),
+        shape("parabola", "position", "a bed that sags, a screw of steadily changing lead")
+            .curve("slope", of(&all.position))
+            .curve("size", Expression::Power(Box::new(start), 2)),
+    ];
+    if all.timed && 0.0 < spread(&all.time.values) {
+        shapes.extend([cube(&all.time, "time"), decay(&all.time, "time", "constant_s")]);
+    }
+    shapes
+}
+
+fn cube(x: &Arc<Quantity>, along: &str) -> Shape {
     let (start, _) = from_start(x);
-    let decay = call(Function::Exp, number(-1.0) * start.clone() / unknown(0));
     let power = |n| Expression::Power(Box::new(start.clone()), n);
-    vec![
-        shape("cube", along, "a bed bent by two supports")
-            .curve("slope", of(x))
-            .curve("square", power(2))
-            .curve("size", power(3)),
-        shape("decay", along, "warming towards a balance, play that is taken up")
-            .unknown(constant, &x.dimension, by_factors(0.02 * range, 2.0 * range, 24))
-            .curve("size", decay),
-    ]
+    shape("cube", along, "a bed bent by two supports")
+        .curve("slope", of(x))
+        .curve("square", power(2))
+        .curve("size", power(3))
 }
 
 /// Play that is not taken up at once, where passes turn back inside.

@@ -57,6 +57,16 @@ impl Quantities {
         }
     }
 
+    /// How many passes there are.
+    pub(crate) fn passes(&self) -> usize {
+        1 + self
+            .pass
+            .values
+            .windows(2)
+            .filter(|pair| pair[0].to_bits() != pair[1].to_bits())
+            .count()
+    }
+
     /// Shafts whose turns the samples resolve, by name and turns a turn of the spindle.
     pub(crate) fn shafts(&self, problem: &Problem) -> Vec<(String, f64)> {
         let mut shafts = vec![("spindle angle".to_owned(), 1.0)];
@@ -84,6 +94,13 @@ pub(crate) fn from_start(quantity: &Arc<Quantity>) -> (Expression, f64) {
     }
     let low = rounded(low);
     (less(of(quantity), quantity, low), low)
+}
+
+/// A quantity from the middle of its range on, and that range.
+pub(crate) fn about_middle(quantity: &Arc<Quantity>) -> (Expression, f64) {
+    let range = spread(&quantity.values);
+    let middle = rounded(lowest(&quantity.values) + 0.5 * range);
+    (less(of(quantity), quantity, middle), range)
 }
 
 /// A quantity about its mean.

@@ -6,6 +6,7 @@
 use super::calibration;
 use super::flaws::above_flaws;
 use super::jumps::jumps;
+use super::local::{self, Local};
 use super::repeatability::repeatability;
 use super::slow_noise::taken_for_noise;
 use super::tails::chance_with_tails;
@@ -44,7 +45,7 @@ pub struct Structure {
 
 impl Structure {
     /// Structure along a coordinate that stands at no particular place of it.
-    pub(super) fn without_place(along: &str, shape: &str, rms_um: f64, p_value: f64) -> Self {
+    pub(crate) fn without_place(along: &str, shape: &str, rms_um: f64, p_value: f64) -> Self {
         let (along, shape) = (along.to_owned(), shape.to_owned());
         Self { along, shape, rms_um, p_value, at: None, at_stderr: None, line: None }
     }
@@ -88,6 +89,7 @@ pub(crate) fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> V
     all.extend(cyclic_shapes(problem, model, fit));
     all.extend(repeats(problem, fit));
     all.extend(jumping(problem, fit));
+    all.extend(local_shapes(problem, fit));
     all.extend(waves::lines(problem, model, fit));
     all.extend(waves::bands(problem, fit));
     all.extend(step(problem, model, fit));
@@ -201,6 +203,19 @@ fn jumping(problem: &Problem, fit: &Fit) -> Option<Structure> {
     }
     let p_value = (probes(problem) * chance).min(1.0);
     Some(Structure::without_place("time", "several jumps", rms_um, p_value))
+}
+
+/// Anything in a short stretch.
+fn local_shapes(problem: &Problem, fit: &Fit) -> Vec<Structure> {
+    let told = |along: &str, shape: &str, found: Option<Local>| {
+        let Local { rms_um, p_value, at } = found?;
+        let p_value = (probes(problem) * p_value).min(1.0);
+        Some(Structure { at: Some(at), ..Structure::without_place(along, shape, rms_um, p_value) })
+    };
+    let everywhere = told("position", "shape at one place", local::along_travel(problem, fit));
+    let once = || told("time", "shape in one pass", local::in_one_pass(problem, fit));
+    let several = 1 < problem.record.passes().len();
+    everywhere.into_iter().chain(several.then(once).flatten()).collect()
 }
 
 /// A shape that comes back with every turn of the spindle or of the machine's screw.

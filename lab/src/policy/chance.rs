@@ -14,6 +14,12 @@ pub(crate) const SIGNIFICANCE: f64 = 1e-4;
 /// errors were refused. Doubled: one in five hundred.
 pub(crate) const NAMED: f64 = 1e-3;
 
+/// Chance below which no all-clear is given, though what was found may not be named.
+///
+/// Chosen: a hundredth of [`SIGNIFICANCE`], for the chance is that of one effect, at its best place,
+/// where noise has no name to lose. Doubled: a curve needs a gain of 27.6 instead of 29.0.
+pub(crate) const NO_ALL_CLEAR: f64 = 1e-6;
+
 /// Chance below which a line is listed for a reader. No verdict rests on a list, so it may be ten
 /// times as open as [`SIGNIFICANCE`].
 ///
@@ -29,9 +35,9 @@ pub(crate) const FAST_LINE: f64 = 1e-6;
 /// Probes for structure beside those of logged columns: every chance is multiplied by their
 /// number (Bonferroni).
 ///
-/// Derived: nine on one pass, thirteen on several of one sensor; this stands for both. Doubled:
+/// Derived: ten on one pass, fifteen on several of one sensor; this stands for both. Doubled:
 /// structure at the limit needs 1.4 more evidence.
-pub(crate) const PROBES: f64 = 12.0;
+pub(crate) const PROBES: f64 = 13.0;
 
 /// Columns from which on χ² is too optimistic and a chance is found by trying noise.
 ///
@@ -119,3 +125,16 @@ pub(crate) const UNEVEN_DEVIATIONS: f64 = 3.0;
 /// Chosen: the residual has lost what the effect took, and over more than an eighth of the curve
 /// that shows. Doubled: a filter over a tenth of the curve goes unseen.
 pub(crate) const ROWS_A_LAG: f64 = 8.0;
+
+/// Twice the log likelihood by which rows must prefer a noise of their own to have one.
+///
+/// Derived: χ² with three degrees, the size of either part and a memory, exceeds it once in twenty;
+/// such effects in even noise then lose a part of their gain. Doubled: a gust twice as loud as the
+/// rest over fifty rows is not told from it.
+pub(crate) const ANOTHER_NOISE: f64 = 7.8;
+
+/// Rows on either side of a short curve whose noise is asked for.
+///
+/// Chosen: size and memory of a noise need some eighty rows. Doubled: gusts of less than that go
+/// unseen.
+pub(crate) const NEIGHBOURHOOD: usize = 40;

@@ -190,3 +190,20 @@ pub(crate) const COMMON_SAMPLES: usize = 32;
 /// Chosen: at 160 steps a second and 6.3 comparisons a second they make 3 µm good. Doubled: the
 /// check begins later.
 pub(crate) const PULLING_IN: usize = 10;
+
+/// Cells of a window in which a shape of any kind is looked for.
+///
+/// Chosen: a bell with both flanks shows in six. Doubled: shapes of two lobes show better, short
+/// ones worse.
+pub(crate) const CELLS: usize = 6;
+
+/// Rows of the narrowest cell.
+///
+/// Chosen: the noise inside a window is then known from 18 rows. Doubled: knocks of less than fifty
+/// rows are not seen.
+pub(crate) const ROWS_A_CELL: usize = 4;
+
+/// Windows that the longest pass must hold, for what they usually show to be known.
+///
+/// Chosen. Doubled: shapes of more than a twelfth of a pass are left to the smooth curves.
+pub(crate) const WINDOWS: usize = 6;

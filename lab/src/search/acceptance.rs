@@ -79,38 +79,65 @@ fn turns_as_well(problem: &Problem, now: &State, judged: &Judged) -> Option<Refu
 
 /// Refused when one sample alone speaks for an effect, which the tails of the noise explain too.
 fn rests_on_one_sample(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
-    let freedom = count(judged.component.width().max(1));
-    let other_samples = |gain| chi_squared_tail(gain, freedom) * judged.looks;
-    let chance = chance_with_tails(problem, [&now.fit, &judged.fit], other_samples);
+    let chance = chance_without_one_sample(problem, now, judged);
     (NAMED < chance).then_some(Refusal::OneSample { chance })
 }
 
 /// Refused when drawn noise, as slow as what is left without an effect, is followed as well by its
-/// columns: of a record that is worth few samples χ² promises too much.
+/// columns.
 fn follows_slow_noise(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
-    let sensors = 0..problem.sensors.len();
-    let worth = sensors.map(|sensor| {
-        let (layout, _) = problem.of_sensor(sensor);
-        effective_samples(&layout, &now.fit.noises[sensor])
-    });
-    let columns = Columns::of(problem, std::slice::from_ref(&judged.component)).ok()?;
-    if columns.raw.is_empty() || FEW_SAMPLES <= worth.fold(f64::INFINITY, f64::min) {
-        return None;
-    }
-    let plain = chi_squared_tail(judged.gain, count(columns.raw.len()));
-    let drawn = chance_in_noise(problem, &now.columns, &now.fit, &columns.raw, judged.gain);
-    let p_value = (judged.p_value * drawn / plain.max(f64::MIN_POSITIVE)).min(1.0);
+    let p_value = chance_in_slow_noise(problem, now, judged);
     (NAMED <= p_value).then_some(Refusal::Chance { p_value })
 }
 
 /// Refused when noise that is louder in places, or smoother, than the model of the noise can be does
 /// as much.
 fn follows_uneven_noise(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
-    let inflation = uneven::inflation(problem, now, judged);
+    let p_value = chance_in_uneven_noise(problem, now, judged);
+    (NAMED <= p_value).then_some(Refusal::Chance { p_value })
+}
+
+/// The chance of an effect's gain in whatever kind of noise makes as much most often.
+#[must_use]
+pub(crate) fn chance_in_any_noise(problem: &Problem, now: &State, judged: &Judged) -> f64 {
+    let laws = [chance_without_one_sample, chance_in_slow_noise, chance_in_uneven_noise];
+    laws.iter().map(|law| law(problem, now, judged)).fold(judged.p_value, f64::max)
+}
+
+fn chance_without_one_sample(problem: &Problem, now: &State, judged: &Judged) -> f64 {
+    let freedom = count(judged.component.width().max(1));
+    let other_samples = |gain| chi_squared_tail(gain, freedom) * judged.looks;
+    chance_with_tails(problem, [&now.fit, &judged.fit], other_samples)
+}
+
+/// Of a record that is worth few samples χ² promises too much: drawn noise says more.
+fn chance_in_slow_noise(problem: &Problem, now: &State, judged: &Judged) -> f64 {
+    let sensors = 0..problem.sensors.len();
+    let worth = sensors.map(|sensor| {
+        let (layout, _) = problem.of_sensor(sensor);
+        effective_samples(&layout, &now.fit.noises[sensor])
+    });
+    let Some(columns) = own_columns(problem, judged).filter(|one| !one.raw.is_empty()) else {
+        return judged.p_value;
+    };
+    if FEW_SAMPLES <= worth.fold(f64::INFINITY, f64::min) {
+        return judged.p_value;
+    }
+    let plain = chi_squared_tail(judged.gain, count(columns.raw.len()));
+    let drawn = chance_in_noise(problem, &now.columns, &now.fit, &columns.raw, judged.gain);
+    (judged.p_value * drawn / plain.max(f64::MIN_POSITIVE)).min(1.0)
+}
+
+fn chance_in_uneven_noise(problem: &Problem, now: &State, judged: &Judged) -> f64 {
+    let Some(columns) = own_columns(problem, judged) else { return judged.p_value };
+    let inflation = uneven::inflation(problem, now, &columns, &judged.fit);
     let freedom = count(judged.component.width().max(1));
     let of_gain = |gain| chi_squared_tail(gain, freedom) * judged.looks.max(1.0);
-    let p_value = of_gain(judged.gain / inflation).min(1.0);
-    (1.0 < inflation && NAMED <= p_value).then_some(Refusal::Chance { p_value })
+    if inflation <= 1.0 { judged.p_value } else { of_gain(judged.gain / inflation).min(1.0) }
+}
+
+fn own_columns(problem: &Problem, judged: &Judged) -> Option<Columns> {
+    Columns::of(problem, std::slice::from_ref(&judged.component)).ok()
 }
 
 /// True unless an effect that is there once would be added a second time.

@@ -52,9 +52,12 @@ pub(crate) fn search(problem: &mut Problem) -> Vec<Step> {
     for _ in 0..MOST_ROUNDS {
         let last = steps.len() - 1;
         let now = &steps[last].state;
-        let tried = tried(problem, now);
+        let mut tried = tried(problem, now);
         let refused: Vec<Refusal> =
             tried.iter().map_while(|judged| refusal(problem, now, judged)).collect();
+        for (judged, why) in tried.iter_mut().zip(&refused) {
+            judged.p_value = why.chance().unwrap_or(judged.p_value);
+        }
         let best = tried.get(refused.len()).cloned();
         if let Some(members) = known_together(problem, now, &tried) {
             steps[last].tried = tried;

@@ -7,15 +7,19 @@
 
 use helixlock_plant::Entry;
 
+use super::acceptance::chance_in_any_noise;
 use super::analysis::{Step, plain_noises};
 use super::refusal::Refusal;
 use super::rivals::Rivals;
+use super::uneven;
 use crate::formulas::{Placed, Shape, nameless};
 use crate::hypotheses::{Structure, chance_with_tails, is_left};
-use crate::model::{Columns, Component, Fit, Problem, Stage, State, noises_of, settle, with_noise};
+use crate::model::{
+    Columns, Component, Fit, Judged, Problem, Stage, State, noises_of, settle, with_noise,
+};
 use crate::noise::rms;
 use crate::numerics::{Looks, chi_squared_tail, count};
-use crate::policy::chance::SIGNIFICANCE;
+use crate::policy::chance::{NO_ALL_CLEAR, SIGNIFICANCE};
 use crate::policy::evidence::MARGIN;
 
 /// Shapes of each noise whose own noise is fitted.
@@ -27,17 +31,26 @@ const CLAIMS: usize = 6;
 /// Places from which on a shape is looked for beside the effects only, for the time it takes.
 const MOST_PLACES: f64 = 400.0;
 
-/// The shape without a name that explains more than some effects of a model, or what they leave.
+/// A shape without a name that explains more than some effects of a model, or what they leave.
+#[derive(Debug, Clone)]
+pub(crate) struct Winner {
+    /// What it shows.
+    pub(crate) shown: Structure,
+    /// The effects in whose place it stands, by their places in the model.
+    pub(crate) beaten: Vec<usize>,
+}
+
+/// The shape without a name that is farthest ahead of the effects in whose place it stands.
 #[must_use]
 pub(crate) fn nameless_winner(
     problem: &Problem,
     state: &State,
     found: &[Rivals],
-) -> Option<Structure> {
+) -> Option<Winner> {
     let shapes = nameless(problem);
     let court = Court::new(problem, state, found, &shapes, (SHORTLIST, MOST_PLACES));
-    let won = court.groups().into_iter().filter_map(|group| court.in_place_of(&group));
-    won.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, structure)| structure)
+    let won = court.groups().into_iter().filter_map(|group| court.in_place_of(group));
+    won.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, winner)| winner)
 }
 
 /// What every shape of a list has to say for itself beside the effects of a model or in the place
@@ -59,27 +72,38 @@ pub(crate) fn claims<'a>(
     claims
 }
 
-/// Waves in time that are beyond chance and may not be named, for no clock tells them from an order.
+/// What is beyond chance at the end of a search and may not be named.
 #[must_use]
-pub(crate) fn waves_of_nobody(problem: &Problem, steps: &[Step]) -> Vec<Structure> {
+pub(crate) fn nobodys(problem: &Problem, steps: &[Step]) -> Vec<Structure> {
     let Some(last) = steps.iter().rfind(|step| !step.tried.is_empty()) else { return Vec::new() };
     let refused = last.tried.iter().zip(&last.refused);
-    let waves = refused.filter(|(_, why)| matches!(why, Refusal::Clock | Refusal::Angle { .. }));
-    waves
-        .map(|(judged, _)| {
-            let rms_um = judged.component.size_um(problem, judged.coefficients().0);
-            Structure {
-                along: "frequency in time".to_owned(),
-                shape: "sinusoid, or one over the angle".to_owned(),
-                rms_um,
-                p_value: judged.p_value,
-                at: judged.component.term.nonlinear().first().copied(),
-                at_stderr: None,
-                line: None,
-            }
-        })
-        .filter(|wave| problem.measurement.timed && is_left(problem, &last.state.fit, wave))
-        .collect()
+    let found = refused.filter_map(|(judged, why)| match why {
+        Refusal::Clock | Refusal::Angle { .. } => wave_of_nobody(problem, judged),
+        _ if why.is_of_the_name() => curve_of_nobody(problem, &last.state, judged),
+        _ => None,
+    });
+    found.filter(|structure| is_left(problem, &last.state.fit, structure)).collect()
+}
+
+/// A wave in time that no clock tells from an order.
+fn wave_of_nobody(problem: &Problem, judged: &Judged) -> Option<Structure> {
+    problem.measurement.timed.then(|| {
+        let rms_um = judged.component.size_um(problem, judged.coefficients().0);
+        let shape = "sinusoid, or one over the angle";
+        let along = "frequency in time";
+        let told = Structure::without_place(along, shape, rms_um, judged.p_value);
+        Structure { at: judged.component.term.nonlinear().first().copied(), ..told }
+    })
+}
+
+/// A curve that is beyond chance in any noise, though its values or other data forbid the name.
+fn curve_of_nobody(problem: &Problem, now: &State, judged: &Judged) -> Option<Structure> {
+    let p_value = chance_in_any_noise(problem, now, judged);
+    let rms_um = judged.component.size_um(problem, judged.coefficients().0);
+    let shape =
+        format!("a curve like that of {}, which may not be named", judged.component.term.name);
+    (p_value < NO_ALL_CLEAR)
+        .then(|| Structure::without_place("travel and time", &shape, rms_um, p_value))
 }
 
 /// What a shape may stand in for: nothing, each effect, all but one, all.
@@ -177,18 +201,18 @@ impl<'a> Court<'a> {
     }
 
     /// The shape that explains more than a group of effects in their place, and by how much.
-    fn in_place_of(&self, group: &[usize]) -> Option<(f64, Structure)> {
-        let base = self.without(group)?;
-        let claim = self.best(group, &base)?;
+    fn in_place_of(&self, group: Vec<usize>) -> Option<(f64, Winner)> {
+        let base = self.without(&group)?;
+        let claim = self.best(&group, &base)?;
         if claim.ahead <= MARGIN {
             return None;
         }
-        let structure = if group.is_empty() {
+        let shown = if group.is_empty() {
             self.beside_all(&claim)?
         } else {
-            self.instead_of(group, &base, &claim)
+            self.instead_of(&group, &base, &claim)
         };
-        Some((claim.ahead, structure))
+        Some((claim.ahead, Winner { shown, beaten: group }))
     }
 
     /// The best shape in a group's place.
@@ -298,7 +322,9 @@ impl<'a> Court<'a> {
         if SIGNIFICANCE <= chance {
             return chance.min(1.0);
         }
-        chance.max(chance_with_tails(self.problem, [&self.state.fit, fit], of_gain)).min(1.0)
+        let uneven = uneven::inflation(self.problem, self.state, &placed.columns, fit);
+        let with_tails = chance_with_tails(self.problem, [&self.state.fit, fit], of_gain);
+        chance.max(with_tails).max(of_gain(gain / uneven)).min(1.0)
     }
 
     /// What a shape shows beside all effects; `None` when it is chance or too small.

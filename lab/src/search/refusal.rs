@@ -47,6 +47,30 @@ impl Refusal {
         let name = victor.component.term.name.clone();
         Self::Victor { name, by: victor.evidence - judged.evidence }
     }
+
+    /// True when something is there, for all that this says, under another name.
+    pub(crate) fn is_of_the_name(&self) -> bool {
+        matches!(
+            self,
+            Self::Unseen { .. }
+                | Self::Range { .. }
+                | Self::NegativeSquare { .. }
+                | Self::End { .. }
+                | Self::Flank
+                | Self::Piece
+                | Self::Play
+                | Self::Again
+        )
+    }
+
+    /// The chance in noise that it was refused for.
+    pub(crate) fn chance(&self) -> Option<f64> {
+        match self {
+            Self::Chance { p_value } => Some(*p_value),
+            Self::OneSample { chance } => Some(*chance),
+            _ => None,
+        }
+    }
 }
 
 impl fmt::Display for Refusal {

@@ -8,26 +8,30 @@
 
 use std::ops::Range;
 
-use crate::model::{Columns, Judged, Problem, Stage, State};
+use crate::model::{Columns, Fit, Problem, Stage, State};
+use crate::noise::{Block, Whitener, fit_noise};
 use crate::numerics::least_squares::dot;
 use crate::numerics::{count, median};
-use crate::policy::chance::{ROWS_A_LAG, UNEVEN_DEVIATIONS};
+use crate::policy::chance::{ANOTHER_NOISE, NEIGHBOURHOOD, ROWS_A_LAG, UNEVEN_DEVIATIONS};
 
 /// Median of the square of a standard normal variable, and the square of the relative scatter of
 /// such a median of one value.
 const MEDIAN_OF_A_SQUARE: f64 = 0.455;
 const SCATTER_OF_MEDIAN: f64 = 5.4;
 
+/// The rows of a sensor against those of a neighbourhood.
+const A_PART: usize = 3;
+
+/// Share of a curve's square with which it stands on some rows.
+const NEARLY_ALL: f64 = 0.9;
+
 /// By what the variance of an effect's coefficient exceeds the model's, 1 where that is no more than
 /// scatter.
 #[must_use]
-pub(crate) fn inflation(problem: &Problem, now: &State, judged: &Judged) -> f64 {
-    let Ok(columns) = Columns::of(problem, std::slice::from_ref(&judged.component)) else {
-        return 1.0;
-    };
-    let stage = Stage::new(problem, &now.columns, &judged.fit.noises);
+pub(crate) fn inflation(problem: &Problem, now: &State, columns: &Columns, fit: &Fit) -> f64 {
+    let stage = Stage::new(problem, &now.columns, &fit.noises);
     let (mut curve, mut left) = (vec![0.0; stage.target.len()], stage.target.clone());
-    for direction in stage.span(&columns) {
+    for direction in stage.span(columns) {
         let along = dot(&direction, &stage.target);
         for (row, value) in direction.iter().enumerate() {
             curve[row] += along * value;
@@ -44,7 +48,9 @@ pub(crate) fn inflation(problem: &Problem, now: &State, judged: &Judged) -> f64 
     let fourth: f64 = curve[..rows].iter().map(|value| value.powi(4)).sum();
     let square = dot(&curve[..rows], &curve[..rows]);
     let stands_on = square * square / fourth;
-    along(problem, &scores, stands_on).max(beside(problem, &curve, &left, stands_on))
+    let smoother =
+        along(problem, &scores, stands_on).max(beside(problem, &curve, &left, stands_on));
+    smoother.max(nearby(problem, now, fit, &curve[..rows]))
 }
 
 /// The largest of the ratios over windows of 1, 2, 4 … lags that stands out of its scatter; `rows`
@@ -77,25 +83,17 @@ fn ratio(problem: &Problem, scores: &[f64], window: usize) -> f64 {
 }
 
 /// The same for a curve that stands on a small part of a pass, where the residual has lost what the
-/// curve took: how loud the residual is there and on either side, and how well the curve would
-/// follow it elsewhere in the pass.
+/// curve took: how well the curve would follow it elsewhere in the pass.
 ///
 /// Elsewhere it is the median that counts, which another curve of that kind does not move.
 fn beside(problem: &Problem, curve: &[f64], left: &[f64], rows: f64) -> f64 {
-    let peak = |row: &usize| curve[*row].abs();
-    let highest = (0..problem.rows.len()).max_by(|a, b| peak(a).total_cmp(&peak(b))).unwrap_or(0);
-    let Some(block) = problem.layout.blocks.iter().find(|one| one.rows.contains(&highest)) else {
-        return 1.0;
-    };
+    let Some(block) = block_of(problem, curve) else { return 1.0 };
     let noise = dot(left, left) / count(problem.rows.len());
     let (curve, left) = (&curve[block.rows.clone()], &left[block.rows.clone()]);
     if count(curve.len()) < ROWS_A_LAG * rows {
         return 1.0;
     }
-    let there = support(curve);
-    let wide = there.len().max(2);
-    let around = &left[there.start.saturating_sub(wide)..(there.end + wide).min(left.len())];
-    let loud = dot(around, around) / count(around.len()) / noise;
+    let wide = support(curve).len().max(2);
     let steps = (wide..curve.len() / 2).step_by(wide / 2);
     let squares = steps.flat_map(|step| {
         [false, true].map(|back| followed(curve, left, step, back).map(|square| square / noise))
@@ -103,10 +101,72 @@ fn beside(problem: &Problem, curve: &[f64], left: &[f64], rows: f64) -> f64 {
     let mut elsewhere: Vec<f64> = squares.flatten().collect();
     let number = elsewhere.len().max(1);
     let usual = median(&mut elsewhere) / MEDIAN_OF_A_SQUARE;
-    let stands_out = |ratio: f64, scatter: f64, number: usize| {
-        if 1.0 + UNEVEN_DEVIATIONS * (scatter / count(number)).sqrt() < ratio { ratio } else { 1.0 }
+    let least = 1.0 + UNEVEN_DEVIATIONS * (SCATTER_OF_MEDIAN / count(number)).sqrt();
+    if least < usual { usual } else { 1.0 }
+}
+
+/// The same for a curve in whose neighbourhood the noise is another than on the whole: what it gains
+/// there under the one, over what it gains under the other.
+fn nearby(problem: &Problem, now: &State, fit: &Fit, curve: &[f64]) -> f64 {
+    let Some(block) = block_of(problem, curve) else { return 1.0 };
+    let there = support(&curve[block.rows.clone()]);
+    let start = block.rows.start;
+    let reaches = [there.len().max(NEIGHBOURHOOD), block.rows.len()];
+    let around = reaches.map(|reach| {
+        let from = (start + there.start).saturating_sub(reach).max(start);
+        from..(start + there.end + reach).min(block.rows.end)
+    });
+    // The noise of many rows is the noise of all, and in a pass of its own any smooth curve is slow
+    // noise.
+    let of_sensor = problem.layout.blocks.iter().filter(|one| one.sensor == block.sensor);
+    let rows_of_sensor: usize = of_sensor.map(|one| one.rows.len()).sum();
+    let a_part = around.into_iter().filter(|rows| A_PART * rows.len() <= rows_of_sensor);
+    let all = dot(curve, curve);
+    let stands = |rows: &Range<usize>| {
+        let there = &curve[rows.clone()];
+        NEARLY_ALL * all <= dot(there, there)
     };
-    stands_out(loud, 2.0, around.len()).max(stands_out(usual, SCATTER_OF_MEDIAN, number))
+    a_part
+        .filter(stands)
+        .map(|rows| gained_apart(problem, now, fit, block.sensor, &rows))
+        .fold(1.0, f64::max)
+}
+
+/// What a fit gains on some rows of a sensor under the noise of all, over its gain there under a
+/// noise of their own; 1 where they do not need one.
+fn gained_apart(
+    problem: &Problem,
+    now: &State,
+    fit: &Fit,
+    sensor: usize,
+    rows: &Range<usize>,
+) -> f64 {
+    let all = 0..problem.rows.len();
+    let keep: Vec<bool> = all.map(|row| rows.contains(&row)).collect();
+    let (mut layout, kept) = problem.layout.of_rows(&keep);
+    layout.blocks.retain(|block| !block.rows.is_empty());
+    layout.blocks.iter_mut().for_each(|block| block.sensor = 0);
+    let part = |left: &[f64]| kept.iter().map(|&row| left[row]).collect::<Vec<f64>>();
+    let (before, after) = (part(&now.fit.left), part(&fit.left));
+    let whitener = Whitener::new(&layout, &fit.noises[sensor..=sensor]);
+    let under_all = |left: &[f64]| {
+        let white = whitener.whiten(left);
+        -0.5 * (dot(&white, &white) + whitener.log_determinant())
+    };
+    let own = fit_noise(&layout, &after, None).log_likelihood;
+    if 2.0 * (own - under_all(&after)) < ANOTHER_NOISE {
+        return 1.0;
+    }
+    let gained = under_all(&after) - under_all(&before);
+    let apart = own - fit_noise(&layout, &before, None).log_likelihood;
+    gained / apart.clamp(f64::MIN_POSITIVE, gained.max(f64::MIN_POSITIVE))
+}
+
+/// The block in which a curve is highest.
+fn block_of<'a>(problem: &'a Problem, curve: &[f64]) -> Option<&'a Block> {
+    let peak = |row: &usize| curve[*row].abs();
+    let highest = (0..problem.rows.len()).max_by(|a, b| peak(a).total_cmp(&peak(b)))?;
+    problem.layout.blocks.iter().find(|one| one.rows.contains(&highest))
 }
 
 /// Rows from the first to the last at which a curve is more than a tenth of its peak.
