@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use helixlock_lab::{Measurement, Nominal, Problem, Verdict, diagnose};
+use helixlock_lab::{Verdict, diagnose};
 use helixlock_plant::Model;
 use helixlock_sim::certify_gates;
 use helixlock_traces::{Column, Table};
@@ -10,7 +10,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, Normal};
 
-use crate::support::diagnosed::names;
+use crate::support::diagnosed::{names, problem};
 
 /// One pulse is added every 4000 fringes, and one in 11 of them meets the clear of divider B.
 const MACHINE: &str = r#"
@@ -44,9 +44,7 @@ fn recorded(model: &Model) -> Table {
 #[test]
 fn pulses_that_the_gates_lose_are_named() {
     let model = Model::parse(MACHINE, Path::new("machine.toml")).expect("a machine");
-    let measurement = Measurement::from_table(&recorded(&model), &Nominal::of(&model));
-    let problem = Problem::new(&model, &measurement.expect("a measurement"));
-    let found = diagnose(&problem.expect("all columns are there"));
+    let found = diagnose(&problem(&model, &recorded(&model)));
     assert_eq!(found.verdict, Verdict::Explained);
     assert_eq!(names(&found), ["lost-added-pulses"]);
     let effects = &found.rounds.last().expect("a last round").effects;

@@ -1,25 +1,13 @@
 //! Noise of another kind than the model of the noise knows is nobody's effect.
 
 use std::f64::consts::TAU;
-use std::path::Path;
 
-use helixlock_lab::{Diagnosis, Measurement, Nominal, Problem, diagnose};
-use helixlock_plant::Model;
-use helixlock_traces::{Column, Table};
+use helixlock_lab::Diagnosis;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use crate::support::diagnosed::names;
-
-const MACHINE: &str = r#"
-workpiece = { lead = "8 mm", length = "640 mm" }
-spindle.speed = "30 rpm"
-lead_screw.lead = "10 mm"
-gear = [{ name = "change gear 1", order = 2.5, teeth = 48 }]
-grating.lines = 13906
-laser.wavelength = "0.63281983 um"
-"#;
+use crate::support::diagnosed::{self, names};
 
 const ROWS: usize = 320;
 const SPACING_MM: f64 = 2.0;
@@ -28,15 +16,9 @@ const NOISE_UM: f64 = 0.05;
 const SEEDS: u64 = 12;
 
 fn diagnosed(error_um: Vec<f64>) -> Diagnosis {
-    let model = Model::parse(MACHINE, Path::new("machine.toml")).expect("a machine");
     let places =
         (0..ROWS).scan(0.0, |place, _| Some(std::mem::replace(place, *place + SPACING_MM)));
-    let column = |name: &str, values| Column { name: name.to_owned(), values };
-    let table =
-        Table::new(vec![column("position_mm", places.collect()), column("error_um", error_um)]);
-    let measurement = Measurement::from_table(&table, &Nominal::of(&model));
-    let problem = Problem::new(&model, &measurement.expect("a measurement"));
-    diagnose(&problem.expect("all columns are there"))
+    diagnosed::diagnosed(vec![("position_mm", places.collect()), ("error_um", error_um)])
 }
 
 fn white(chance: &mut ChaCha8Rng, rows: usize) -> Vec<f64> {

@@ -1,6 +1,33 @@
-//! What a diagnosis has found.
+//! What a diagnosis of a measurement made in memory has found.
 
-use helixlock_lab::Diagnosis;
+use std::path::Path;
+
+use helixlock_lab::{Diagnosis, Measurement, Nominal, Problem, diagnose};
+use helixlock_plant::Model;
+use helixlock_traces::{Column, Table};
+
+/// A machine that cuts a screw of 8 mm lead, 4 mm a second.
+pub(crate) const MACHINE: &str = r#"
+workpiece = { lead = "8 mm", length = "640 mm" }
+spindle.speed = "30 rpm"
+lead_screw.lead = "10 mm"
+gear = [{ name = "change gear 1", order = 2.5, teeth = 48 }]
+grating.lines = 13906
+laser.wavelength = "0.63281983 um"
+"#;
+
+/// A table as the measurement of a machine.
+pub(crate) fn problem(machine: &Model, table: &Table) -> Problem {
+    let measurement = Measurement::from_table(table, &Nominal::of(machine));
+    Problem::new(machine, &measurement.expect("a measurement")).expect("all columns are there")
+}
+
+/// The diagnosis of some columns of [`MACHINE`].
+pub(crate) fn diagnosed(columns: Vec<(&str, Vec<f64>)>) -> Diagnosis {
+    let machine = Model::parse(MACHINE, Path::new("machine.toml")).expect("a machine");
+    let column = |(name, values): (&str, Vec<f64>)| Column { name: name.to_owned(), values };
+    diagnose(&problem(&machine, &Table::new(columns.into_iter().map(column).collect())))
+}
 
 /// Names of the effects of the final model.
 pub(crate) fn names(diagnosis: &Diagnosis) -> Vec<&str> {

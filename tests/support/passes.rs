@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use helixlock_lab::{Measurement, Nominal, Problem};
+use helixlock_lab::Problem;
 use helixlock_plant::Model;
 use helixlock_traces::{Column, Table};
 use rand::SeedableRng;
@@ -85,9 +85,7 @@ impl Passes {
 
     pub(crate) fn problem(self) -> Problem {
         let machine = Model::parse(MACHINE, Path::new("machine.toml")).expect("a machine");
-        let table = Table::new(self.columns);
-        let measurement = Measurement::from_table(&table, &Nominal::of(&machine));
-        Problem::new(&machine, &measurement.expect("a measurement")).expect("no effects")
+        super::diagnosed::problem(&machine, &Table::new(self.columns))
     }
 }
 

@@ -227,8 +227,12 @@ fn pruned_again(problem: &Problem, small: &Problem, last: &State) -> Option<(Ste
     if dropped.is_empty() {
         return None;
     }
-    let thin = state.on(small)?;
-    Some((Step::to(thin, None, dropped), state))
+    without_dropped(small, state, dropped)
+}
+
+/// A step to a state of all rows that some effects were taken out of.
+fn without_dropped(small: &Problem, state: State, dropped: Vec<Dropped>) -> Option<(Step, State)> {
+    Some((Step::to(state.on(small)?, None, dropped), state))
 }
 
 /// One more step without the effects in whose place a shape without a name explains more.
@@ -246,8 +250,7 @@ fn beaten(
         reason: "a shape without a name explains more in its place".to_owned(),
     });
     let state = State::settled(problem, last.without(&winner.beaten), &last.fit.noises)?;
-    let thin = state.on(small)?;
-    Some((Step::to(thin, None, dropped.collect()), state))
+    without_dropped(small, state, dropped.collect())
 }
 
 /// The rivals of the effects that stay when some are taken out.

@@ -153,7 +153,7 @@ pub(super) fn in_time(all: &Quantities) -> Vec<Shape> {
     let peaks: Vec<f64> = evenly(0.03, 0.75, 24).iter().map(|share| share * range).collect();
     let (start, _) = from_start(t);
     let share = start.clone() / unknown(0);
-    let passes = all.passes();
+    let passes = all.passes;
     let widths = by_factors(0.005 * range / count(passes), 0.1 * range / count(passes), 4);
     let mut shapes = vec![
         shape("step at one moment", "time", "something slipped or was knocked and stayed so")

@@ -22,6 +22,8 @@ pub(crate) struct Quantities {
     pub(crate) direction: Arc<Quantity>,
     pub(crate) since_reversal: Arc<Quantity>,
     pub(crate) pass: Arc<Quantity>,
+    /// How many passes there are.
+    pub(crate) passes: usize,
     pub(crate) columns: Vec<Arc<Quantity>>,
 }
 
@@ -53,18 +55,9 @@ impl Quantities {
                 Dimension::number(),
                 record.pass.iter().map(|pass| count(*pass)).collect(),
             ),
+            passes: record.passes().len(),
             columns: columns.collect(),
         }
-    }
-
-    /// How many passes there are.
-    pub(crate) fn passes(&self) -> usize {
-        1 + self
-            .pass
-            .values
-            .windows(2)
-            .filter(|pair| pair[0].to_bits() != pair[1].to_bits())
-            .count()
     }
 
     /// Shafts whose turns the samples resolve, by name and turns a turn of the spindle.

@@ -8,7 +8,7 @@
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
 use crate::model::{Fit, Problem};
-use crate::noise::{Whitener, swift_rms};
+use crate::noise::swift_rms;
 use crate::numerics::{count, median, spread};
 use crate::policy::extent::{CELLS, ROWS_A_CELL, WINDOWS};
 
@@ -46,26 +46,28 @@ impl Cell {
     }
 }
 
-/// The clearest stretch of the travel at which all passes show the same.
+/// The clearest stretch of the travel at which all passes show the same; `white` is what a fit
+/// leaves, whitened.
 #[must_use]
-pub(super) fn along_travel(problem: &Problem, fit: &Fit) -> Option<Local> {
-    let white = Whitener::new(&problem.layout, &fit.noises).whiten(&fit.left);
+pub(super) fn along_travel(problem: &Problem, fit: &Fit, white: &[f64]) -> Option<Local> {
     let position = &problem.record.position_mm;
-    let lines = (0..problem.sensors.len()).filter_map(|sensor| {
+    if spread(position) <= 0.0 {
+        return None;
+    }
+    let lines = (0..problem.sensors.len()).map(|sensor| {
         let blocks = problem.layout.blocks.iter().filter(|block| block.sensor == sensor);
         let rows = blocks.flat_map(|block| block.rows.clone());
         let mut line: Vec<(f64, f64)> =
             rows.map(|row| (position[problem.rows[row].sample], white[row])).collect();
         line.sort_by(|a, b| a.0.total_cmp(&b.0));
-        (0.0 < spread(position)).then_some(line)
+        line
     });
     clearest(problem, fit, &lines.collect::<Vec<_>>())
 }
 
 /// The clearest stretch of any single pass.
 #[must_use]
-pub(super) fn in_one_pass(problem: &Problem, fit: &Fit) -> Option<Local> {
-    let white = Whitener::new(&problem.layout, &fit.noises).whiten(&fit.left);
+pub(super) fn in_one_pass(problem: &Problem, fit: &Fit, white: &[f64]) -> Option<Local> {
     let time = &problem.record.time_s;
     let lines = problem.layout.blocks.iter().map(|block| {
         block.rows.clone().map(|row| (time[problem.rows[row].sample], white[row])).collect()

@@ -14,7 +14,7 @@ use super::waves;
 use helixlock_plant::Column;
 
 use crate::model::{Columns, Fit, Problem, Row, Stage, settle};
-use crate::noise::{rms, swift_rms};
+use crate::noise::{Whitener, rms, swift_rms};
 use crate::numerics::{chi_squared_tail, count, spread};
 use crate::policy::chance::{MANY_COLUMNS, PROBES, SIGNIFICANCE};
 use crate::policy::extent::{
@@ -212,8 +212,10 @@ fn local_shapes(problem: &Problem, fit: &Fit) -> Vec<Structure> {
         let p_value = (probes(problem) * p_value).min(1.0);
         Some(Structure { at: Some(at), ..Structure::without_place(along, shape, rms_um, p_value) })
     };
-    let everywhere = told("position", "shape at one place", local::along_travel(problem, fit));
-    let once = || told("time", "shape in one pass", local::in_one_pass(problem, fit));
+    let white = Whitener::new(&problem.layout, &fit.noises).whiten(&fit.left);
+    let everywhere =
+        told("position", "shape at one place", local::along_travel(problem, fit, &white));
+    let once = || told("time", "shape in one pass", local::in_one_pass(problem, fit, &white));
     let several = 1 < problem.record.passes().len();
     everywhere.into_iter().chain(several.then(once).flatten()).collect()
 }

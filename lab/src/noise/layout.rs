@@ -60,6 +60,16 @@ impl Layout {
         self.picked(blocks.map(|block| (block, block.rows.clone().take(most).collect())))
     }
 
+    /// The layout of neighbouring rows of one block, as of one sensor.
+    #[must_use]
+    pub(crate) fn stretch(&self, rows: Range<usize>, pass: usize) -> Self {
+        Self {
+            blocks: vec![Block { sensor: 0, pass, rows: 0..rows.len() }],
+            clock: self.clock[rows.clone()].to_vec(),
+            inflation: self.inflation[rows].to_vec(),
+        }
+    }
+
     fn picked<'a>(
         &self,
         parts: impl Iterator<Item = (&'a Block, Vec<usize>)>,

@@ -138,3 +138,16 @@ pub(crate) const ANOTHER_NOISE: f64 = 7.8;
 /// Chosen: size and memory of a noise need some eighty rows. Doubled: gusts of less than that go
 /// unseen.
 pub(crate) const NEIGHBOURHOOD: usize = 40;
+
+/// Rows of a sensor against those of a neighbourhood, at least.
+///
+/// Measured: at two, a workpiece that is warm in one pass of two is slow noise of that pass; at
+/// four, a knock in one pass of three is a slip. Doubled: gusts are looked at in records of six
+/// passes and more only, or near the place.
+pub(crate) const A_PART: usize = 3;
+
+/// Share of a curve's square with which it stands in a neighbourhood.
+///
+/// Chosen: what stands in other passes too is judged by all of them. Not to be doubled; at a half,
+/// a curve of two passes is judged by one.
+pub(crate) const NEARLY_ALL: f64 = 0.9;

@@ -52,8 +52,7 @@ fn too_small(problem: &Problem, judged: &Judged, size_um: f64) -> Option<Refusal
 
 /// Refused when the model with an effect does no better on unseen data than without it.
 fn no_better_unseen(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
-    let more = Columns::of(problem, std::slice::from_ref(&judged.component)).ok()?;
-    let columns = now.columns.and(&more);
+    let columns = now.columns.and(&own_columns(problem, judged)?);
     let without = holdout_rms(problem, &now.columns, &now.fit.noises);
     let helps =
         helps_unseen(problem, (&columns, &judged.fit.noises), (&now.columns, &now.fit.noises));

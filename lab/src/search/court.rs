@@ -79,7 +79,9 @@ pub(crate) fn nobodys(problem: &Problem, steps: &[Step]) -> Vec<Structure> {
     let refused = last.tried.iter().zip(&last.refused);
     let found = refused.filter_map(|(judged, why)| match why {
         Refusal::Clock | Refusal::Angle { .. } => wave_of_nobody(problem, judged),
-        _ if why.is_of_the_name() => curve_of_nobody(problem, &last.state, judged),
+        _ if why.is_of_the_name() && judged.p_value < NO_ALL_CLEAR => {
+            curve_of_nobody(problem, &last.state, judged)
+        }
         _ => None,
     });
     found.filter(|structure| is_left(problem, &last.state.fit, structure)).collect()

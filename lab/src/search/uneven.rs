@@ -12,18 +12,14 @@ use crate::model::{Columns, Fit, Problem, Stage, State};
 use crate::noise::{Block, Whitener, fit_noise};
 use crate::numerics::least_squares::dot;
 use crate::numerics::{count, median};
-use crate::policy::chance::{ANOTHER_NOISE, NEIGHBOURHOOD, ROWS_A_LAG, UNEVEN_DEVIATIONS};
+use crate::policy::chance::{
+    A_PART, ANOTHER_NOISE, NEARLY_ALL, NEIGHBOURHOOD, ROWS_A_LAG, UNEVEN_DEVIATIONS,
+};
 
 /// Median of the square of a standard normal variable, and the square of the relative scatter of
 /// such a median of one value.
 const MEDIAN_OF_A_SQUARE: f64 = 0.455;
 const SCATTER_OF_MEDIAN: f64 = 5.4;
-
-/// The rows of a sensor against those of a neighbourhood.
-const A_PART: usize = 3;
-
-/// Share of a curve's square with which it stands on some rows.
-const NEARLY_ALL: f64 = 0.9;
 
 /// By what the variance of an effect's coefficient exceeds the model's, 1 where that is no more than
 /// scatter.
@@ -39,18 +35,19 @@ pub(crate) fn inflation(problem: &Problem, now: &State, columns: &Columns, fit: 
         }
     }
     let rows = problem.rows.len();
-    let size = dot(&curve[..rows], &curve[..rows]) * dot(&left[..rows], &left[..rows]);
+    let square = dot(&curve[..rows], &curve[..rows]);
+    let size = square * dot(&left[..rows], &left[..rows]);
     if size <= 0.0 {
         return 1.0;
     }
     let scale = (count(rows) / size).sqrt();
     let scores: Vec<f64> = (0..rows).map(|row| scale * curve[row] * left[row]).collect();
     let fourth: f64 = curve[..rows].iter().map(|value| value.powi(4)).sum();
-    let square = dot(&curve[..rows], &curve[..rows]);
     let stands_on = square * square / fourth;
-    let smoother =
-        along(problem, &scores, stands_on).max(beside(problem, &curve, &left, stands_on));
-    smoother.max(nearby(problem, now, fit, &curve[..rows]))
+    let along = along(problem, &scores, stands_on);
+    let Some(block) = block_of(problem, &curve[..rows]) else { return along };
+    let beside = beside(problem, block, (&curve, &left), stands_on);
+    along.max(beside).max(nearby(problem, block, now, fit, (&curve[..rows], square)))
 }
 
 /// The largest of the ratios over windows of 1, 2, 4 … lags that stands out of its scatter; `rows`
@@ -86,8 +83,7 @@ fn ratio(problem: &Problem, scores: &[f64], window: usize) -> f64 {
 /// curve took: how well the curve would follow it elsewhere in the pass.
 ///
 /// Elsewhere it is the median that counts, which another curve of that kind does not move.
-fn beside(problem: &Problem, curve: &[f64], left: &[f64], rows: f64) -> f64 {
-    let Some(block) = block_of(problem, curve) else { return 1.0 };
+fn beside(problem: &Problem, block: &Block, (curve, left): (&[f64], &[f64]), rows: f64) -> f64 {
     let noise = dot(left, left) / count(problem.rows.len());
     let (curve, left) = (&curve[block.rows.clone()], &left[block.rows.clone()]);
     if count(curve.len()) < ROWS_A_LAG * rows {
@@ -107,8 +103,13 @@ fn beside(problem: &Problem, curve: &[f64], left: &[f64], rows: f64) -> f64 {
 
 /// The same for a curve in whose neighbourhood the noise is another than on the whole: what it gains
 /// there under the one, over what it gains under the other.
-fn nearby(problem: &Problem, now: &State, fit: &Fit, curve: &[f64]) -> f64 {
-    let Some(block) = block_of(problem, curve) else { return 1.0 };
+fn nearby(
+    problem: &Problem,
+    block: &Block,
+    now: &State,
+    fit: &Fit,
+    (curve, square): (&[f64], f64),
+) -> f64 {
     let there = support(&curve[block.rows.clone()]);
     let start = block.rows.start;
     let reaches = [there.len().max(NEIGHBOURHOOD), block.rows.len()];
@@ -121,44 +122,33 @@ fn nearby(problem: &Problem, now: &State, fit: &Fit, curve: &[f64]) -> f64 {
     let of_sensor = problem.layout.blocks.iter().filter(|one| one.sensor == block.sensor);
     let rows_of_sensor: usize = of_sensor.map(|one| one.rows.len()).sum();
     let a_part = around.into_iter().filter(|rows| A_PART * rows.len() <= rows_of_sensor);
-    let all = dot(curve, curve);
     let stands = |rows: &Range<usize>| {
         let there = &curve[rows.clone()];
-        NEARLY_ALL * all <= dot(there, there)
+        NEARLY_ALL * square <= dot(there, there)
     };
     a_part
         .filter(stands)
-        .map(|rows| gained_apart(problem, now, fit, block.sensor, &rows))
+        .map(|rows| gained_apart(problem, now, fit, &Block { rows, ..block.clone() }))
         .fold(1.0, f64::max)
 }
 
-/// What a fit gains on some rows of a sensor under the noise of all, over its gain there under a
+/// What a fit gains on a part of a block under the noise of all, over its gain there under a
 /// noise of their own; 1 where they do not need one.
-fn gained_apart(
-    problem: &Problem,
-    now: &State,
-    fit: &Fit,
-    sensor: usize,
-    rows: &Range<usize>,
-) -> f64 {
-    let all = 0..problem.rows.len();
-    let keep: Vec<bool> = all.map(|row| rows.contains(&row)).collect();
-    let (mut layout, kept) = problem.layout.of_rows(&keep);
-    layout.blocks.retain(|block| !block.rows.is_empty());
-    layout.blocks.iter_mut().for_each(|block| block.sensor = 0);
-    let part = |left: &[f64]| kept.iter().map(|&row| left[row]).collect::<Vec<f64>>();
-    let (before, after) = (part(&now.fit.left), part(&fit.left));
-    let whitener = Whitener::new(&layout, &fit.noises[sensor..=sensor]);
+fn gained_apart(problem: &Problem, now: &State, fit: &Fit, part: &Block) -> f64 {
+    let layout = problem.layout.stretch(part.rows.clone(), part.pass);
+    let (before, after) = (&now.fit.left[part.rows.clone()], &fit.left[part.rows.clone()]);
+    let whitener = Whitener::new(&layout, &fit.noises[part.sensor..=part.sensor]);
     let under_all = |left: &[f64]| {
         let white = whitener.whiten(left);
         -0.5 * (dot(&white, &white) + whitener.log_determinant())
     };
-    let own = fit_noise(&layout, &after, None).log_likelihood;
-    if 2.0 * (own - under_all(&after)) < ANOTHER_NOISE {
+    let own = fit_noise(&layout, after, None).log_likelihood;
+    let with_it = under_all(after);
+    if 2.0 * (own - with_it) < ANOTHER_NOISE {
         return 1.0;
     }
-    let gained = under_all(&after) - under_all(&before);
-    let apart = own - fit_noise(&layout, &before, None).log_likelihood;
+    let gained = with_it - under_all(before);
+    let apart = own - fit_noise(&layout, before, None).log_likelihood;
     gained / apart.clamp(f64::MIN_POSITIVE, gained.max(f64::MIN_POSITIVE))
 }
 
