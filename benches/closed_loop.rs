@@ -9,7 +9,7 @@ use helixlock_sim::{Course, Options, simulate};
 pub(crate) fn closed_loop(criterion: &mut Criterion) {
     let path = Path::new("examples/sg7430-6mm/machine.toml");
     let machine = Model::read(path).expect("the example is a machine file");
-    let options = Options { length_mm: Some(10.0), ..Options::default() };
+    let options = Options { length_mm: Some(10.0) };
     let course = Course::new(&machine, &options).expect("the example can be simulated");
     let mut group = criterion.benchmark_group("closed_loop");
     group.throughput(Throughput::Elements(course.clocks())).sample_size(20);

@@ -37,7 +37,7 @@ from ._answers import (
 "#;
 
 /// Words of a simulation that only say what its waveform shows, which is a file.
-const WAVEFORM: &[&str] = &["scopes", "from", "to"];
+const WAVEFORM: &[&str] = &["scopes", "from", "to", "wave"];
 
 /// `UPDATE_EXPECT=1` writes the file anew.
 #[test]

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::io::Read;
 use std::path::Path;
 
 use helixlock_sim::device;
@@ -98,6 +99,52 @@ fn every_signal_of_the_device_is_in_the_dump() {
         .collect();
     assert_eq!((times.first(), times.last()), (Some(&500_000_000_000), Some(&500_500_000_000)));
     assert!((6_000..6_003).contains(&times.len()), "{}", times.len());
+}
+
+/// A millisecond of everything, in every form.
+#[test]
+fn a_compressed_waveform_is_the_same() {
+    let folder = scratch();
+    let [plain, compressed, packed] = ["vcd", "vcd.gz", "fst"].map(|form| {
+        let (out, out_word) = word(&folder, form);
+        let words = ["--scope", "all", "--from", "0.5", "--to", "0.501", "--wave", form];
+        assert_eq!(sim(&out_word, &words).status, 0, "{form}");
+        let view = fs::read_to_string(out.join("wave.gtkw")).unwrap();
+        assert!(view.starts_with(&format!("[dumpfile] \"wave.{form}\"\n")), "{view}");
+        out.join(format!("wave.{form}"))
+    });
+    let plain_bytes = fs::read(&plain).unwrap();
+    let mut unpacked = Vec::new();
+    flate2::read::GzDecoder::new(fs::File::open(&compressed).unwrap())
+        .read_to_end(&mut unpacked)
+        .unwrap();
+    assert!(unpacked == plain_bytes, "gzip gives back what was put in");
+    let [plain_wave, packed_wave] = [&plain, &packed].map(|path| {
+        let wave = wellen::simple::read(path).expect("wellen reads it");
+        (wave.hierarchy().all_vars().count(), wave.time_table().to_vec())
+    });
+    assert_eq!(plain_wave.0, packed_wave.0, "variables");
+    assert!(plain_wave.1.iter().all(|time| packed_wave.1.contains(time)), "instants");
+    let sizes = [&compressed, &packed].map(|path| fs::metadata(path).unwrap().len());
+    let most = plain_bytes.len() as u64 / 2;
+    assert!(sizes.iter().all(|size| *size < most), "{sizes:?} of {}", plain_bytes.len());
+}
+
+/// The waveform is on its way when the effect stops being finite; nothing of it stays, not even the
+/// folder.
+#[test]
+fn a_run_that_fails_late_leaves_nothing() {
+    let folder = scratch();
+    let text = fs::read_to_string(MACHINE).unwrap();
+    let (machine, machine_word) = word(&folder, "machine.toml");
+    put(
+        &machine,
+        &format!("{text}\n[[effect]]\nkind = 'custom'\nformula = 'sqrt(1.5-position_mm)'\n"),
+    );
+    let (out, out_word) = word(&folder, "out");
+    let run = helixlock(&["sim", &machine_word, "-o", &out_word, "--length", "2"]);
+    assert_eq!(run.status, 2, "{}", run.stdout);
+    assert!(!out.exists(), "{}", run.stderr);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use helixlock_traces::vcd::{Bit, Value};
-use helixlock_traces::{Tick, Variable, VcdReader, VcdWriter, read_capture};
+use helixlock_traces::{Dump, FstWriter, Tick, Variable, VcdReader, VcdWriter, read_capture};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -125,6 +125,21 @@ fn events() -> impl Strategy<Value = Vec<Event>> {
 }
 
 fn written(events: &[Event]) -> Vec<u8> {
+    let mut text = Vec::new();
+    record(events, |variables| VcdWriter::new(&mut text, Tick::PICOSECOND, variables));
+    text
+}
+
+/// The same packed, in many blocks.
+fn packed(events: &[Event]) -> Vec<u8> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    record(events, |variables| {
+        FstWriter::new(&mut bytes, Tick::PICOSECOND, variables).map(|fst| fst.in_blocks_of(600))
+    });
+    bytes.into_inner()
+}
+
+fn record<D: Dump>(events: &[Event], make: impl FnOnce(&[Variable]) -> std::io::Result<D>) {
     let names = [
         "device.laser",
         "device.counter.count",
@@ -139,9 +154,7 @@ fn written(events: &[Event]) -> Vec<u8> {
             width.map_or(Variable::real(*name), |width| Variable::bits(*name, width))
         })
         .collect();
-    let mut text = Vec::new();
-    let mut dump =
-        VcdWriter::new(&mut text, Tick::PICOSECOND, &variables).expect("memory takes it");
+    let mut dump = make(&variables).expect("memory takes it");
     for (variable, width) in WIDTHS.iter().enumerate() {
         set(&mut dump, variable, *width, 0, 0.0);
     }
@@ -152,16 +165,9 @@ fn written(events: &[Event]) -> Vec<u8> {
         set(&mut dump, event.variable, WIDTHS[event.variable], event.bits, event.number);
     }
     dump.finish(ticks + 1).expect("memory takes it");
-    text
 }
 
-fn set(
-    dump: &mut VcdWriter<&mut Vec<u8>>,
-    variable: usize,
-    width: Option<u32>,
-    bits: u64,
-    number: f64,
-) {
+fn set(dump: &mut impl Dump, variable: usize, width: Option<u32>, bits: u64, number: f64) {
     let done = match width {
         Some(_) => dump.bits(variable, bits),
         None => dump.real(variable, number),
@@ -170,7 +176,11 @@ fn set(
 }
 
 fn kept(bytes: &[u8]) -> tempfile::NamedTempFile {
-    let mut file = tempfile::Builder::new().suffix(".vcd").tempfile().expect("a file can be made");
+    kept_as(".vcd", bytes)
+}
+
+fn kept_as(suffix: &str, bytes: &[u8]) -> tempfile::NamedTempFile {
+    let mut file = tempfile::Builder::new().suffix(suffix).tempfile().expect("a file can be made");
     std::io::Write::write_all(&mut file, bytes).expect("the file can be written");
     file
 }
@@ -187,6 +197,13 @@ proptest! {
         let numbers = &contents["plant.error_um"];
         let last = events.iter().rev().find(|event| event.variable == 3).map_or(0.0, |event| event.number);
         prop_assert_eq!(&numbers.last().expect("a first value").1, &format!("{last:e}"));
+    }
+
+    /// Packed or not, a waveform is the same.
+    #[test]
+    fn our_packed_waveforms_are_our_dumps(events in events()) {
+        let [plain, fst] = [kept(&written(&events)), kept_as(".fst", &packed(&events))];
+        prop_assert_eq!(ours(plain.path()), wellens(fst.path()));
     }
 }
 
@@ -219,18 +236,29 @@ fn icarus_and_verilator_agree_once_the_counter_is_cleared() {
     }
 }
 
-#[test]
-fn our_dumps_survive_gtkwaves_own_tools() {
-    let events: Vec<_> = (0..200)
+/// A record of every variable, its numbers exact in the sixteen digits that `fst2vcd` prints.
+fn a_record() -> Vec<Event> {
+    (0..200)
         .map(|i: u64| Event {
             after_ticks: i % 3,
             variable: usize::try_from(i % 5).expect("small"),
             bits: i.wrapping_mul(0x9e37_79b9_7f4a_7c15),
-            // Exact in the sixteen digits that `fst2vcd` prints.
             number: f64::from(u32::try_from(i).expect("small")) / -64.0,
         })
-        .collect();
-    let file = kept(&written(&events));
+        .collect()
+}
+
+#[test]
+fn our_packed_waveforms_unpack_by_gtkwaves_own_tool() {
+    let fst = kept_as(".fst", &packed(&a_record()));
+    let path = fst.path().to_str().expect("a plain name");
+    let unpacked = kept(&run("fst2vcd", "gtkwave", &[path]));
+    assert_eq!(ours(kept(&written(&a_record())).path()), ours(unpacked.path()));
+}
+
+#[test]
+fn our_dumps_survive_gtkwaves_own_tools() {
+    let file = kept(&written(&a_record()));
     let folder = tempfile::tempdir().expect("a folder can be made");
     let fst = folder.path().join("wave.fst");
     let words = [file.path(), &fst].map(|path| path.to_str().expect("a plain name"));

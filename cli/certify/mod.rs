@@ -114,7 +114,7 @@ impl Certify {
             self.delay_sets(&machine)?.print(&CAMPAIGN, out)?;
             return Ok(ExitCode::SUCCESS);
         }
-        let options = Options { length_mm: self.length, ..Options::default() };
+        let options = Options { length_mm: self.length };
         let bar = progress::bar(Course::new(&machine, &options)?.clocks(), "clocks");
         let certificate = certify(&machine, self.length, &mut |clocks| bar.set_position(clocks))?;
         bar.finish_and_clear();

@@ -5,7 +5,7 @@
 //! file keeps its mode.
 
 use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::{BufWriter, Cursor, Seek, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
@@ -23,6 +23,11 @@ mod unfinished;
 pub(crate) use apart::apart;
 pub(crate) use commit::recover;
 
+/// What a file is filled through; some formats go back to their header.
+pub(crate) trait Output: Write + Seek {}
+
+impl<W: Write + Seek> Output for W {}
+
 /// Files of one folder that belong together: all of them appear, or none.
 #[derive(Debug)]
 pub(crate) struct Batch {
@@ -33,6 +38,18 @@ pub(crate) struct Batch {
     inside: Vec<(Unfinished, PathBuf)>,
     /// What a name of the folder leads to, elsewhere or not a file.
     outside: Vec<Outside>,
+    _folder: MadeFolder,
+}
+
+/// A folder that was made for files; it goes again if none came.
+#[derive(Debug)]
+struct MadeFolder(Option<PathBuf>);
+
+impl Drop for MadeFolder {
+    fn drop(&mut self) {
+        // The system keeps a folder that is not empty, which is what is wanted.
+        let _ = self.0.as_ref().map(std::fs::remove_dir);
+    }
 }
 
 /// An output that is no file of its folder.
@@ -49,9 +66,11 @@ impl Batch {
         folder: &Path,
         inputs: impl IntoIterator<Item = PathBuf>,
     ) -> anyhow::Result<Self> {
+        let made = MadeFolder((!folder.exists()).then(|| folder.to_owned()));
         make_folder(folder)?;
         recover(folder)?;
         Ok(Self {
+            _folder: made,
             folder: folder.to_owned(),
             inputs: inputs.into_iter().collect(),
             inside: Vec::new(),
@@ -70,7 +89,7 @@ impl Batch {
     pub(crate) fn write(
         &mut self,
         name: &str,
-        fill: impl FnOnce(&mut dyn Write) -> anyhow::Result<()>,
+        fill: impl FnOnce(&mut dyn Output) -> anyhow::Result<()>,
     ) -> anyhow::Result<()> {
         let path = self.folder.join(name);
         make_folder(path.parent().unwrap_or(&self.folder))?;
@@ -81,7 +100,7 @@ impl Batch {
         &mut self,
         name: PathBuf,
         path: &Path,
-        fill: impl FnOnce(&mut dyn Write) -> anyhow::Result<()>,
+        fill: impl FnOnce(&mut dyn Output) -> anyhow::Result<()>,
     ) -> anyhow::Result<()> {
         match Target::of(path, &self.inputs)? {
             Target::File { path: end, mode } if is_inside(&self.folder, path, &end) => {
@@ -95,9 +114,9 @@ impl Batch {
                 self.outside.push(Outside::File(whole, end));
             }
             Target::Stream(end) => {
-                let mut content = Vec::new();
+                let mut content = Cursor::new(Vec::new());
                 fill(&mut content).with_context(|| cannot(path))?;
-                self.outside.push(Outside::Stream(content, end));
+                self.outside.push(Outside::Stream(content.into_inner(), end));
             }
         }
         Ok(())
@@ -190,10 +209,11 @@ pub(crate) fn print_json(out: &mut impl Write, value: &impl Serialize) -> anyhow
 pub(crate) fn write_whole(
     path: &Path,
     inputs: impl IntoIterator<Item = PathBuf>,
-    fill: impl FnOnce(&mut dyn Write) -> anyhow::Result<()>,
+    fill: impl FnOnce(&mut dyn Output) -> anyhow::Result<()>,
 ) -> anyhow::Result<()> {
     let name = name_of(path)?;
     let mut batch = Batch {
+        _folder: MadeFolder(None),
         folder: folder_of(path).to_owned(),
         inputs: inputs.into_iter().collect(),
         inside: Vec::new(),
@@ -240,7 +260,7 @@ pub(crate) fn open_to_append(path: &Path) -> anyhow::Result<File> {
 fn filled(
     folder: &Path,
     path: &Path,
-    fill: impl FnOnce(&mut dyn Write) -> anyhow::Result<()>,
+    fill: impl FnOnce(&mut dyn Output) -> anyhow::Result<()>,
 ) -> anyhow::Result<Unfinished> {
     let whole = Unfinished::new(folder).with_context(|| cannot(path))?;
     let mut buffer = BufWriter::new(whole.file());

@@ -1,6 +1,7 @@
 //! `helixlock sim`: grinds a workpiece without and with the correction.
 
 mod page;
+mod recorded;
 mod summary;
 mod table;
 mod waveforms;
@@ -12,9 +13,10 @@ use std::process::ExitCode;
 use anyhow::Context;
 use clap::Args;
 use helixlock_plant::{At, Machine, Model};
-use helixlock_sim::{Course, Error, Options, Simulation, simulate, write_vcd};
+use helixlock_sim::{Course, Error, Options, Simulation, View, simulate};
 use helixlock_traces::csv::write_csv;
 
+use self::recorded::{Recorded, WaveFormat};
 use self::summary::Summary;
 use crate::shared::answer::{Answer, Answering};
 use crate::shared::browser::open_page;
@@ -31,7 +33,8 @@ const REPORT: &str = "report.html";
 
 /// Grind a workpiece clock by clock, without and with the correction
 ///
-/// Writes `trace.csv`, `wave.vcd`, `wave.gtkw`, `summary.json` and `report.html` into the folder.
+/// Writes `trace.csv`, `wave.vcd` (or `.vcd.gz`, `.fst`), `wave.gtkw`, `summary.json` and
+/// `report.html` into the folder.
 #[derive(Debug, Args)]
 pub(crate) struct Sim {
     /// Machine file
@@ -49,6 +52,9 @@ pub(crate) struct Sim {
     /// End of the waveform, s [default: five comparisons later]
     #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
     to: Option<f64>,
+    /// How the waveform is written
+    #[arg(long, value_enum, default_value = "vcd")]
+    wave: WaveFormat,
     /// Grind only the first so many millimetres
     #[arg(long, value_name = "MM", value_parser = length_mm, allow_hyphen_values = true)]
     length: Option<f64>,
@@ -67,13 +73,22 @@ impl Sim {
         let (machine, options) = (Model::read(&self.machine)?, self.options());
         let place = |error| in_file(&self.machine, error);
         let course = Course::new(&machine, &options).map_err(place)?;
+        let probe = course.probe(&machine, &self.view()).map_err(place)?;
         let bar = progress::bar(course.clocks(), "clocks");
         let mut progress = |clocks| bar.set_position(clocks);
-        let simulation = simulate(&machine, &options, &mut progress).map_err(place)?;
+        let mut files = Batch::new(output, machine_files(&self.machine, &machine))?;
+        let recorded = Recorded {
+            model: &machine,
+            options: &options,
+            probe: &probe,
+            clock_hz: course.clock_hz,
+            format: self.wave,
+        };
+        let simulation = recorded.run(&mut files, &mut progress)?.map_err(place)?;
         bar.finish_and_clear();
         let summary = Summary::new(&self.machine, &machine, &simulation, &simulation.findings());
-        let inputs = machine_files(&self.machine, &machine);
-        let files = Batch::new(output, inputs)?;
+        let view = table::gtkwave_view(self.wave.file_name(), &probe);
+        files.write_content("wave.gtkw", view)?;
         let written = write_files(files, &machine, &simulation, &summary)?;
         if self.json {
             print_json(out, &summary)?;
@@ -90,12 +105,11 @@ impl Sim {
     }
 
     fn options(&self) -> Options {
-        Options {
-            length_mm: self.length,
-            scopes: self.scopes.clone(),
-            from_s: self.from,
-            to_s: self.to,
-        }
+        Options { length_mm: self.length }
+    }
+
+    fn view(&self) -> View {
+        View { scopes: self.scopes.clone(), from_s: self.from, to_s: self.to }
     }
 }
 
@@ -113,7 +127,7 @@ impl Answering for Sim {
 /// Names the machine file where the fault is in it, and not in the words of the command.
 fn in_file(file: &Path, error: Error) -> anyhow::Error {
     match error {
-        Error::NoScope { .. } | Error::Window { .. } | Error::WaveformFull { .. } => error.into(),
+        Error::NoScope { .. } | Error::Window { .. } => error.into(),
         _ => anyhow::Error::new(error).context(At::file(file)),
     }
 }
@@ -127,11 +141,6 @@ fn write_files(
     let page = page::page(machine, simulation, summary)?;
     let trace = table::table(machine, simulation);
     files.write(TRACE, |mut file| Ok(write_csv(&trace, &mut file)?))?;
-    if let Some(waveform) = &simulation.closed.waveform {
-        let clock_hz = simulation.course.clock_hz;
-        files.write("wave.vcd", |file| Ok(write_vcd(file, waveform, clock_hz)?))?;
-        files.write_content("wave.gtkw", table::gtkwave_view(waveform))?;
-    }
     files.write_json("summary.json", summary)?;
     files.write_content(REPORT, page)?;
     files.kept()

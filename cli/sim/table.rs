@@ -1,9 +1,9 @@
-//! `trace.csv` and GTKWave's view of `wave.vcd`.
+//! `trace.csv` and GTKWave's view of the waveform.
 
 use std::fmt::Write;
 
 use helixlock_plant::Machine;
-use helixlock_sim::{ANALOGUE, SHOWN_FIRST, Simulation, Trace, Waveform};
+use helixlock_sim::{ANALOGUE, Probe, SHOWN_FIRST, Simulation, Trace, Waveform, device};
 use helixlock_traces::{Column, Table};
 
 use crate::shared::trace_column::trace_column;
@@ -37,13 +37,14 @@ fn columns_of(trace: &Trace, prefix: &str, rows: usize) -> Vec<Column> {
 }
 
 /// A save file for GTKWave: what a person looks for, the micrometres drawn as curves.
-pub(crate) fn gtkwave_view(waveform: &Waveform) -> String {
+pub(crate) fn gtkwave_view(file: &str, probe: &Probe) -> String {
     /// Flags of the format: hexadecimal and right-aligned; with them, a curve.
     const BITS: &str = "@22";
     const BIT: &str = "@28";
     const CURVE: &str = "@88022";
     const BLANK: &str = "@20000\n-\n-\n-";
-    let mut view = String::from("[dumpfile] \"wave.vcd\"\n");
+    let waveform = Waveform::new(device().netlist(), probe);
+    let mut view = format!("[dumpfile] \"{file}\"\n");
     let known = |path: &&str| waveform.signals.iter().find(|(known, _)| known == path);
     for (path, width) in SHOWN_FIRST.iter().filter_map(known) {
         let range = if *width == 1 { String::new() } else { format!("[{}:0]", width - 1) };

@@ -111,7 +111,7 @@ impl Sweep {
     }
 
     fn options(&self) -> Options {
-        Options { length_mm: self.length, ..Options::default() }
+        Options { length_mm: self.length }
     }
 
     fn plan(&self) -> anyhow::Result<Plan> {

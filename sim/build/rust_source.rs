@@ -10,6 +10,7 @@ mod lanes;
 mod outside;
 mod pieces;
 mod plan;
+mod signals;
 mod words;
 
 use helixlock_netlist::Netlist;
@@ -19,7 +20,9 @@ pub(crate) fn generate(netlist: &Netlist, name: &str) -> String {
     let item = format!(
         "/// Generated from the netlist.\n#[derive(Clone, Copy, Debug, Default)]\npub struct {name};\n\n"
     );
-    item + &dense::source(netlist, name) + &pieces::source(netlist, name)
+    item + &signals::source(netlist, name)
+        + &dense::source(netlist, name)
+        + &pieces::source(netlist, name)
 }
 
 /// Rust items that make of the `name` that [`generate`] defines a kernel of many copies too.

@@ -14,7 +14,7 @@ mod simulate;
 mod swing;
 #[cfg(test)]
 mod tests;
-mod vcd_file;
+mod waveform_file;
 
 pub use appraisal::{
     Hunting, LeadAppraisal, appraise_lead, fastest_um_per_s, measure_hunting, peak_to_peak,
@@ -28,11 +28,11 @@ pub(crate) use pass::{measuring, reset};
 pub use pins::{PULSE_CLOCKS, PulsePin, clock_of, time_of};
 #[cfg(test)]
 pub(crate) use probe::Recording;
-pub use probe::{Analogue, Change, Probe, Waveform, signals_of};
+pub use probe::{Analogue, Change, Probe, Seen, Watch, Waveform, signals_of};
 pub use process::{Place, Process};
 pub(crate) use recorder::reading_um;
 pub use recorder::{Comparison, Recorder, unwrap_um};
 pub(crate) use simulate::ready;
-pub use simulate::{Course, Options, Simulation, simulate};
+pub use simulate::{Course, Options, Simulation, View, simulate, simulate_watched};
 pub use swing::{Progress, Swing};
-pub use vcd_file::{ANALOGUE, SHOWN_FIRST, write_vcd};
+pub use waveform_file::{ANALOGUE, SHOWN_FIRST, TICK, WaveformFile, write_vcd};

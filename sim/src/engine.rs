@@ -18,6 +18,7 @@
 
 #[cfg(test)]
 mod agreement;
+mod all_signals;
 mod circuit;
 mod compiled;
 mod interpreted_pieces;
@@ -41,6 +42,7 @@ use helixlock_netlist::{Netlist, SignalId};
 
 #[cfg(test)]
 pub(crate) use agreement::compare;
+pub use all_signals::AllSignals;
 pub use circuit::Circuit;
 pub use compiled::{Compiled, DenseKernel};
 pub use interpreted_pieces::InterpretedPieces;
@@ -83,6 +85,12 @@ pub trait Engine {
 
     /// The value of any signal, settled.
     fn value(&mut self, signal: SignalId) -> u64;
+
+    /// The values of several signals, settled, instead of what `values` held.
+    fn values(&mut self, signals: &[SignalId], values: &mut Vec<u64>) {
+        values.clear();
+        values.extend(signals.iter().map(|signal| self.value(*signal)));
+    }
 
     /// Takes one rising edge.
     fn step(&mut self);

@@ -68,6 +68,9 @@ pub enum Error {
         /// How far they reach, s.
         time_s: f64,
     },
+    /// Who was told the waveform could not take it.
+    #[error("the waveform was not taken")]
+    NotTaken(#[source] std::io::Error),
     /// The window shows nothing of the run.
     #[error("window from {from_s} s to {to_s} s: expected a part of 0 s to {end_s} s")]
     Window {

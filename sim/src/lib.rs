@@ -14,18 +14,19 @@ pub use campaigns::{
 pub use closed_loop::{
     ANALOGUE, Analogue, Change, ClosedLoop, Comparison, Course, Findings, Grinder, Hunting,
     Illustrations, LeadAppraisal, Options, PULSE_CLOCKS, Pass, PassFindings, PassPlan, Place,
-    Playback, Probe, Process, Progress, PulsePin, Recorder, SHOWN_FIRST, Sample, Simulation, Swing,
-    Trace, Waveform, appraise_lead, clock_of, fastest_um_per_s, illustrate, measure_hunting,
-    peak_to_peak, run_pass, signals_of, simulate, time_of, unwrap_um, write_vcd,
+    Playback, Probe, Process, Progress, PulsePin, Recorder, SHOWN_FIRST, Sample, Seen, Simulation,
+    Swing, TICK, Trace, View, Watch, Waveform, WaveformFile, appraise_lead, clock_of,
+    fastest_um_per_s, illustrate, measure_hunting, peak_to_peak, run_pass, signals_of, simulate,
+    simulate_watched, time_of, unwrap_um, write_vcd,
 };
 pub use device::{
     DeviceEngine, DeviceKernel, DevicePins, Dialled, device, device_engine, device_lanes, library,
     set_wheels, settings_for, stepped_device,
 };
 pub use engine::{
-    Circuit, Coasting, Compiled, DenseKernel, Engine, FlipFlops, InterpretedPieces, Interpreter,
-    Kernel, LANE_WORDS, LANES, Lane, LaneKernel, Lanes, Leap, Moment, Snapshot, SnapshotError,
-    Stop, Vector, differences,
+    AllSignals, Circuit, Coasting, Compiled, DenseKernel, Engine, FlipFlops, InterpretedPieces,
+    Interpreter, Kernel, LANE_WORDS, LANES, Lane, LaneKernel, Lanes, Leap, Moment, Snapshot,
+    SnapshotError, Stop, Vector, differences,
 };
 pub use error::{Error, SettingsError};
 pub use historic::{Delays, TTL};

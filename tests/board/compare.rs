@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::BufWriter;
 
 use helixlock_plant::Model;
-use helixlock_traces::{Tick, Variable, VcdWriter};
+use helixlock_traces::{Dump, Tick, Variable, VcdWriter};
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;

@@ -11,4 +11,4 @@ pub use ::vcd::Value as Bit;
 
 pub use reader::{Change, Signal, Value, VcdReader};
 pub use tick::Tick;
-pub use writer::{Variable, VcdWriter};
+pub use writer::VcdWriter;

@@ -80,7 +80,7 @@ pub fn final_check(
 fn run(model: &Model, end_mm: f64) -> Result<Simulation, Error> {
     let mut model = model.clone();
     model.machine.loop_closed = true;
-    let options = Options { length_mm: Some(end_mm), ..Options::default() };
+    let options = Options { length_mm: Some(end_mm) };
     simulate(&model, &options, &mut |_| {})
 }
 

@@ -125,7 +125,11 @@ fn outputs(netlist: &Netlist) -> Vec<String> {
 }
 
 /// Places the inputs and registers that `roots` depend on, and no others.
-fn place_sources(words: &mut Words, netlist: &Netlist, roots: impl Iterator<Item = SignalId>) {
+pub(super) fn place_sources(
+    words: &mut Words,
+    netlist: &Netlist,
+    roots: impl Iterator<Item = SignalId>,
+) {
     let drivers = Drivers::new(netlist);
     for end in drivers.ends(roots, |_| false) {
         match drivers.of(end) {

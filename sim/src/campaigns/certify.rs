@@ -100,7 +100,7 @@ pub fn certify(
     length_mm: Option<f64>,
     progress: &mut dyn FnMut(u64),
 ) -> Result<Certificate, Error> {
-    let course = Course::new(model, &Options { length_mm, ..Options::default() })?;
+    let course = Course::new(model, &Options { length_mm })?;
     let (settings, clock_hz) = (course.dialled.settings, course.clock_hz());
     let grinder = Grinder::new(model, course.length_mm)?;
     let open = open::run_open(&settings, grinder, clock_hz, course.duration_s, progress)?;

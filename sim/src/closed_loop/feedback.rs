@@ -116,10 +116,10 @@ impl<E: Engine, P: Process> ClosedLoop<E, P> {
         self.recording.take().map(|recording| recording.waveform)
     }
 
-    /// True between [`ClosedLoop::begin_recording`] and [`ClosedLoop::end_recording`].
-    #[must_use]
-    pub fn is_recording(&self) -> bool {
-        self.recording.is_some()
+    /// What has been seen so far, between [`ClosedLoop::begin_recording`] and
+    /// [`ClosedLoop::end_recording`].
+    pub(crate) fn recorded(&mut self) -> Option<&mut Waveform> {
+        self.recording.as_mut().map(|recording| &mut recording.waveform)
     }
 
     /// Where the machine is now.

@@ -4,7 +4,7 @@ use helixlock_plant::LowPass;
 
 use super::feedback::ClosedLoop;
 use super::pins::{clock_of, time_of};
-use super::probe::{Probe, Waveform};
+use super::probe::{Probe, Watch};
 use super::process::Process;
 use super::recorder::unwrap_um;
 use crate::Error;
@@ -17,9 +17,12 @@ const RESET_CLOCKS: u64 = 16;
 /// Clocks between two words to whoever shows the progress: a tenth of a second at 12 MHz.
 const PROGRESS_CLOCKS: u64 = 1_200_000;
 
+/// Clocks of one piece of a waveform: if each of some 300 signals changed at each of them, 60 MB.
+const PIECE_CLOCKS: u64 = 8_192;
+
 /// What to do in a pass.
 #[derive(Clone, Copy, Debug)]
-pub struct PassPlan<'a> {
+pub struct PassPlan {
     /// FPGA clock, Hz.
     pub clock_hz: f64,
     /// When the pass ends, s.
@@ -32,8 +35,6 @@ pub struct PassPlan<'a> {
     pub correct: bool,
     /// After the pass, steps are played back until the counter is zero; gives up after this, s.
     pub playback_s: Option<f64>,
-    /// Signals to look at.
-    pub probe: Option<&'a Probe>,
 }
 
 /// Columns of equal length, one row a comparison.
@@ -58,8 +59,6 @@ pub struct Trace {
 pub struct Pass {
     /// One row a comparison.
     pub trace: Trace,
-    /// Signals looked at, if any.
-    pub waveform: Option<Waveform>,
     /// Clocks simulated, playback included.
     pub clocks: u64,
     /// Steps taken in the pass, either way.
@@ -87,20 +86,22 @@ pub struct Playback {
 
 /// Runs a pass on an engine at power-up whose settings are on its inputs.
 ///
-/// `progress` is told how many clocks are done.
+/// `watch` is told what it looks at, `progress` how many clocks are done.
 ///
 /// # Errors
 ///
-/// [`Error::PulsesTooFast`], or [`Error::NoSignal`] when the engine does not run the device.
+/// [`Error::PulsesTooFast`], [`Error::NoSignal`] when the engine does not run the device, or what
+/// `watch` answers.
 pub fn run_pass<E: Engine>(
     engine: E,
     process: impl Process,
     plan: PassPlan,
+    watch: Option<Watch<'_>>,
     progress: &mut dyn FnMut(u64),
 ) -> Result<Pass, Error> {
     let mut device = ClosedLoop::new(engine, process, plan.clock_hz, plan.full_scale_um)?;
     let end = clock_of(plan.end_s, plan.clock_hz);
-    let mut course = Course { probe: plan.probe, waveform: None, progress };
+    let mut course = Course { watch, progress };
     reset(&mut device)?;
     device.set_moving()?;
     course.run(&mut device, end, Some(measuring))?;
@@ -108,14 +109,14 @@ pub fn run_pass<E: Engine>(
     device.engine().set_input(pins.correct, u64::from(plan.correct));
     course.run(&mut device, end, None)?;
     // A window that ends with the pass must not see the playback.
-    let waveform = course.waveform.or_else(|| device.end_recording());
+    device.end_recording();
     device.hold();
     let (steps_taken, steps_net) = (device.steps_taken, device.steps);
     let playback = plan.playback_s.map(|limit_s| play_back(&mut device, limit_s)).transpose()?;
     let (trace, jumps) = read_out(&device, &plan);
     let fault = device.fault_seen;
     let clocks = device.engine().clock();
-    Ok(Pass { trace, waveform, clocks, steps_taken, steps_net, jumps, fault, playback })
+    Ok(Pass { trace, clocks, steps_taken, steps_net, jumps, fault, playback })
 }
 
 /// Clears the device and lets the initial phase selection wait for its first laser pulse.
@@ -134,14 +135,13 @@ pub(crate) fn measuring<E: Engine>(engine: &mut E, pins: DevicePins) -> bool {
     engine.value(pins.measuring) == 1
 }
 
-/// A run in pieces: progress is told and the window of the probe begins and ends between them.
-struct Course<'a> {
-    probe: Option<&'a Probe>,
-    waveform: Option<Waveform>,
-    progress: &'a mut dyn FnMut(u64),
+/// A run in pieces: between them progress is told, and what has been seen.
+struct Course<'a, 'b> {
+    watch: Option<Watch<'a>>,
+    progress: &'b mut dyn FnMut(u64),
 }
 
-impl Course<'_> {
+impl Course<'_, '_> {
     fn run<E: Engine, P: Process>(
         &mut self,
         device: &mut ClosedLoop<E, P>,
@@ -157,27 +157,35 @@ impl Course<'_> {
             }
             self.open_or_close_window(device, now);
             device.run_until(self.next_mark(now).min(end), is_enough)?;
-            (self.progress)(device.engine().clock());
+            self.tell(device)?;
         }
     }
 
-    fn open_or_close_window<E: Engine, P: Process>(
-        &mut self,
-        device: &mut ClosedLoop<E, P>,
-        now: u64,
-    ) {
-        let Some(probe) = self.probe else { return };
-        if probe.window.contains(&now) && !device.is_recording() && self.waveform.is_none() {
-            device.begin_recording(probe.clone());
-        } else if probe.window.end <= now && device.is_recording() {
-            self.waveform = device.end_recording();
+    fn tell<E: Engine, P: Process>(&mut self, device: &mut ClosedLoop<E, P>) -> Result<(), Error> {
+        (self.progress)(device.engine().clock());
+        if let (Some(watch), Some(piece)) = (&mut self.watch, device.recorded()) {
+            (watch.seen)(piece).map_err(Error::NotTaken)?;
+            piece.clear();
+        }
+        Ok(())
+    }
+
+    fn open_or_close_window<E: Engine, P: Process>(&self, device: &mut ClosedLoop<E, P>, now: u64) {
+        let Some(Watch { probe, .. }) = &self.watch else { return };
+        let (within, recording) = (probe.window.contains(&now), device.recorded().is_some());
+        if within && !recording {
+            device.begin_recording((*probe).clone());
+        } else if !within && recording {
+            device.end_recording();
         }
     }
 
     fn next_mark(&self, now: u64) -> u64 {
-        let window = self.probe.map(|probe| &probe.window);
-        let ends = window.into_iter().flat_map(|window| [window.start, window.end]);
-        ends.filter(|&end| now < end).fold(now + PROGRESS_CLOCKS, u64::min)
+        let Some(Watch { probe: Probe { window, .. }, .. }) = &self.watch else {
+            return now + PROGRESS_CLOCKS;
+        };
+        let piece = if window.contains(&now) { PIECE_CLOCKS } else { PROGRESS_CLOCKS };
+        [window.start, window.end].into_iter().filter(|&end| now < end).fold(now + piece, u64::min)
     }
 }
 

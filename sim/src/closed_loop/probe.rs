@@ -1,6 +1,10 @@
 //! Which signals, which window: every change of the chosen signals, clock by clock.
+//!
+//! A record is held whole by [`Waveform`], or handed on in pieces by [`Watch`].
 
 use std::collections::BTreeSet;
+use std::fmt;
+use std::io;
 use std::ops::Range;
 
 use helixlock_netlist::{Netlist, SignalId};
@@ -17,7 +21,25 @@ pub struct Probe {
     pub window: Range<u64>,
 }
 
-/// Most changes a waveform holds: about half a gigabyte.
+/// What is told each piece of a waveform.
+pub type Seen<'a> = &'a mut dyn FnMut(&Waveform) -> io::Result<()>;
+
+/// Somebody who looks at a run while it goes on, and is told piece by piece, so that no window is
+/// too long.
+pub struct Watch<'a> {
+    /// What to look at.
+    pub probe: &'a Probe,
+    /// Gets the pieces in the order of time; the first holds the value of every signal.
+    pub seen: Seen<'a>,
+}
+
+impl fmt::Debug for Watch<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Watch").field("probe", self.probe).finish_non_exhaustive()
+    }
+}
+
+/// Most changes a waveform holds in memory: about half a gigabyte.
 const MOST_CHANGES: usize = 20_000_000;
 
 /// A change of one signal.
@@ -46,7 +68,7 @@ pub struct Analogue {
     pub error_um: f64,
 }
 
-/// Bits and micrometres of a window, complete: every signal at its first clock, then each change.
+/// Bits and micrometres of a window: every signal at its first clock, then each change.
 #[derive(Clone, Debug, Default)]
 pub struct Waveform {
     /// Signals looked at: path and width in bits.
@@ -104,6 +126,12 @@ impl Waveform {
             ..Self::default()
         }
     }
+
+    /// Forgets what has been seen, not what is looked at.
+    pub(crate) fn clear(&mut self) {
+        self.changes.clear();
+        self.analogue.clear();
+    }
 }
 
 /// Fills a [`Waveform`] as the run goes on.
@@ -111,26 +139,28 @@ impl Waveform {
 pub(crate) struct Recording {
     pub(crate) probe: Probe,
     pub(crate) waveform: Waveform,
-    last: Vec<Option<u64>>,
+    /// Values of the signals; none before the first sample.
+    last: Vec<u64>,
+    now: Vec<u64>,
 }
 
 impl Recording {
     pub(crate) fn new(netlist: &Netlist, probe: Probe) -> Self {
         let waveform = Waveform::new(netlist, &probe);
-        let last = vec![None; probe.signals.len()];
-        Self { probe, waveform, last }
+        Self { probe, waveform, last: Vec::new(), now: Vec::new() }
     }
 
     /// Notes what has changed, at most once a clock, when inputs and flip-flops are settled; false
     /// when the waveform is full.
     pub(crate) fn sample(&mut self, engine: &mut impl Engine, analogue: Analogue) -> bool {
         let clock = engine.clock();
-        for (signal, (&id, last)) in self.probe.signals.iter().zip(&mut self.last).enumerate() {
-            let value = engine.value(id);
-            if last.replace(value) != Some(value) {
+        engine.values(&self.probe.signals, &mut self.now);
+        for (signal, &value) in self.now.iter().enumerate() {
+            if self.last.get(signal) != Some(&value) {
                 self.waveform.changes.push(Change { clock, signal, value });
             }
         }
+        std::mem::swap(&mut self.last, &mut self.now);
         let differs = |before: &Analogue| Analogue { clock: before.clock, ..analogue } != *before;
         if self.waveform.analogue.last().is_none_or(differs) {
             self.waveform.analogue.push(analogue);

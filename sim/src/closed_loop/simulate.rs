@@ -1,15 +1,15 @@
 //! A machine file in, two passes out: without and with the correction.
 
-use helixlock_netlist::Netlist;
 use helixlock_plant::{LowPass, Machine, Model};
 
 use super::grinder::Grinder;
 use super::pass::{Pass, PassPlan, Trace, run_pass};
 use super::pins::clock_of;
-use super::probe::{Probe, signals_of};
+use super::probe::{Probe, Watch, signals_of};
 use crate::Error;
-use crate::device::{DeviceEngine, Dialled, device_engine, dividers_fit, set_wheels, settings_for};
-use crate::engine::Engine;
+use crate::device::{
+    DeviceEngine, Dialled, device, device_engine, dividers_fit, set_wheels, settings_for,
+};
 
 /// Comparisons that the waveform shows unless told otherwise, after the initial phase selection.
 const COMPARISONS_SHOWN: f64 = 5.0;
@@ -22,11 +22,16 @@ const MOST_STEPS: f64 = 4096.0;
 pub struct Options {
     /// Only this much of the workpiece, from its beginning, mm.
     pub length_mm: Option<f64>,
-    /// Scopes of the waveform; none for no waveform.
+}
+
+/// What a waveform shows.
+#[derive(Clone, Debug, Default)]
+pub struct View {
+    /// Scopes, as [`signals_of`] takes them.
     pub scopes: Vec<String>,
-    /// Window of the waveform, s; by default the beginning of the pass.
+    /// Begin of the window, s; by default the beginning of the pass.
     pub from_s: Option<f64>,
-    /// Its end, s.
+    /// Its end, s; by default five comparisons later.
     pub to_s: Option<f64>,
 }
 
@@ -106,7 +111,7 @@ impl Course {
         self.clock_hz as f64
     }
 
-    fn plan<'a>(&self, machine: &Machine, correct: bool, probe: Option<&'a Probe>) -> PassPlan<'a> {
+    fn plan(&self, machine: &Machine, correct: bool) -> PassPlan {
         let playback_s = MOST_STEPS / self.dialled.step_frequency_hz;
         PassPlan {
             clock_hz: self.clock_hz(),
@@ -115,40 +120,34 @@ impl Course {
             cutoff_hz: machine.filter_cutoff_hz,
             correct,
             playback_s: correct.then_some(playback_s),
-            probe,
         }
     }
 
-    /// What the waveform shows.
-    fn probe(
-        &self,
-        machine: &Machine,
-        netlist: &Netlist,
-        options: &Options,
-    ) -> Result<Option<Probe>, Error> {
-        if options.scopes.is_empty() {
-            return Ok(None);
-        }
+    /// The signals and clocks that a view means.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NoScope`], or [`Error::Window`] when it shows nothing of the run.
+    pub fn probe(&self, machine: &Machine, view: &View) -> Result<Probe, Error> {
         let selecting_s = f64::from(machine.dividers.initial_phase) * machine.fringe_um()
             / (1000.0 * machine.travel_mm_per_s());
-        let from_s = options.from_s.unwrap_or(0.0);
+        let from_s = view.from_s.unwrap_or(0.0);
         let shown_s = COMPARISONS_SHOWN / self.comparison_hz;
-        let selecting_s = if options.from_s.is_some() { 0.0 } else { selecting_s };
-        let to_s = options.to_s.unwrap_or(from_s + selecting_s + shown_s).min(self.duration_s);
+        let selecting_s = if view.from_s.is_some() { 0.0 } else { selecting_s };
+        let to_s = view.to_s.unwrap_or(from_s + selecting_s + shown_s).min(self.duration_s);
         if !(0.0 <= from_s && from_s < to_s) {
             return Err(Error::Window { from_s, to_s, end_s: self.duration_s });
         }
         // The nearest clock: half a clock more, rounded down.
         let nearest = |time_s: f64| clock_of(time_s + 0.5 / self.clock_hz(), self.clock_hz());
         let window = nearest(from_s)..nearest(to_s);
-        Ok(Some(Probe { signals: signals_of(netlist, &options.scopes)?, window }))
+        Ok(Probe { signals: signals_of(device().netlist(), &view.scopes)?, window })
     }
 }
 
 /// Grinds the workpiece twice, without and with the correction, clock by clock.
 ///
-/// The waveform is that of the closed loop. `progress` is told how many of [`Course::clocks`] are
-/// done.
+/// `progress` is told how many of [`Course::clocks`] are done.
 ///
 /// # Errors
 ///
@@ -158,17 +157,29 @@ pub fn simulate(
     options: &Options,
     progress: &mut dyn FnMut(u64),
 ) -> Result<Simulation, Error> {
+    simulate_watched(model, options, None, progress)
+}
+
+/// The same; `watch` is told the waveform of the closed loop.
+///
+/// # Errors
+///
+/// As [`simulate`], or what `watch` answers.
+pub fn simulate_watched(
+    model: &Model,
+    options: &Options,
+    watch: Option<Watch<'_>>,
+    progress: &mut dyn FnMut(u64),
+) -> Result<Simulation, Error> {
     let course = Course::new(model, options)?;
-    let plan = course.plan(model, false, None);
     let grinder = Grinder::new(model, course.length_mm)?;
     let left_out = grinder.left_out().to_vec();
-    let mut open = run_pass(ready(&course)?, grinder, plan, progress)?;
+    let mut open = run_pass(ready(&course)?, grinder, course.plan(model, false), None, progress)?;
     let done = open.clocks;
-    let engine = ready(&course)?;
-    let probe = course.probe(model, engine.netlist(), options)?;
-    let plan = course.plan(model, true, probe.as_ref());
+    let plan = course.plan(model, true);
     let grinder = Grinder::new(model, course.length_mm)?;
-    let mut closed = run_pass(engine, grinder, plan, &mut |now| progress(done + now))?;
+    let mut progress = |now| progress(done + now);
+    let mut closed = run_pass(ready(&course)?, grinder, plan, watch, &mut progress)?;
     if open.trace.time_s.is_empty() || closed.trace.time_s.is_empty() {
         return Err(Error::NoComparison { length_mm: course.length_mm });
     }

@@ -90,21 +90,6 @@ impl Circuit {
         (0..self.partition.counters.len()).filter(shown).collect()
     }
 
-    /// Values of all signals for given inputs and registers.
-    pub(crate) fn evaluate(&self, inputs: &[u64], registers: &[u64]) -> Vec<u64> {
-        let mut values = vec![0; self.netlist.signals.len()];
-        for (input, value) in self.netlist.inputs.iter().zip(inputs) {
-            values[input.0 as usize] = *value;
-        }
-        for (register, value) in self.netlist.registers.iter().zip(registers) {
-            values[register.output.0 as usize] = *value;
-        }
-        for assignment in &self.netlist.assignments {
-            values[assignment.target.0 as usize] = assignment.value.evaluate(&values);
-        }
-        values
-    }
-
     /// Index of an input in port order.
     ///
     /// # Panics

@@ -2,12 +2,13 @@
 
 use helixlock_netlist::{Netlist, SignalId};
 
+use super::all_signals::{AllSignals, Evaluated};
 use super::circuit::{Circuit, Place};
 use super::state::{FlipFlops, Snapshot, pack, unpack};
 use super::{Engine, Stop};
 
 /// Straight-line code for a whole design.
-pub trait DenseKernel {
+pub trait DenseKernel: AllSignals + Default {
     /// One word an input.
     type Inputs: AsRef<[u64]> + AsMut<[u64]> + Clone + std::fmt::Debug;
     /// One word a register.
@@ -48,7 +49,7 @@ pub struct Compiled<'a, K: DenseKernel> {
     /// Indices of the watched signals among the outputs, if they all are.
     watched_outputs: Option<Vec<usize>>,
     outputs: Vec<u64>,
-    evaluated: Option<Vec<u64>>,
+    evaluated: Evaluated,
 }
 
 impl<'a, K: DenseKernel> Compiled<'a, K> {
@@ -67,7 +68,7 @@ impl<'a, K: DenseKernel> Compiled<'a, K> {
             watched: Vec::new(),
             watched_outputs: Some(Vec::new()),
             outputs: vec![0; netlist.outputs.len()],
-            evaluated: None,
+            evaluated: Evaluated::new(circuit),
         }
     }
 
@@ -81,7 +82,7 @@ impl<'a, K: DenseKernel> Compiled<'a, K> {
             K::step(&self.inputs, &mut self.registers, &mut self.kept);
         }
         self.clock += clocks;
-        self.evaluated = None;
+        self.evaluated.forget();
     }
 
     fn watched_values(&mut self) -> Vec<u64> {
@@ -108,7 +109,7 @@ impl<K: DenseKernel> Engine for Compiled<'_, K> {
         let index = self.circuit.input_index(input, value);
         let before = std::mem::replace(&mut self.inputs.as_mut()[index], value);
         self.stale |= before != value && K::KEPT_FROM[index];
-        self.evaluated = None;
+        self.evaluated.forget();
     }
 
     fn value(&mut self, signal: SignalId) -> u64 {
@@ -116,10 +117,11 @@ impl<K: DenseKernel> Engine for Compiled<'_, K> {
             Place::Input(index) => self.inputs.as_ref()[index],
             Place::Register(index) => self.registers.as_ref()[index],
             Place::Net(_) | Place::Logic => {
-                let evaluated = self.evaluated.take().unwrap_or_else(|| {
-                    self.circuit.evaluate(self.inputs.as_ref(), self.registers.as_ref())
-                });
-                self.evaluated.insert(evaluated)[signal.0 as usize]
+                if !self.evaluated.is_fresh() {
+                    let (inputs, registers) = (self.inputs.as_ref(), self.registers.as_ref());
+                    self.evaluated.renew(&K::default(), inputs, registers);
+                }
+                self.evaluated.values()[signal.0 as usize]
             }
         }
     }
@@ -165,6 +167,6 @@ impl<K: DenseKernel> Engine for Compiled<'_, K> {
         self.registers.as_mut().copy_from_slice(&registers);
         self.clock = snapshot.clock;
         self.stale = true;
-        self.evaluated = None;
+        self.evaluated.forget();
     }
 }

@@ -5,6 +5,7 @@ use std::fmt;
 use helixlock_netlist::Expression;
 use helixlock_netlist::partition::{Source, Task};
 
+use super::all_signals::AllSignals;
 use super::circuit::Circuit;
 use super::moment::{Coasting, Kernel, Moment};
 
@@ -73,6 +74,21 @@ impl InterpretedPieces<'_> {
         let input = self.0.netlist().registers[piece.counter.register].input;
         let value = self.values(&piece.load, now)[input.0 as usize];
         now.load(index, value);
+    }
+}
+
+impl AllSignals for InterpretedPieces<'_> {
+    fn signals(&self, inputs: &[u64], registers: &[u64], values: &mut [u64]) {
+        let netlist = self.0.netlist();
+        for (input, value) in netlist.inputs.iter().zip(inputs) {
+            values[input.0 as usize] = *value;
+        }
+        for (register, value) in netlist.registers.iter().zip(registers) {
+            values[register.output.0 as usize] = *value;
+        }
+        for assignment in &netlist.assignments {
+            values[assignment.target.0 as usize] = assignment.value.evaluate(values);
+        }
     }
 }
 

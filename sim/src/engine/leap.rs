@@ -16,6 +16,7 @@
 
 use helixlock_netlist::{Netlist, SignalId};
 
+use super::all_signals::Evaluated;
 use super::circuit::{Circuit, Place};
 use super::moment::{Kernel, Moment};
 use super::state::{FlipFlops, Snapshot, pack, unpack};
@@ -29,12 +30,14 @@ pub struct Leap<'a, K: Kernel> {
     now: Moment<K>,
     /// One bit a watched net.
     watched_nets: Vec<u64>,
-    /// Watched signals that are no nets, with the values they had.
-    watched_others: Vec<(SignalId, u64)>,
+    /// Watched signals that are no nets.
+    watched_others: Vec<SignalId>,
+    /// Values they had.
+    others: Vec<u64>,
     /// Counters that a watched signal shows as they are: it changes whenever they move.
     watched_counters: Vec<usize>,
     /// All signals at this moment, when somebody asked for one that is kept nowhere.
-    evaluated: Option<Vec<u64>>,
+    evaluated: Evaluated,
 }
 
 impl<'a, K: Kernel> Leap<'a, K> {
@@ -50,8 +53,9 @@ impl<'a, K: Kernel> Leap<'a, K> {
             now,
             watched_nets: vec![0; nets],
             watched_others: Vec::new(),
+            others: Vec::new(),
             watched_counters: Vec::new(),
-            evaluated: None,
+            evaluated: Evaluated::new(circuit),
         };
         for (index, register) in circuit.netlist().registers.iter().enumerate() {
             leap.now.slots.as_mut()[circuit.register_slot(index)] = register.initial;
@@ -63,7 +67,7 @@ impl<'a, K: Kernel> Leap<'a, K> {
     fn start(&mut self, clock: u64) {
         let partition = self.circuit.partition();
         self.now.start(clock, partition.nets.len(), partition.groups.len());
-        self.evaluated = None;
+        self.evaluated.forget();
     }
 
     fn settle(&mut self) {
@@ -98,19 +102,26 @@ impl<'a, K: Kernel> Leap<'a, K> {
         self.now.settle(&self.kernel);
     }
 
+    fn evaluate(&mut self) -> &[u64] {
+        if !self.evaluated.is_fresh() {
+            let registers = self.registers();
+            let inputs = &self.now.slots.as_ref()[..self.circuit.netlist().inputs.len()];
+            self.evaluated.renew(&self.kernel, inputs, &registers);
+        }
+        self.evaluated.values()
+    }
+
     fn watched_net_changed(&self) -> bool {
         let changed = self.now.changed.as_ref().iter();
         changed.zip(&self.watched_nets).any(|(changed, watched)| changed & watched != 0)
     }
 
     fn note_watched_others(&mut self) -> bool {
-        let mut others = std::mem::take(&mut self.watched_others);
-        let mut changed = false;
-        for (signal, value) in &mut others {
-            let before = std::mem::replace(value, self.value(*signal));
-            changed |= *value != before;
-        }
-        self.watched_others = others;
+        let signals = std::mem::take(&mut self.watched_others);
+        let mut now = Vec::with_capacity(signals.len());
+        self.values(&signals, &mut now);
+        let changed = now != self.others;
+        (self.watched_others, self.others) = (signals, now);
         changed
     }
 }
@@ -130,7 +141,7 @@ impl<K: Kernel> Engine for Leap<'_, K> {
         if *slot != value {
             *slot = value;
             self.kernel.input_changed(index, &mut self.now);
-            self.evaluated = None;
+            self.evaluated.forget();
         }
     }
 
@@ -140,18 +151,24 @@ impl<K: Kernel> Engine for Leap<'_, K> {
             Place::Input(index) => self.now.slots.as_ref()[index],
             Place::Register(index) => self.register(index),
             Place::Net(index) => self.now.slots.as_ref()[self.circuit.net_slot(index)],
-            Place::Logic => {
-                let evaluated = self.evaluated.take();
-                let evaluated = evaluated
-                    .unwrap_or_else(|| self.circuit.evaluate(self.inputs(), &self.registers()));
-                self.evaluated.insert(evaluated)[signal.0 as usize]
-            }
+            Place::Logic => self.evaluate()[signal.0 as usize],
+        }
+    }
+
+    fn values(&mut self, signals: &[SignalId], values: &mut Vec<u64>) {
+        self.settle();
+        values.clear();
+        if signals.iter().any(|signal| self.circuit.place(*signal) == Place::Logic) {
+            let all = self.evaluate();
+            values.extend(signals.iter().map(|signal| all[signal.0 as usize]));
+        } else {
+            values.extend(signals.iter().map(|signal| self.value(*signal)));
         }
     }
 
     fn step(&mut self) {
         self.settle();
-        self.evaluated = None;
+        self.evaluated.forget();
         self.advance(self.now.clock + 1);
     }
 
@@ -163,19 +180,19 @@ impl<K: Kernel> Engine for Leap<'_, K> {
             match (self.circuit.net_of(*signal), self.circuit.place(*signal)) {
                 (Some(index), _) => self.watched_nets[index / 64] |= 1 << (index % 64),
                 (None, Place::Input(_)) => {}
-                (None, _) => self.watched_others.push((*signal, 0)),
+                (None, _) => self.watched_others.push(*signal),
             }
         }
     }
 
     fn run_until(&mut self, clock: u64) -> Stop {
         self.settle();
-        self.evaluated = None;
+        self.evaluated.forget();
         self.note_watched_others();
         self.now.changed.as_mut().fill(0);
         while self.now.clock < clock {
             self.advance(clock);
-            self.evaluated = None;
+            self.evaluated.forget();
             // Others first: their values are noted even when a net has changed.
             let others = !self.watched_others.is_empty() && self.note_watched_others();
             if others || self.watched_net_changed() {

@@ -3,11 +3,13 @@
 use helixlock_netlist::mask;
 use helixlock_netlist::settle::clocks_within;
 
+use super::all_signals::AllSignals;
+
 /// Code that evaluates the pieces of a design; see [`helixlock_netlist::partition`].
 ///
 /// Bits of the word arrays are numbered from the lowest bit of the first word. Slots hold the inputs,
 /// the registers and the nets, in that order.
-pub trait Kernel: Sized {
+pub trait Kernel: AllSignals + Sized {
     /// One word an input, register, net.
     type Slots: AsRef<[u64]> + AsMut<[u64]> + Clone + std::fmt::Debug;
     /// One bit a net, then one a counter's mode.

@@ -21,6 +21,7 @@ use super::random_design::{Dice, random_design};
 #[allow(unreachable_pub, reason = "the device's kernel is public, these are not")]
 mod generated {
     use super::{Check, check, check_lanes};
+    use crate::engine::all_signals::AllSignals;
     use crate::engine::compiled::DenseKernel;
     use crate::engine::lanes::{LANE_WORDS, Lane, LaneKernel};
     use crate::engine::moment::{Coasting, Kernel, Moment};

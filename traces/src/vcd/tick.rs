@@ -24,6 +24,13 @@ impl Tick {
         u128::from(self.count) * (per_second / u128::from(self.unit.divisor()))
     }
 
+    /// The power of ten of a second that a tick is: −12 for a picosecond.
+    #[must_use]
+    pub(crate) fn exponent(self) -> i8 {
+        let digits = self.femtoseconds().ilog10();
+        i8::try_from(digits).map_or(0, |digits| digits - 15)
+    }
+
     /// An instant counted in ticks, in seconds.
     ///
     /// ```

@@ -1,39 +1,19 @@
-//! Writes dumps: scopes from dotted names, first values, then every change.
+//! Writes value change dumps: scopes from dotted names, first values, then every change.
 
 use std::io::{self, Write};
 
 use ::vcd::{IdCode, ReferenceIndex, SimulationCommand, VarType, Writer};
 
+use crate::dump::{Declarations, Dump, Variable, declare};
 use crate::number::write_number;
 use crate::vcd::Tick;
-
-/// A variable to be written.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Variable {
-    /// Scopes and name joined by dots: `device.meter.t1`.
-    pub path: String,
-    /// Number of bits, 1 to 64; `None` for a real number such as micrometres.
-    pub width: Option<u32>,
-}
-
-impl Variable {
-    /// A bundle of `width` wires, 1 to 64.
-    pub fn bits(path: impl Into<String>, width: u32) -> Self {
-        Self { path: path.into(), width: Some(width) }
-    }
-
-    /// A real number; say the unit in the name.
-    pub fn real(path: impl Into<String>) -> Self {
-        Self { path: path.into(), width: None }
-    }
-}
 
 /// Writes a dump change by change; what does not change is not written.
 ///
 /// # Examples
 ///
 /// ```
-/// use helixlock_traces::{Tick, Variable, VcdWriter};
+/// use helixlock_traces::{Dump, Tick, Variable, VcdWriter};
 ///
 /// let variables = [Variable::bits("device.step", 1), Variable::real("plant.error_um")];
 /// let mut text = Vec::new();
@@ -48,7 +28,7 @@ impl Variable {
 /// ```
 #[derive(Debug)]
 pub struct VcdWriter<W: Write> {
-    out: Dump<W>,
+    out: Library<W>,
     variables: Vec<Written>,
     time: u64,
     /// Time of the last `#` line; `None` until the first values are out.
@@ -56,11 +36,11 @@ pub struct VcdWriter<W: Write> {
 }
 
 /// The library's writer, which does not print itself.
-struct Dump<W: Write>(Writer<W>);
+struct Library<W: Write>(Writer<W>);
 
-impl<W: Write> std::fmt::Debug for Dump<W> {
+impl<W: Write> std::fmt::Debug for Library<W> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str("Dump")
+        f.write_str("Library")
     }
 }
 
@@ -72,36 +52,15 @@ struct Written {
     now: Option<u64>,
 }
 
-impl<W: Write> VcdWriter<W> {
-    /// Writes the header; variables are then named by their index.
-    ///
-    /// Variables of one scope need not stand together.
-    ///
-    /// # Errors
-    ///
-    /// Those of `out`.
-    pub fn new(out: W, tick: Tick, variables: &[Variable]) -> io::Result<Self> {
-        let mut out = Writer::new(out);
-        out.version("helixlock")?;
-        out.timescale(tick.count, tick.unit)?;
-        let written = declare(&mut out, variables)?;
-        out.enddefinitions()?;
-        Ok(Self { out: Dump(out), variables: written, time: 0, stamped: None })
-    }
-
-    /// Puts the first values at this time instead of 0; has no effect once they are out.
-    pub fn begin_at(&mut self, ticks: u64) {
+impl<W: Write> Dump for VcdWriter<W> {
+    fn begin_at(&mut self, ticks: u64) -> io::Result<()> {
         if self.stamped.is_none() {
             self.time = ticks;
         }
+        Ok(())
     }
 
-    /// Goes on to a later time, in ticks; what is set before the first call are first values.
-    ///
-    /// # Errors
-    ///
-    /// A time before the present one, or those of the output.
-    pub fn at(&mut self, ticks: u64) -> io::Result<()> {
+    fn at(&mut self, ticks: u64) -> io::Result<()> {
         if ticks < self.time {
             let message = format!("time goes back from {} to {ticks} ticks", self.time);
             return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
@@ -113,34 +72,41 @@ impl<W: Write> VcdWriter<W> {
         Ok(())
     }
 
-    /// Sets a bundle of bits; bits above its width are cut off.
-    ///
-    /// # Errors
-    ///
-    /// Those of the output.
-    pub fn bits(&mut self, variable: usize, value: u64) -> io::Result<()> {
+    fn bits(&mut self, variable: usize, value: u64) -> io::Result<()> {
         let width = self.variables[variable].width.unwrap_or(64);
         self.set(variable, value & (u64::MAX >> (64 - width)))
     }
 
-    /// Sets a real number.
-    ///
-    /// # Errors
-    ///
-    /// Those of the output.
-    pub fn real(&mut self, variable: usize, value: f64) -> io::Result<()> {
+    fn real(&mut self, variable: usize, value: f64) -> io::Result<()> {
         self.set(variable, value.to_bits())
     }
 
-    /// Marks the end of the record, in ticks, and flushes.
-    ///
-    /// # Errors
-    ///
-    /// A time before the present one, or those of the output.
-    pub fn finish(mut self, ticks: u64) -> io::Result<()> {
+    fn finish(&mut self, ticks: u64) -> io::Result<()> {
         self.at(ticks)?;
         self.stamp()?;
         self.out.0.flush()
+    }
+}
+
+impl<W: Write> VcdWriter<W> {
+    /// Writes the header.
+    ///
+    /// # Errors
+    ///
+    /// Those of `out`.
+    pub fn new(out: W, tick: Tick, names: &[Variable]) -> io::Result<Self> {
+        let mut out = Writer::new(out);
+        out.version("helixlock")?;
+        out.timescale(tick.count, tick.unit)?;
+        let codes = std::iter::successors(Some(IdCode::FIRST), |code| Some(code.next()));
+        let variables: Vec<Written> = names
+            .iter()
+            .zip(codes)
+            .map(|(variable, code)| Written { code, width: variable.width, now: None })
+            .collect();
+        declare(&mut Declaring { out: &mut out, variables: &variables }, names)?;
+        out.enddefinitions()?;
+        Ok(Self { out: Library(out), variables, time: 0, stamped: None })
     }
 
     fn set(&mut self, variable: usize, value: u64) -> io::Result<()> {
@@ -194,48 +160,28 @@ impl<W: Write> VcdWriter<W> {
     }
 }
 
-/// Writes scopes and variables, each in the order it first came.
-fn declare<W: Write>(out: &mut Writer<W>, variables: &[Variable]) -> io::Result<Vec<Written>> {
-    let codes = std::iter::successors(Some(IdCode::FIRST), |code| Some(code.next()));
-    let written: Vec<_> = variables
-        .iter()
-        .zip(codes)
-        .map(|(variable, code)| Written { code, width: variable.width, now: None })
-        .collect();
-    // A variable stands in a scope, by the format.
-    let scoped = |path: &str| if path.contains('.') { path.into() } else { format!("top.{path}") };
-    let paths: Vec<String> = variables.iter().map(|variable| scoped(&variable.path)).collect();
-    let named: Vec<_> = paths.iter().map(String::as_str).zip(&written).collect();
-    declare_scope(out, &named)?;
-    Ok(written)
+/// A header whose variables are declared scope by scope.
+struct Declaring<'a, W: Write> {
+    out: &'a mut Writer<W>,
+    variables: &'a [Written],
 }
 
-/// Paths are those below the scope being written.
-fn declare_scope<W: Write>(out: &mut Writer<W>, inside: &[(&str, &Written)]) -> io::Result<()> {
-    let mut scopes: Vec<(&str, Vec<(&str, &Written)>)> = Vec::new();
-    for (path, written) in inside {
-        let Some((scope, below)) = path.split_once('.') else {
-            declare_variable(out, path, written)?;
-            continue;
-        };
-        match scopes.iter_mut().find(|(known, _)| *known == scope) {
-            Some((_, inside)) => inside.push((below, written)),
-            None => scopes.push((scope, vec![(below, written)])),
+impl<W: Write> Declarations for Declaring<'_, W> {
+    fn scope(&mut self, name: &str) -> io::Result<()> {
+        self.out.add_module(name)
+    }
+
+    fn upscope(&mut self) -> io::Result<()> {
+        self.out.upscope()
+    }
+
+    fn variable(&mut self, index: usize, name: &str) -> io::Result<()> {
+        let range = |width: u32| ReferenceIndex::Range(width.cast_signed() - 1, 0);
+        let Written { code, width, .. } = self.variables[index];
+        match width {
+            None => self.out.var_def(VarType::Real, 64, code, name, None),
+            Some(1) => self.out.var_def(VarType::Wire, 1, code, name, None),
+            Some(width) => self.out.var_def(VarType::Wire, width, code, name, Some(range(width))),
         }
-    }
-    for (scope, inside) in scopes {
-        out.add_module(scope)?;
-        declare_scope(out, &inside)?;
-        out.upscope()?;
-    }
-    Ok(())
-}
-
-fn declare_variable<W: Write>(out: &mut Writer<W>, name: &str, to: &Written) -> io::Result<()> {
-    let range = |width: u32| ReferenceIndex::Range(width.cast_signed() - 1, 0);
-    match to.width {
-        None => out.var_def(VarType::Real, 64, to.code, name, None),
-        Some(1) => out.var_def(VarType::Wire, 1, to.code, name, None),
-        Some(width) => out.var_def(VarType::Wire, width, to.code, name, Some(range(width))),
     }
 }

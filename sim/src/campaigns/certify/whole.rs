@@ -100,7 +100,7 @@ pub fn certify_gates(
     length_mm: Option<f64>,
     seed: Option<u64>,
 ) -> Result<WholeGates, Error> {
-    let course = Course::new(model, &Options { length_mm, ..Options::default() })?;
+    let course = Course::new(model, &Options { length_mm })?;
     let (settings, clock_hz) = (course.dialled.settings, course.clock_hz());
     let circuit = circuit(&wheels(&settings)?);
     let delays = match seed {

@@ -1,5 +1,6 @@
 use super::*;
-use crate::vcd::{Variable, VcdWriter};
+use crate::dump::{Dump, Variable};
+use crate::vcd::VcdWriter;
 
 fn open(text: &str) -> Result<VcdReader<&[u8]>, TraceError> {
     VcdReader::new(text.as_bytes(), Path::new("wave.vcd"))

@@ -1,0 +1,107 @@
+//! The waveform of a run, written while it goes on, so that no window is too long for memory.
+
+use std::io::{self, BufWriter};
+
+use anyhow::Context;
+use clap::ValueEnum;
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use helixlock_plant::Model;
+use helixlock_sim::{
+    Error, Options, Probe, Simulation, TICK, Watch, Waveform, WaveformFile, device,
+    simulate_watched,
+};
+use helixlock_traces::{Dump, FstWriter, Variable, VcdWriter};
+
+use crate::shared::output::{Batch, Output};
+
+/// How a waveform is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum WaveFormat {
+    /// A value change dump, text
+    #[value(name = "vcd")]
+    Vcd,
+    /// The same, compressed by gzip
+    #[value(name = "vcd.gz")]
+    Compressed,
+    /// The packed form of GTKWave
+    #[value(name = "fst")]
+    Fst,
+}
+
+impl WaveFormat {
+    /// Name of the file.
+    pub(super) fn file_name(self) -> &'static str {
+        match self {
+            Self::Vcd => "wave.vcd",
+            Self::Compressed => "wave.vcd.gz",
+            Self::Fst => "wave.fst",
+        }
+    }
+}
+
+/// A run whose waveform goes into a file.
+pub(super) struct Recorded<'a> {
+    pub(super) model: &'a Model,
+    pub(super) options: &'a Options,
+    pub(super) probe: &'a Probe,
+    pub(super) clock_hz: u64,
+    pub(super) format: WaveFormat,
+}
+
+impl Recorded<'_> {
+    /// Simulates and writes.
+    pub(super) fn run(
+        &self,
+        files: &mut Batch,
+        progress: &mut dyn FnMut(u64),
+    ) -> anyhow::Result<Result<Simulation, Error>> {
+        let mut simulated = None;
+        files.write(self.format.file_name(), |file| {
+            match self.simulate(file, progress) {
+                // What the disk says is about the file, everything else about the run.
+                Err(Error::NotTaken(disk)) => return Err(disk.into()),
+                result => simulated = Some(result),
+            }
+            Ok(())
+        })?;
+        simulated.context("the run has no end")
+    }
+
+    fn simulate(
+        &self,
+        file: &mut dyn Output,
+        progress: &mut dyn FnMut(u64),
+    ) -> Result<Simulation, Error> {
+        match self.format {
+            WaveFormat::Vcd => {
+                self.simulate_into(|variables| VcdWriter::new(file, TICK, variables), progress)
+            }
+            WaveFormat::Fst => {
+                self.simulate_into(|variables| FstWriter::new(file, TICK, variables), progress)
+            }
+            WaveFormat::Compressed => {
+                let mut packed = BufWriter::new(GzEncoder::new(file, Compression::default()));
+                let out = &mut packed;
+                let make = |variables: &[Variable]| VcdWriter::new(out, TICK, variables);
+                let simulation = self.simulate_into(make, progress)?;
+                let packed = packed.into_inner().map_err(io::IntoInnerError::into_error);
+                packed.and_then(GzEncoder::finish).map_err(Error::NotTaken)?;
+                Ok(simulation)
+            }
+        }
+    }
+
+    fn simulate_into<D: Dump>(
+        &self,
+        make: impl FnOnce(&[Variable]) -> io::Result<D>,
+        progress: &mut dyn FnMut(u64),
+    ) -> Result<Simulation, Error> {
+        let shown = Waveform::new(device().netlist(), self.probe);
+        let mut file = WaveformFile::new(make, &shown, self.clock_hz).map_err(Error::NotTaken)?;
+        let watch = Watch { probe: self.probe, seen: &mut |piece| file.write(piece) };
+        let simulation = simulate_watched(self.model, self.options, Some(watch), progress)?;
+        file.finish(self.probe.window.end).map_err(Error::NotTaken)?;
+        Ok(simulation)
+    }
+}
