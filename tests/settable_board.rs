@@ -83,7 +83,7 @@ impl<'a> Board<'a> {
     /// All inputs as their pull-ups hold them.
     fn new(circuit: &'a Circuit, since: u64) -> Self {
         let netlist = circuit.netlist();
-        let mut engine = Leap::new(circuit, InterpretedPieces(circuit));
+        let mut engine = Leap::new(circuit, InterpretedPieces::new(circuit));
         let outputs = netlist.outputs.iter();
         let outputs = outputs.map(|id| (*id, netlist.signal(*id).path.clone())).collect();
         engine.watch(&netlist.outputs);

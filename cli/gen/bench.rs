@@ -31,7 +31,7 @@ impl<'a> Bench<'a> {
     /// All switches off; `active_low` when low means on.
     pub(super) fn new(circuit: &'a Circuit, active_low: bool) -> Self {
         let netlist = circuit.netlist();
-        let mut engine = Leap::new(circuit, InterpretedPieces(circuit));
+        let mut engine = Leap::new(circuit, InterpretedPieces::new(circuit));
         engine.watch(&netlist.outputs);
         let inputs = vec![0; netlist.inputs.len()];
         let mut bench = Self { netlist, engine, inputs, active_low, vectors: vec![] };

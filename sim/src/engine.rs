@@ -27,6 +27,7 @@ mod interpreter;
 mod lanes;
 mod leap;
 mod moment;
+mod program;
 #[cfg(test)]
 mod random_design;
 #[cfg(test)]

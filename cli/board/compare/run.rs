@@ -83,7 +83,7 @@ impl<'a> Pair<'a> {
         };
         Ok(Self {
             log,
-            engine: Leap::new(circuit, InterpretedPieces(circuit)),
+            engine: Leap::new(circuit, InterpretedPieces::new(circuit)),
             opening: find("telemetry.opening")?,
             begun: find("telemetry.begun_q")?,
             number: find("telemetry.number_q")?,

@@ -1,17 +1,23 @@
 //! Pieces of any design, evaluated from its netlist at run time.
 
 use std::fmt;
+use std::sync::Arc;
 
-use helixlock_netlist::Expression;
-use helixlock_netlist::partition::{Source, Task};
+use helixlock_netlist::partition::{CounterPiece, Group, Net, Source, Task};
+use helixlock_netlist::settle::Counter;
+use helixlock_netlist::{Netlist, SignalId};
 
 use super::all_signals::AllSignals;
 use super::circuit::Circuit;
 use super::moment::{Coasting, Kernel, Moment};
+use super::program::{Compiler, Place, Program};
 
-/// The kernel of a design that was not compiled in; slow, for designs met at run time.
+/// The kernel of a design that was not compiled in; slower, for designs met at run time.
 #[derive(Clone)]
-pub struct InterpretedPieces<'a>(pub &'a Circuit);
+pub struct InterpretedPieces<'a> {
+    circuit: &'a Circuit,
+    programs: Arc<Programs>,
+}
 
 impl fmt::Debug for InterpretedPieces<'_> {
     fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
@@ -19,75 +25,192 @@ impl fmt::Debug for InterpretedPieces<'_> {
     }
 }
 
-impl InterpretedPieces<'_> {
-    /// Values of the signals a task reads and computes; others are zero.
-    fn values(&self, task: &Task, now: &Moment<Self>) -> Vec<u64> {
-        let mut values = vec![0; self.0.netlist().signals.len()];
-        for (signal, source) in &task.reads {
-            values[signal.0 as usize] = self.read(*source, now);
+/// What a design's pieces are evaluated by, in the order of its
+/// [`helixlock_netlist::partition::Partition`].
+#[derive(Clone, Debug)]
+struct Programs {
+    nets: Vec<Piece>,
+    groups: Vec<Piece>,
+    /// Of each counter: whether it counts, its step, its thresholds.
+    modes: Vec<Piece>,
+    loads: Vec<Piece>,
+    /// By slot, then by counter: who is called upon.
+    calls: Vec<Calls>,
+    /// Gives every signal; it reads inputs and registers, in order.
+    all: Piece,
+}
+
+/// A task, and where what it gives stands.
+#[derive(Clone, Debug)]
+struct Piece {
+    reads: Vec<Source>,
+    program: Program,
+    gives: Vec<Place>,
+}
+
+/// Nets and groups, by number.
+#[derive(Clone, Debug, Default)]
+struct Calls {
+    nets: Vec<usize>,
+    groups: Vec<usize>,
+}
+
+impl Programs {
+    fn new(circuit: &Circuit) -> Self {
+        let (netlist, partition) = (circuit.netlist(), circuit.partition());
+        let input = |register: &usize| netlist.registers[*register].input;
+        let given = |signals: Vec<SignalId>| {
+            move |compiler: &mut Compiler| {
+                signals.iter().map(|signal| compiler.signal(*signal)).collect()
+            }
+        };
+        let net = |net: &Net| Piece::new(netlist, &net.task, given(vec![net.signal]));
+        let group = |group: &Group| {
+            Piece::new(netlist, &group.task, given(group.registers.iter().map(input).collect()))
+        };
+        let mode = |piece: &CounterPiece| {
+            let Counter { counting, step, thresholds, .. } = &piece.counter;
+            Piece::new(netlist, &piece.mode, |compiler| {
+                let values = [counting, step].into_iter().chain(thresholds);
+                values.map(|value| compiler.value(value)).collect()
+            })
+        };
+        let load = |piece: &CounterPiece| {
+            Piece::new(netlist, &piece.load, given(vec![input(&piece.counter.register)]))
+        };
+        Self {
+            nets: partition.nets.iter().map(net).collect(),
+            groups: partition.groups.iter().map(group).collect(),
+            modes: partition.counters.iter().map(mode).collect(),
+            loads: partition.counters.iter().map(load).collect(),
+            calls: calls(circuit),
+            all: Piece::new(netlist, &whole(netlist), given(signals(netlist).collect())),
         }
+    }
+}
+
+impl Piece {
+    fn new(netlist: &Netlist, task: &Task, give: impl FnOnce(&mut Compiler) -> Vec<Place>) -> Self {
+        let mut compiler = Compiler::new(task.reads.keys().copied());
         for index in &task.body {
-            let assignment = &self.0.netlist().assignments[*index];
-            values[assignment.target.0 as usize] = assignment.value.evaluate(&values);
+            compiler.assign(&netlist.assignments[*index]);
         }
-        values
+        let gives = give(&mut compiler);
+        Self { reads: task.reads.values().copied().collect(), program: compiler.finish(), gives }
+    }
+
+    fn given(&self, values: &[u64]) -> impl Iterator<Item = u64> {
+        self.gives.iter().map(|place| values[*place as usize])
+    }
+}
+
+/// The task that gives every signal.
+fn whole(netlist: &Netlist) -> Task {
+    let inputs = netlist.inputs.iter().copied().zip((0..).map(Source::Input));
+    let outputs = netlist.registers.iter().map(|register| register.output);
+    let registers = outputs.zip((0..).map(Source::Register));
+    Task {
+        reads: inputs.chain(registers).collect(),
+        body: (0..netlist.assignments.len()).collect(),
+    }
+}
+
+fn signals(netlist: &Netlist) -> impl Iterator<Item = SignalId> {
+    (0..).map(SignalId).take(netlist.signals.len())
+}
+
+fn calls(circuit: &Circuit) -> Vec<Calls> {
+    let partition = circuit.partition();
+    let mut calls = vec![Calls::default(); circuit.slots() + partition.counters.len()];
+    for (source, readers) in &partition.readers {
+        if let Some(place) = place(circuit, *source) {
+            calls[place].nets.extend(&readers.nets);
+            calls[place].groups.extend(&readers.groups);
+        }
+    }
+    calls
+}
+
+/// Slot of a source, or beyond the slots the number of a counter.
+fn place(circuit: &Circuit, source: Source) -> Option<usize> {
+    match source {
+        Source::Input(index) => Some(index),
+        Source::Register(index) => Some(circuit.register_slot(index)),
+        Source::Net(index) => Some(circuit.net_slot(index)),
+        Source::Counter(index) => Some(circuit.slots() + index),
+        Source::Nothing => None,
+    }
+}
+
+impl<'a> InterpretedPieces<'a> {
+    /// Compiles the pieces of a design.
+    #[must_use]
+    pub fn new(circuit: &'a Circuit) -> Self {
+        Self { circuit, programs: Arc::new(Programs::new(circuit)) }
+    }
+
+    /// All values of a piece at this moment.
+    fn values(&self, piece: &Piece, now: &Moment<Self>) -> Vec<u64> {
+        piece.program.run(piece.reads.iter().map(|source| self.read(*source, now)))
     }
 
     fn read(&self, source: Source, now: &Moment<Self>) -> u64 {
-        match source {
-            Source::Input(index) => now.slots[index],
-            Source::Register(index) => now.slots[self.0.register_slot(index)],
-            Source::Net(index) => now.slots[self.0.net_slot(index)],
-            Source::Counter(index) => now.counter(index),
-            Source::Nothing => 0,
+        match (source, place(self.circuit, source)) {
+            (Source::Counter(index), _) => now.counter(index),
+            (_, Some(slot)) => now.slots[slot],
+            (_, None) => 0,
         }
     }
 
     fn coasting(&self, register: usize) -> Coasting {
-        let output = self.0.netlist().registers[register].output;
-        Coasting::rest(self.0.register_slot(register), self.0.netlist().signal(output).width)
+        let output = self.circuit.netlist().registers[register].output;
+        Coasting::rest(
+            self.circuit.register_slot(register),
+            self.circuit.netlist().signal(output).width,
+        )
     }
 
-    fn call(&self, source: Source, now: &mut Moment<Self>) {
-        if let Some(readers) = self.0.partition().readers.get(&source) {
-            readers.nets.iter().for_each(|index| now.nets[index / 64] |= 1 << (index % 64));
-            readers.groups.iter().for_each(|index| now.groups[index / 64] |= 1 << (index % 64));
+    fn call(&self, place: usize, now: &mut Moment<Self>) {
+        let Calls { nets, groups } = &self.programs.calls[place];
+        for index in nets {
+            now.nets[index / 64] |= 1 << (index % 64);
+        }
+        for index in groups {
+            now.groups[index / 64] |= 1 << (index % 64);
         }
     }
 
     fn mode(&self, index: usize, now: &mut Moment<Self>) {
-        let piece = &self.0.partition().counters[index];
-        let values = self.values(&piece.mode, now);
-        let of = |expression: &Expression| expression.evaluate(&values);
-        let counting = of(&piece.counter.counting) != 0;
-        let step = if counting { of(&piece.counter.step) } else { 0 };
-        let thresholds: Vec<u64> = piece.counter.thresholds.iter().map(of).collect();
-        now.count(index, step, &thresholds);
+        let piece = &self.programs.modes[index];
+        let values = self.values(piece, now);
+        let given: Vec<u64> = piece.given(&values).collect();
+        let [counting, step, thresholds @ ..] = given.as_slice() else { return };
+        let counting = *counting != 0;
+        now.count(index, if counting { *step } else { 0 }, thresholds);
         if !counting {
-            let load = self.0.partition().groups.len() + index;
+            let load = self.circuit.partition().groups.len() + index;
             now.groups[load / 64] |= 1 << (load % 64);
         }
     }
 
     fn load(&self, index: usize, now: &mut Moment<Self>) {
-        let piece = &self.0.partition().counters[index];
-        let input = self.0.netlist().registers[piece.counter.register].input;
-        let value = self.values(&piece.load, now)[input.0 as usize];
-        now.load(index, value);
+        let piece = &self.programs.loads[index];
+        let values = self.values(piece, now);
+        piece.given(&values).for_each(|value| now.load(index, value));
     }
 }
 
 impl AllSignals for InterpretedPieces<'_> {
     fn signals(&self, inputs: &[u64], registers: &[u64], values: &mut [u64]) {
-        let netlist = self.0.netlist();
-        for (input, value) in netlist.inputs.iter().zip(inputs) {
-            values[input.0 as usize] = *value;
-        }
-        for (register, value) in netlist.registers.iter().zip(registers) {
-            values[register.output.0 as usize] = *value;
-        }
-        for assignment in &netlist.assignments {
-            values[assignment.target.0 as usize] = assignment.value.evaluate(values);
+        let all = &self.programs.all;
+        let source = |source: &Source| match *source {
+            Source::Input(index) => inputs[index],
+            Source::Register(index) => registers[index],
+            _ => 0,
+        };
+        let computed = all.program.run(all.reads.iter().map(source));
+        for (value, given) in values.iter_mut().zip(all.given(&computed)) {
+            *value = given;
         }
     }
 }
@@ -99,11 +222,11 @@ impl Kernel for InterpretedPieces<'_> {
     type Counters = Vec<Coasting>;
 
     fn blank(&self) -> Moment<Self> {
-        let partition = self.0.partition();
+        let partition = self.circuit.partition();
         let counters = partition.counters.len();
         let words = |bits: usize| vec![0; bits.div_ceil(64)];
         Moment::new(
-            vec![0; self.0.slots()],
+            vec![0; self.circuit.slots()],
             words(partition.nets.len() + counters),
             words(partition.groups.len() + counters),
             partition.counters.iter().map(|piece| self.coasting(piece.counter.register)).collect(),
@@ -111,40 +234,38 @@ impl Kernel for InterpretedPieces<'_> {
     }
 
     fn net(&self, index: usize, now: &mut Moment<Self>) {
-        let partition = self.0.partition();
-        let Some(net) = partition.nets.get(index) else {
-            return self.mode(index - partition.nets.len(), now);
-        };
-        let value = self.values(&net.task, now)[net.signal.0 as usize];
-        let slot = self.0.net_slot(index);
-        if now.slots[slot] != value {
-            now.slots[slot] = value;
-            now.changed[index / 64] |= 1 << (index % 64);
-            self.call(Source::Net(index), now);
+        let nets = &self.programs.nets;
+        let Some(piece) = nets.get(index) else { return self.mode(index - nets.len(), now) };
+        let values = self.values(piece, now);
+        let slot = self.circuit.net_slot(index);
+        for value in piece.given(&values) {
+            if now.slots[slot] != value {
+                now.slots[slot] = value;
+                now.changed[index / 64] |= 1 << (index % 64);
+                self.call(slot, now);
+            }
         }
     }
 
     fn group(&self, index: usize, now: &mut Moment<Self>) {
-        let partition = self.0.partition();
-        let Some(group) = partition.groups.get(index) else {
-            return self.load(index - partition.groups.len(), now);
-        };
-        let values = self.values(&group.task, now);
-        for register in &group.registers {
-            let input = self.0.netlist().registers[*register].input;
-            let slot = self.0.register_slot(*register);
-            if now.slots[slot] != values[input.0 as usize] {
-                now.slots[slot] = values[input.0 as usize];
-                self.call(Source::Register(*register), now);
+        let groups = &self.programs.groups;
+        let Some(piece) = groups.get(index) else { return self.load(index - groups.len(), now) };
+        let values = self.values(piece, now);
+        let registers = &self.circuit.partition().groups[index].registers;
+        for (register, value) in registers.iter().zip(piece.given(&values)) {
+            let slot = self.circuit.register_slot(*register);
+            if now.slots[slot] != value {
+                now.slots[slot] = value;
+                self.call(slot, now);
             }
         }
     }
 
     fn input_changed(&self, index: usize, now: &mut Moment<Self>) {
-        self.call(Source::Input(index), now);
+        self.call(index, now);
     }
 
     fn counter_moved(&self, index: usize, now: &mut Moment<Self>) {
-        self.call(Source::Counter(index), now);
+        self.call(self.circuit.slots() + index, now);
     }
 }

@@ -239,7 +239,7 @@ mod tests {
             let mut dice = Dice(seed);
             let circuit = Circuit::new(random_design(&mut dice));
             counters += circuit.partition().counters.len();
-            let mut leap = Leap::new(&circuit, InterpretedPieces(&circuit));
+            let mut leap = Leap::new(&circuit, InterpretedPieces::new(&circuit));
             compare(circuit.netlist(), &mut leap, &mut dice);
         }
         assert!(100 < counters, "only {counters} counters were met");
