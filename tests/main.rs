@@ -10,6 +10,7 @@ mod calibrator;
 mod captures;
 mod certify;
 mod closed_loop_data;
+mod coarse_readings;
 mod command_line;
 mod compensation_exports;
 mod cumulative_compensator;

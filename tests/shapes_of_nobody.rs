@@ -96,3 +96,9 @@ fn gusts_are_hardly_slips() {
     let named: Vec<u64> = named.collect();
     assert!(named.len() <= 1, "{named:?}");
 }
+
+/// A piece of a scale that lies higher: a bump follows it roughly.
+#[test]
+fn a_flat_top_with_edges_is_no_wear() {
+    is_nobodys(&|_, mm| if (180.0..290.0).contains(&mm) { 0.15 } else { 0.0 });
+}

@@ -16,5 +16,6 @@ mod thinning;
 
 pub use error::LabError;
 pub use pulse_trains::{PulseTrains, Steps};
+pub(crate) use quantised::spacing;
 pub use samples::{Measurement, Nominal, sensor_column};
 pub(crate) use thinning::means;

@@ -94,6 +94,10 @@ pub struct Custom {
     roles: Vec<Role>,
 }
 
+/// Points at which a formula is tried for its linear parameters; at 24, whose variables went in one
+/// step, the width of a plateau turned nothing over and was taken for linear.
+const TRIALS: u32 = 64;
+
 impl Custom {
     /// Reads a formula; names that are neither parameters nor always there are logged columns.
     ///
@@ -250,7 +254,7 @@ impl Custom {
     /// Second differences in `index`, alone and mixed with each of `others`, vanish everywhere.
     fn is_linear(&self, index: usize, others: &[usize]) -> bool {
         let mut tried = 0;
-        for trial in 0..24_u32 {
+        for trial in 0..TRIALS {
             let at = |moves: &[usize]| self.evaluate_trial(trial, moves);
             let (zero, one, two) = (at(&[]), at(&[index]), at(&[index, index]));
             if ![zero, one, two].iter().all(|value| value.is_finite()) {
@@ -281,8 +285,11 @@ impl Custom {
         let values: Vec<_> = (0_u32..)
             .zip(&self.variables)
             .map(|(place, variable)| {
-                // Golden-ratio points: spread over 0.1 to 3.1, never two alike.
-                let base = 0.1 + 3.0 * golden(1 + trial * 17 + place * 5);
+                // Spread over 0.1 to 3.1, each variable by an irrational number of its own: what
+                // compares two of them is met on either side. n² + n + 1 is no square.
+                let rate = f64::from((place + 1) * (place + 2) + 1).sqrt();
+                let turn = rate * f64::from(1 + trial);
+                let base = 0.1 + 3.0 * (turn - turn.floor());
                 match variable {
                     Variable::Parameter(index) => moves
                         .iter()
@@ -344,6 +351,8 @@ mod tests {
         assert_eq!(roles("a^2*position_mm", &["a"]), [bent]);
         assert_eq!(roles("a*sin(2*pi*(time_s/9 + turns))", &["a", "turns"]), [linear, bent]);
         assert_eq!(roles("a*exp(0-position_mm/l)", &["a", "l"]), [linear, bent]);
+        let plateau = "a*step(w - abs(position_mm - c))";
+        assert_eq!(roles(plateau, &["a", "w", "c"]), [linear, bent, bent]);
     }
 
     #[test]

@@ -328,7 +328,11 @@ fn fitted(state: &State, covariance: &JointCovariance, index: usize) -> FittedEf
         let what = &component.term.parameters[estimate.parameter];
         let stderr =
             libm::hypot(estimate.stderr, component.term.nature().uncertainty * estimate.value);
-        let warning = warning(estimate.value, stderr, &what.range)
+        // Neither zero nor half a turn is a special phase.
+        let has_ends = what.role != Role::Phase;
+        let warning = has_ends
+            .then(|| warning(estimate.value, stderr, &what.range))
+            .flatten()
             .or_else(|| another_material(&component.term, estimate.parameter));
         parameters.push(FittedParameter {
             key: what.key(),

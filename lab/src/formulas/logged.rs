@@ -47,6 +47,15 @@ pub(super) fn of_a_column(all: &Quantities, column: &Arc<Quantity>) -> Vec<Shape
             .curve("slope", of(x))
             .curve("size", of(x) * less_mean(late(), column)),
         );
+        shapes.push(
+            of_column(
+                "what the column has not followed yet, times the travel",
+                "a sensor that lags behind what it measures",
+            )
+            .unknown("late_s", &time.dimension, constants())
+            .curve("slope", of(x))
+            .curve("size", of(x) * (of(column) - late())),
+        );
     }
     shapes
 }

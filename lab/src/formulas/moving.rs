@@ -59,6 +59,15 @@ pub(super) fn along_travel(all: &Quantities) -> Vec<Shape> {
         at("step at one place", "a joint of two racks or scales, a dent of the guide")
             .curve("slope", of(x))
             .curve("size", call(Function::Step, from())),
+        shape(
+            "stretch at another level",
+            "position",
+            "a piece of a scale, rack or guide that was set in or worn flat",
+        )
+        .unknown("at_mm", mm, evenly(low, low + range, 48))
+        .unknown("half_mm", mm, by_factors(0.02 * range, 0.22 * range, 8))
+        .placed()
+        .curve("size", call(Function::Step, unknown(1) - call(Function::Abs, from()))),
         at("root from one place on", "contact that stiffens under load")
             .curve("size", call(Function::Sqrt, ramp(from()))),
         decay(x, "position", "length_mm"),

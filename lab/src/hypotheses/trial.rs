@@ -198,7 +198,11 @@ fn counted(stage: &Stage<'_>, component: Component) -> Option<(Component, f64)> 
         let stderr = free.covariance[(column, column)].max(0.0).sqrt();
         let whole = value.round();
         let near = EXACT_STANDARD_ERRORS * stderr + WHOLE;
-        if whole == 0.0 || (stage.is_noise(&free) && near < (value - whole).abs()) {
+        // A column that the zero of a pass takes up has no coefficient.
+        if !value.is_finite()
+            || whole == 0.0
+            || (stage.is_noise(&free) && near < (value - whole).abs())
+        {
             return None;
         }
         held.whole[column] = Some(whole);

@@ -43,24 +43,34 @@ impl Measurement {
     }
 }
 
-/// Spacing of the lattice that all values lie on, if they climb it step by step.
-fn lattice(values: &[f64]) -> Option<f64> {
-    let mut levels = values.to_vec();
-    levels.sort_by(f64::total_cmp);
-    let rounding = 1e-9 * levels.last()?.abs().max(levels[0].abs());
-    levels.dedup_by(|b, a| *b - *a <= rounding);
+/// Spacing of the lattice that all values lie on; none for a constant.
+pub(crate) fn spacing(values: &[f64]) -> Option<f64> {
+    let levels = levels(values);
     let gaps = levels.windows(2).map(|pair| pair[1] - pair[0]);
     let step = gaps.fold(f64::INFINITY, f64::min);
     let whole = |level: &f64| {
         let steps = (level - levels[0]) / step;
         (steps - steps.round()).abs() < OFF_THE_LATTICE
     };
+    (step.is_finite() && levels.iter().all(whole)).then_some(step)
+}
+
+/// The values there are, each once, in order.
+fn levels(values: &[f64]) -> Vec<f64> {
+    let mut levels = values.to_vec();
+    levels.sort_by(f64::total_cmp);
+    let largest = levels.iter().fold(0.0_f64, |largest, level| largest.max(level.abs()));
+    levels.dedup_by(|b, a| *b - *a <= 1e-9 * largest);
+    levels
+}
+
+/// The same, if they climb it step by step.
+fn lattice(values: &[f64]) -> Option<f64> {
+    let step = spacing(values)?;
     let moves = values.windows(2).map(|pair| ((pair[1] - pair[0]) / step).abs());
     let changes = moves.clone().filter(|steps| 0.5 < *steps).count();
     let leaps = moves.filter(|steps| 1.5 < *steps).count();
-    let stair = FEWEST_VALUES <= levels.len()
-        && CHANGES_A_LEAP * leaps <= changes
-        && levels.iter().all(whole);
+    let stair = FEWEST_VALUES <= levels(values).len() && CHANGES_A_LEAP * leaps <= changes;
     stair.then_some(step)
 }
 

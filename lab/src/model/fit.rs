@@ -10,7 +10,6 @@ use super::problem::Problem;
 use crate::noise::{Layout, Noise, Whitener, fit_noise};
 use crate::numerics::least_squares;
 use crate::numerics::least_squares::LinearFit;
-use crate::policy::size::FINEST_SENSOR_UM;
 
 /// A fitted model.
 #[derive(Debug, Clone)]
@@ -100,5 +99,5 @@ fn noise_of(problem: &Problem, left: &[f64], sensor: usize, near: Option<&Noise>
     let (layout, rows) = problem.of_sensor(sensor);
     let part: Vec<f64> = rows.iter().map(|&row| left[row]).collect();
     let noise = fit_noise(&layout, &part, near).noise;
-    Noise { white: noise.white.max(FINEST_SENSOR_UM * FINEST_SENSOR_UM), ..noise }
+    Noise { white: noise.white.max(problem.least_variance[sensor]), ..noise }
 }

@@ -8,12 +8,12 @@ use helixlock_plant::{Effect, EffectError, Entry, Machine, Model, Part, Record, 
 
 use super::designs::Designs;
 use super::finer::Finer;
-use crate::measurement::Measurement;
+use crate::measurement::{Measurement, spacing};
 use crate::noise::{Block, Layout, outlier_inflation};
 use crate::numerics::{count, highest_frequency, median};
 use crate::policy::extent::MOST_BETWEEN;
 use crate::policy::reading::{MOST_TOLD, WRITTEN_INTERVAL};
-use crate::policy::size::SWINGS;
+use crate::policy::size::{FINEST_SENSOR_UM, SWINGS};
 
 /// One value of one sensor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,6 +44,8 @@ pub struct Problem {
     pub layout: Layout,
     /// Observed values in µm (arcsec), the counter too.
     pub observed: Vec<f64>,
+    /// Variance below which no sensor's noise is taken to be, µm² (arcsec²).
+    pub(crate) least_variance: Vec<f64>,
     /// What the model predicts, each pass from its own zero.
     pub(crate) predicted: Vec<f64>,
     /// Effects of the user's own to be tried beside the catalogue.
@@ -103,6 +105,7 @@ impl Problem {
             rows: Vec::new(),
             layout: Layout::default(),
             observed: Vec::new(),
+            least_variance: Vec::new(),
             predicted: Vec::new(),
             extra: Vec::new(),
             highest_order: 0.0,
@@ -115,6 +118,8 @@ impl Problem {
             || highest_frequency(&problem.record.time_s),
         );
         problem.stack_rows();
+        problem.least_variance =
+            (0..problem.sensors.len()).map(|sensor| problem.finest(sensor)).collect();
         let (mut record, mut finer) = (problem.record.clone(), problem.finer.clone());
         problem.predicted = problem.predicted(&mut record, &mut finer)?;
         (problem.record, problem.finer) = (record, finer);
@@ -130,13 +135,13 @@ impl Problem {
     /// Weighs outliers down, as they stand out of what a model leaves.
     pub(crate) fn mark_outliers(&mut self, left: &[f64]) {
         if self.measurement.deviations.is_none() {
-            self.layout.inflation = outlier_inflation(&self.layout, left);
+            self.layout.inflation = outlier_inflation(&self.layout, left, &self.least_variance);
             return;
         }
         let told = self.told_variances();
         let scaled: Vec<f64> =
             left.iter().zip(&told).map(|(left, variance)| left / variance.sqrt()).collect();
-        let outliers = outlier_inflation(&self.layout, &scaled);
+        let outliers = outlier_inflation(&self.layout, &scaled, &self.least_variance);
         self.layout.inflation = outliers.iter().zip(&told).map(|(own, told)| own * told).collect();
     }
 
@@ -261,6 +266,16 @@ impl Problem {
             }
         }
         self.layout.inflation = vec![1.0; self.rows.len()];
+    }
+
+    /// Variance that the steps of a sensor's readings leave: a reading on a lattice of spacing q is
+    /// off by q/√12, however still the digits stand.
+    fn finest(&self, sensor: usize) -> f64 {
+        let blocks = self.layout.blocks.iter().filter(|block| block.sensor == sensor);
+        let values: Vec<f64> =
+            blocks.flat_map(|block| &self.observed[block.rows.clone()]).copied().collect();
+        let step = spacing(&values).unwrap_or(0.0);
+        (FINEST_SENSOR_UM * FINEST_SENSOR_UM).max(step * step / 12.0)
     }
 
     /// Where the compensator began to count is not in the file: at the first sample of each pass,

@@ -34,12 +34,6 @@ impl Layout {
         self.clock.len()
     }
 
-    /// Number of sensors.
-    #[must_use]
-    pub(crate) fn sensors(&self) -> usize {
-        self.blocks.iter().map(|block| block.sensor + 1).max().unwrap_or(0)
-    }
-
     /// The layout of some blocks only, and the rows they had here.
     #[must_use]
     pub(crate) fn restricted(&self, keep: impl Fn(&Block) -> bool) -> (Self, Vec<usize>) {

@@ -159,11 +159,16 @@ fn longest_block(layout: &Layout) -> f64 {
 /// Variance factors that take outliers back to size: 1 within three robust deviations.
 ///
 /// A sample is judged against the median of itself and its neighbours, so a slow effect or a step,
-/// which neighbours share, is never an outlier (Hampel's identifier).
+/// which neighbours share, is never an outlier (Hampel's identifier). No deviation is taken to be
+/// less than what `least_variance` says of its sensor: where most readings are equal, it is not zero.
 #[must_use]
-pub(crate) fn outlier_inflation(layout: &Layout, residual: &[f64]) -> Vec<f64> {
+pub(crate) fn outlier_inflation(
+    layout: &Layout,
+    residual: &[f64],
+    least_variance: &[f64],
+) -> Vec<f64> {
     let mut inflation = vec![1.0; residual.len()];
-    for sensor in 0..layout.sensors() {
+    for (sensor, least) in least_variance.iter().enumerate() {
         let blocks = || layout.blocks.iter().filter(|block| block.sensor == sensor);
         let mut near = Vec::new();
         let mut departures = Vec::new();
@@ -172,12 +177,10 @@ pub(crate) fn outlier_inflation(layout: &Layout, residual: &[f64]) -> Vec<f64> {
             departures.extend(rows.map(|row| departure(residual, row, &block.rows, &mut near)));
         }
         let mut sizes: Vec<f64> = departures.iter().map(|value| value.abs()).collect();
-        let deviation = 1.4826 * median(&mut sizes);
-        if 0.0 < deviation {
-            for (row, value) in blocks().flat_map(|block| block.rows.clone()).zip(departures) {
-                let size = value.abs() / (OUTLIER_DEVIATIONS * deviation);
-                inflation[row] = (size * size).max(1.0);
-            }
+        let deviation = (1.4826 * median(&mut sizes)).max(least.sqrt());
+        for (row, value) in blocks().flat_map(|block| block.rows.clone()).zip(departures) {
+            let size = value.abs() / (OUTLIER_DEVIATIONS * deviation);
+            inflation[row] = (size * size).max(1.0);
         }
     }
     inflation

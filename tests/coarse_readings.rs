@@ -1,0 +1,36 @@
+//! Readings rounded to several times their noise: the digits stand still, and it is no structure.
+
+use helixlock_lab::Verdict;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+use crate::support::diagnosed::diagnosed;
+
+const ROWS: u32 = 400;
+const PASSES: u32 = 3;
+
+/// Noise of a fifth of the last digit, and of a third.
+#[test]
+fn digits_that_stand_still_are_no_structure() {
+    for (step_um, noise_um) in [(0.25, 0.05), (0.25, 0.08)] {
+        for seed in 0..8 {
+            let mut chance = ChaCha8Rng::seed_from_u64(seed);
+            let mut columns = [const { Vec::new() }; 4];
+            for (pass, row) in (0..PASSES).flat_map(|pass| (0..ROWS).map(move |row| (pass, row))) {
+                let noise: f64 = StandardNormal.sample(&mut chance);
+                let mm = 1.5 * f64::from(row);
+                let reading = (noise_um * noise / step_um).round() * step_um;
+                let values = [f64::from(pass), 200.0 * f64::from(pass) + mm / 4.0, mm, reading];
+                columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
+            }
+            let names = ["pass", "time_s", "position_mm", "error_um"];
+            let found = diagnosed(names.into_iter().zip(columns).collect());
+            assert_eq!(found.verdict, Verdict::NothingMissing, "{step_um} {noise_um} {seed}");
+            for candidate in &found.candidates {
+                let said = format!("{step_um} {noise_um} {seed}: {candidate:?}");
+                assert!(candidate.rms_um.is_finite() && 1e-6 < candidate.p_value, "{said}");
+            }
+        }
+    }
+}
