@@ -159,8 +159,9 @@ fn longest_block(layout: &Layout) -> f64 {
 /// Variance factors that take outliers back to size: 1 within three robust deviations.
 ///
 /// A sample is judged against the median of itself and its neighbours, so a slow effect or a step,
-/// which neighbours share, is never an outlier (Hampel's identifier). No deviation is taken to be
-/// less than what `least_variance` says of its sensor: where most readings are equal, it is not zero.
+/// which neighbours share, is never an outlier (Hampel's identifier). Where most samples are that
+/// median themselves, as on a smooth curve or a staircase, nothing tells how far noise takes one, and
+/// none is an outlier. No deviation is taken to be less than `least_variance` says of its sensor.
 #[must_use]
 pub(crate) fn outlier_inflation(
     layout: &Layout,
@@ -177,10 +178,13 @@ pub(crate) fn outlier_inflation(
             departures.extend(rows.map(|row| departure(residual, row, &block.rows, &mut near)));
         }
         let mut sizes: Vec<f64> = departures.iter().map(|value| value.abs()).collect();
-        let deviation = (1.4826 * median(&mut sizes)).max(least.sqrt());
-        for (row, value) in blocks().flat_map(|block| block.rows.clone()).zip(departures) {
-            let size = value.abs() / (OUTLIER_DEVIATIONS * deviation);
-            inflation[row] = (size * size).max(1.0);
+        let told = 1.4826 * median(&mut sizes);
+        if 0.0 < told {
+            let outlying = OUTLIER_DEVIATIONS * told.max(least.sqrt());
+            for (row, value) in blocks().flat_map(|block| block.rows.clone()).zip(departures) {
+                let size = value.abs() / outlying;
+                inflation[row] = (size * size).max(1.0);
+            }
         }
     }
     inflation
