@@ -13,7 +13,7 @@ use std::process::ExitCode;
 use anyhow::Context;
 use clap::Args;
 use helixlock_plant::{At, Machine, Model};
-use helixlock_sim::{Course, Error, Options, Simulation, View, simulate};
+use helixlock_sim::{Course, Error, Options, Simulation, View, Waveform, device, simulate};
 use helixlock_traces::csv::write_csv;
 
 use self::recorded::{Recorded, WaveFormat};
@@ -81,14 +81,13 @@ impl Sim {
             model: &machine,
             options: &options,
             probe: &probe,
+            shown: &Waveform::new(device().netlist(), &probe),
             clock_hz: course.clock_hz,
             format: self.wave,
         };
         let simulation = recorded.run(&mut files, &mut progress)?.map_err(place)?;
         bar.finish_and_clear();
         let summary = Summary::new(&self.machine, &machine, &simulation, &simulation.findings());
-        let view = table::gtkwave_view(self.wave.file_name(), &probe);
-        files.write_content("wave.gtkw", view)?;
         let written = write_files(files, &machine, &simulation, &summary)?;
         if self.json {
             print_json(out, &summary)?;

@@ -8,11 +8,11 @@ use flate2::Compression;
 use flate2::write::GzEncoder;
 use helixlock_plant::Model;
 use helixlock_sim::{
-    Error, Options, Probe, Simulation, TICK, Watch, Waveform, WaveformFile, device,
-    simulate_watched,
+    Error, Options, Probe, Simulation, TICK, Watch, Waveform, WaveformFile, simulate_watched,
 };
 use helixlock_traces::{Dump, FstWriter, Variable, VcdWriter};
 
+use super::table::gtkwave_view;
 use crate::shared::output::{Batch, Output};
 
 /// How a waveform is written.
@@ -45,12 +45,14 @@ pub(super) struct Recorded<'a> {
     pub(super) model: &'a Model,
     pub(super) options: &'a Options,
     pub(super) probe: &'a Probe,
+    /// What the probe shows, nothing of it seen yet.
+    pub(super) shown: &'a Waveform,
     pub(super) clock_hz: u64,
     pub(super) format: WaveFormat,
 }
 
 impl Recorded<'_> {
-    /// Simulates and writes.
+    /// Simulates, and writes the waveform with GTKWave's view of it.
     pub(super) fn run(
         &self,
         files: &mut Batch,
@@ -65,6 +67,8 @@ impl Recorded<'_> {
             }
             Ok(())
         })?;
+        let view = gtkwave_view(self.format.file_name(), self.shown);
+        files.write_content("wave.gtkw", view)?;
         simulated.context("the run has no end")
     }
 
@@ -97,8 +101,8 @@ impl Recorded<'_> {
         make: impl FnOnce(&[Variable]) -> io::Result<D>,
         progress: &mut dyn FnMut(u64),
     ) -> Result<Simulation, Error> {
-        let shown = Waveform::new(device().netlist(), self.probe);
-        let mut file = WaveformFile::new(make, &shown, self.clock_hz).map_err(Error::NotTaken)?;
+        let mut file =
+            WaveformFile::new(make, self.shown, self.clock_hz).map_err(Error::NotTaken)?;
         let watch = Watch { probe: self.probe, seen: &mut |piece| file.write(piece) };
         let simulation = simulate_watched(self.model, self.options, Some(watch), progress)?;
         file.finish(self.probe.window.end).map_err(Error::NotTaken)?;

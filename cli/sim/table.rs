@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use helixlock_plant::Machine;
-use helixlock_sim::{ANALOGUE, Probe, SHOWN_FIRST, Simulation, Trace, Waveform, device};
+use helixlock_sim::{ANALOGUE, SHOWN_FIRST, Simulation, Trace, Waveform};
 use helixlock_traces::{Column, Table};
 
 use crate::shared::trace_column::trace_column;
@@ -37,13 +37,12 @@ fn columns_of(trace: &Trace, prefix: &str, rows: usize) -> Vec<Column> {
 }
 
 /// A save file for GTKWave: what a person looks for, the micrometres drawn as curves.
-pub(crate) fn gtkwave_view(file: &str, probe: &Probe) -> String {
+pub(crate) fn gtkwave_view(file: &str, waveform: &Waveform) -> String {
     /// Flags of the format: hexadecimal and right-aligned; with them, a curve.
     const BITS: &str = "@22";
     const BIT: &str = "@28";
     const CURVE: &str = "@88022";
     const BLANK: &str = "@20000\n-\n-\n-";
-    let waveform = Waveform::new(device().netlist(), probe);
     let mut view = format!("[dumpfile] \"{file}\"\n");
     let known = |path: &&str| waveform.signals.iter().find(|(known, _)| known == path);
     for (path, width) in SHOWN_FIRST.iter().filter_map(known) {

@@ -38,24 +38,24 @@ pub(super) fn of_a_column(all: &Quantities, column: &Arc<Quantity>) -> Vec<Shape
             .curve("slope", of(x))
             .curve("size", of(x) * about_mean(column)),
         );
-        shapes.push(
-            of_column(
+        let late_times_travel = |words, physics, stretch| {
+            of_column(words, physics)
+                .unknown("late_s", &time.dimension, constants())
+                .curve("slope", of(x))
+                .curve("size", of(x) * stretch)
+        };
+        shapes.extend([
+            late_times_travel(
                 "late relation times the travel",
                 "a scale, screw, bed or beam path that follows the column late",
-            )
-            .unknown("late_s", &time.dimension, constants())
-            .curve("slope", of(x))
-            .curve("size", of(x) * less_mean(late(), column)),
-        );
-        shapes.push(
-            of_column(
+                less_mean(late(), column),
+            ),
+            late_times_travel(
                 "what the column has not followed yet, times the travel",
                 "a sensor that lags behind what it measures",
-            )
-            .unknown("late_s", &time.dimension, constants())
-            .curve("slope", of(x))
-            .curve("size", of(x) * (of(column) - late())),
-        );
+                of(column) - late(),
+            ),
+        ]);
     }
     shapes
 }

@@ -38,10 +38,12 @@ pub(super) fn along_travel(all: &Quantities) -> Vec<Shape> {
     let x = &all.position;
     let mm = &x.dimension;
     let (low, range) = (lowest(&x.values), spread(&x.values));
-    let places = || evenly(low, low + range, 100);
     let from = || of(x) - unknown(0);
-    let at =
-        |words, physics| shape(words, "position", physics).unknown("at_mm", mm, places()).placed();
+    let at_one_of = |places, words, physics| {
+        let places = evenly(low, low + range, places);
+        shape(words, "position", physics).unknown("at_mm", mm, places).placed()
+    };
+    let at = |words, physics| at_one_of(100, words, physics);
     let squared = Expression::Power(Box::new(ramp(from())), 2);
     vec![
         at(
@@ -59,27 +61,19 @@ pub(super) fn along_travel(all: &Quantities) -> Vec<Shape> {
         at("step at one place", "a joint of two racks or scales, a dent of the guide")
             .curve("slope", of(x))
             .curve("size", call(Function::Step, from())),
-        shape(
+        at_one_of(
+            48,
             "stretch at another level",
-            "position",
             "a piece of a scale, rack or guide that was set in or worn flat",
         )
-        .unknown("at_mm", mm, evenly(low, low + range, 48))
         .unknown("half_mm", mm, by_factors(0.02 * range, 0.22 * range, 8))
-        .placed()
         .curve("size", call(Function::Step, unknown(1) - call(Function::Abs, from()))),
         at("root from one place on", "contact that stiffens under load")
             .curve("size", call(Function::Sqrt, ramp(from()))),
         decay(x, "position", "length_mm"),
-        shape(
-            "swing at one place",
-            "position",
-            "a dent with the metal beside it, a joint that tilts",
-        )
-        .unknown("at_mm", mm, evenly(low, low + range, 130))
-        .unknown("width_mm", mm, by_factors(0.005 * range, 0.05 * range, 3))
-        .placed()
-        .curve("size", (from() / unknown(1)) * bell(from() / unknown(1))),
+        at_one_of(130, "swing at one place", "a dent with the metal beside it, a joint that tilts")
+            .unknown("width_mm", mm, by_factors(0.005 * range, 0.05 * range, 3))
+            .curve("size", (from() / unknown(1)) * bell(from() / unknown(1))),
     ]
 }
 

@@ -45,7 +45,11 @@ impl Measurement {
 
 /// Spacing of the lattice that all values lie on; none for a constant.
 pub(crate) fn spacing(values: &[f64]) -> Option<f64> {
-    let levels = levels(values);
+    between(&levels(values))
+}
+
+/// The same of the values there are.
+fn between(levels: &[f64]) -> Option<f64> {
     let gaps = levels.windows(2).map(|pair| pair[1] - pair[0]);
     let step = gaps.fold(f64::INFINITY, f64::min);
     let whole = |level: &f64| {
@@ -64,13 +68,14 @@ fn levels(values: &[f64]) -> Vec<f64> {
     levels
 }
 
-/// The same, if they climb it step by step.
+/// Spacing of the lattice, if the values climb it step by step.
 fn lattice(values: &[f64]) -> Option<f64> {
-    let step = spacing(values)?;
+    let levels = levels(values);
+    let step = between(&levels)?;
     let moves = values.windows(2).map(|pair| ((pair[1] - pair[0]) / step).abs());
     let changes = moves.clone().filter(|steps| 0.5 < *steps).count();
     let leaps = moves.filter(|steps| 1.5 < *steps).count();
-    let stair = FEWEST_VALUES <= levels(values).len() && CHANGES_A_LEAP * leaps <= changes;
+    let stair = FEWEST_VALUES <= levels.len() && CHANGES_A_LEAP * leaps <= changes;
     stair.then_some(step)
 }
 

@@ -271,9 +271,8 @@ impl Problem {
     /// Variance that the steps of a sensor's readings leave: a reading on a lattice of spacing q is
     /// off by q/√12, however still the digits stand.
     fn finest(&self, sensor: usize) -> f64 {
-        let blocks = self.layout.blocks.iter().filter(|block| block.sensor == sensor);
-        let values: Vec<f64> =
-            blocks.flat_map(|block| &self.observed[block.rows.clone()]).copied().collect();
+        let (_, rows) = self.of_sensor(sensor);
+        let values: Vec<f64> = rows.iter().map(|&row| self.observed[row]).collect();
         let step = spacing(&values).unwrap_or(0.0);
         (FINEST_SENSOR_UM * FINEST_SENSOR_UM).max(step * step / 12.0)
     }

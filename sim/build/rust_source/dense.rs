@@ -54,7 +54,7 @@ pub(super) fn source(netlist: &Netlist, name: &str) -> String {
         kept_from = kept_from(&plan, inputs),
         step = indented(&step(&plan)),
         keep = indented(&keep(&plan, |_| true)),
-        outputs = indented(&outputs(netlist)),
+        outputs = indented(&stores(netlist, &netlist.outputs)),
     );
     source
 }
@@ -114,10 +114,11 @@ fn keep(plan: &Plan, which: impl Fn(&Kept) -> bool) -> Vec<String> {
     lines
 }
 
-fn outputs(netlist: &Netlist) -> Vec<String> {
+/// Statements that write signals into `values`, in order.
+pub(super) fn stores(netlist: &Netlist, signals: &[SignalId]) -> Vec<String> {
     let mut words = Words::new(netlist);
-    place_sources(&mut words, netlist, netlist.outputs.iter().copied());
-    let values: Vec<Operand> = netlist.outputs.iter().map(|output| words.signal(*output)).collect();
+    place_sources(&mut words, netlist, signals.iter().copied());
+    let values: Vec<Operand> = signals.iter().map(|signal| words.signal(*signal)).collect();
     let mut lines = words.lines();
     let stores = values.iter().enumerate();
     lines.extend(stores.map(|(index, word)| format!("values[{index}] = {word};")));
@@ -125,11 +126,7 @@ fn outputs(netlist: &Netlist) -> Vec<String> {
 }
 
 /// Places the inputs and registers that `roots` depend on, and no others.
-pub(super) fn place_sources(
-    words: &mut Words,
-    netlist: &Netlist,
-    roots: impl Iterator<Item = SignalId>,
-) {
+fn place_sources(words: &mut Words, netlist: &Netlist, roots: impl Iterator<Item = SignalId>) {
     let drivers = Drivers::new(netlist);
     for end in drivers.ends(roots, |_| false) {
         match drivers.of(end) {

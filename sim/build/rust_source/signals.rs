@@ -4,11 +4,11 @@ use std::fmt::Write as _;
 
 use helixlock_netlist::{Netlist, SignalId};
 
-use super::dense::{indented, place_sources};
-use super::words::{Operand, Words};
+use super::dense::{indented, stores};
 
 /// `impl AllSignals for name`.
 pub(super) fn source(netlist: &Netlist, name: &str) -> String {
+    let signals: Vec<SignalId> = (0..).map(SignalId).take(netlist.signals.len()).collect();
     let mut source = String::new();
     // Writing into a string does not fail.
     let _ = write!(
@@ -19,18 +19,7 @@ pub(super) fn source(netlist: &Netlist, name: &str) -> String {
 }}
 
 ",
-        lines = indented(&lines(netlist)),
+        lines = indented(&stores(netlist, &signals)),
     );
     source
-}
-
-fn lines(netlist: &Netlist) -> Vec<String> {
-    let signals = || (0..).map(SignalId).take(netlist.signals.len());
-    let mut words = Words::new(netlist);
-    place_sources(&mut words, netlist, signals());
-    let values: Vec<Operand> = signals().map(|signal| words.signal(signal)).collect();
-    let mut lines = words.lines();
-    let stores = values.iter().enumerate();
-    lines.extend(stores.map(|(index, word)| format!("values[{index}] = {word};")));
-    lines
 }

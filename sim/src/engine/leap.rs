@@ -34,6 +34,8 @@ pub struct Leap<'a, K: Kernel> {
     watched_others: Vec<SignalId>,
     /// Values they had.
     others: Vec<u64>,
+    /// Room for the values they have.
+    others_now: Vec<u64>,
     /// Counters that a watched signal shows as they are: it changes whenever they move.
     watched_counters: Vec<usize>,
     /// All signals at this moment, when somebody asked for one that is kept nowhere.
@@ -54,6 +56,7 @@ impl<'a, K: Kernel> Leap<'a, K> {
             watched_nets: vec![0; nets],
             watched_others: Vec::new(),
             others: Vec::new(),
+            others_now: Vec::new(),
             watched_counters: Vec::new(),
             evaluated: Evaluated::new(circuit),
         };
@@ -118,11 +121,11 @@ impl<'a, K: Kernel> Leap<'a, K> {
 
     fn note_watched_others(&mut self) -> bool {
         let signals = std::mem::take(&mut self.watched_others);
-        let mut now = Vec::with_capacity(signals.len());
+        let mut now = std::mem::take(&mut self.others_now);
         self.values(&signals, &mut now);
-        let changed = now != self.others;
-        (self.watched_others, self.others) = (signals, now);
-        changed
+        (self.watched_others, self.others_now) = (signals, now);
+        std::mem::swap(&mut self.others, &mut self.others_now);
+        self.others != self.others_now
     }
 }
 

@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 
 use helixlock_netlist::{Assignment, Expression, Node, SignalId, mask};
 
+use super::words::{choose, shift_down, shift_up};
+
 /// Where a value stands: sources first, then one for each operation, in order.
 pub(super) type Place = u32;
 
@@ -74,23 +76,18 @@ impl Operation {
             Code::Xor => of(a) ^ of(b),
             Code::Add => of(a).wrapping_add(of(b)),
             Code::Subtract => of(a).wrapping_sub(of(b)),
-            Code::ShiftUp => shift(of(b), |by| of(a) << by),
-            Code::ShiftDown => shift(of(b), |by| of(a) >> by),
+            Code::ShiftUp => shift_up(of(a), of(b)),
+            Code::ShiftDown => shift_down(of(a), of(b)),
             Code::Slice => of(a) >> b,
             Code::Equal => u64::from(of(a) == of(b)),
             Code::Less => u64::from(of(a) < of(b)),
             Code::LessOrEqual => u64::from(of(a) <= of(b)),
             Code::Any => u64::from(of(a) != 0),
             Code::Parity => u64::from(of(a).count_ones() & 1),
-            Code::Select => of(if of(a) == 0 { c } else { b }),
+            Code::Select => choose(of(a), of(b), of(c)),
         };
         raw & self.mask
     }
-}
-
-/// Shifts by 64 and more leave nothing.
-fn shift(by: u64, shifted: impl Fn(u64) -> u64) -> u64 {
-    if by < 64 { shifted(by) } else { 0 }
 }
 
 /// A program in the making.

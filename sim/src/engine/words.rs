@@ -1,4 +1,4 @@
-//! What generated code computes with.
+//! What generated code and programs compute with.
 
 /// `then` where the one-bit condition is set, else `otherwise`.
 ///
