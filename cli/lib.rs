@@ -42,14 +42,14 @@ pub use crate::shared::refused::Refused;
 pub use helixlock_traces::{Column, Table};
 
 use crate::shared::cases::Campaign;
-use crate::shared::language::{Language, Translated};
+use crate::shared::language::{Language, Reporter, Translated};
 use crate::shared::terminal::{Terminal, shown};
 
 /// Laser correction of a lead-screw grinder: simulate it, build it, compare it with measurements
 #[derive(Debug, Parser)]
 #[command(name = "helixlock", version, arg_required_else_help = true)]
 struct Words {
-    /// Language of reports; data, such as JSON, have none
+    /// Language of reports and pages; data, such as JSON, have none
     #[arg(long, global = true, value_enum, value_name = "LANGUAGE", default_value_t)]
     language: Language,
     #[command(subcommand)]
@@ -93,7 +93,7 @@ const CAMPAIGNS: [&Campaign; 4] =
 /// Exit status: 0 done, 1 the answer is no, 2 the input or the words are wrong.
 #[must_use]
 pub fn main() -> ExitCode {
-    let (words, language) = match words() {
+    let (words, is_report) = match words() {
         Ok(words) => words,
         Err(words) if words.use_stderr() => {
             // Nothing is left to tell the user if this fails, here and below.
@@ -102,7 +102,13 @@ pub fn main() -> ExitCode {
         }
         Err(help) => help.exit(),
     };
-    let mut out = Translated::new(Terminal(io::stdout().lock()), language);
+    let language = words.language;
+    let terminal = Terminal(io::stdout().lock());
+    let mut out = if is_report {
+        Translated::new(terminal, language)
+    } else {
+        Translated::of_data(terminal, language)
+    };
     let done = run(words.command, &mut out);
     let passed_on = out.flush();
     match done.and_then(|code| Ok(passed_on.map(|()| code)?)) {
@@ -110,18 +116,16 @@ pub fn main() -> ExitCode {
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
             let error = shown(&format!("{error:#}{}", hint(&error)));
-            let _ = writeln!(io::stderr(), "{}", words.language.of(&format!("helixlock: {error}")));
+            let _ = writeln!(io::stderr(), "{}", language.of(&format!("helixlock: {error}")));
             ExitCode::from(2)
         }
     }
 }
 
-/// The words of the process, and the language of what they print.
-fn words() -> Result<(Words, Language), clap::Error> {
+/// The words of the process, and whether what they print is a report.
+fn words() -> Result<(Words, bool), clap::Error> {
     let matches = Words::command().try_get_matches()?;
-    let words = Words::from_arg_matches(&matches)?;
-    let language = if is_report(&matches) { words.language } else { Language::En };
-    Ok((words, language))
+    Ok((Words::from_arg_matches(&matches)?, is_report(&matches)))
 }
 
 /// False for what programs read.
@@ -145,7 +149,7 @@ fn hint(error: &anyhow::Error) -> &'static str {
     }
 }
 
-fn run(command: Command, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+fn run(command: Command, out: &mut impl Reporter) -> anyhow::Result<ExitCode> {
     match command {
         Command::Add(command) => command.run(out),
         Command::Board(board) => board.run(out),

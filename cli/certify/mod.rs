@@ -6,7 +6,6 @@ mod page;
 mod sets;
 mod text;
 
-use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -22,6 +21,7 @@ use helixlock_traces::csv::write_csv;
 use self::json::{BlockJson, CertificateJson, GatesJson, HazardJson, WholeJson};
 use crate::shared::cases::{Campaign, Cases, Row, Shard, Worked, apart_from_cases, write_numbers};
 use crate::shared::input::machine_files;
+use crate::shared::language::Reporter;
 use crate::shared::next::Next;
 use crate::shared::output::{print_json, print_page, write_page, write_whole};
 use crate::shared::progress;
@@ -105,7 +105,7 @@ fn positive_ns(word: &str) -> Result<f64, String> {
 
 impl Certify {
     /// Runs the pass through both and prints what differs.
-    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+    pub(crate) fn run(self, out: &mut impl Reporter) -> anyhow::Result<ExitCode> {
         let others = [("`--page`", &self.page), ("`--trace`", &self.trace)];
         let others = others.map(|(name, path)| (name, path.as_deref()));
         apart_from_cases(self.output.as_deref(), others)?;
@@ -132,7 +132,7 @@ impl Certify {
         }
         if let Some(path) = &self.page {
             let page = page::page(&machine.title, &certificate, &checks, &hazards);
-            write_page(path, machine_files(&self.machine, &machine), &page)?;
+            write_page(path, machine_files(&self.machine, &machine), &page, out.language())?;
         }
         if self.json {
             let words = CertificateJson::new(&certificate, self.flip_flop(), mtbf);

@@ -4,7 +4,6 @@ mod json;
 mod page;
 mod text;
 
-use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -14,6 +13,7 @@ use helixlock_lab::compare;
 use self::json::ComparisonJson;
 use crate::shared::angular::in_unit;
 use crate::shared::answer::{Answer, Answering};
+use crate::shared::language::Reporter;
 use crate::shared::measured::Files;
 use crate::shared::next::Next;
 use crate::shared::output::{Batch, Written, print_json};
@@ -34,14 +34,15 @@ pub(crate) struct Compare {
 
 impl Compare {
     /// Prints the comparison; exit status 0 whatever it says.
-    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+    pub(crate) fn run(self, out: &mut impl Reporter) -> anyhow::Result<ExitCode> {
         let (file, problem) = self.files.read()?;
         let comparison = compare(&problem);
         let mut written = Written::default();
         if let Some(folder) = &self.output {
-            let page = page::page(&problem, &comparison).html();
-            let mut files = Batch::new(folder, self.files.inputs(&file.model))?;
-            files.write_content("report.html", page)?;
+            let page = page::page(&problem, &comparison);
+            let mut files =
+                Batch::new(folder, self.files.inputs(&file.model))?.in_language(out.language());
+            files.write_page(&page)?;
             written = files.kept()?;
         }
         if self.json {

@@ -14,6 +14,7 @@ use crate::shared::diagnosis_json::DiagnosisJson;
 use crate::shared::diagnosis_page::page;
 use crate::shared::diagnosis_text::print;
 use crate::shared::effect_file::own_effects;
+use crate::shared::language::Reporter;
 use crate::shared::measured::Files;
 use crate::shared::next::Next;
 use crate::shared::output::{Batch, Written, print_json};
@@ -38,14 +39,14 @@ pub(crate) struct Diagnose {
 
 impl Diagnose {
     /// Prints the diagnosis; exit status 1 when the input itself is doubted, else 0.
-    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+    pub(crate) fn run(self, out: &mut impl Reporter) -> anyhow::Result<ExitCode> {
         let (file, problem, diagnosis) = self.found()?;
         let mut written = Written::default();
         if let Some(folder) = &self.output {
             let mut inputs = self.files.inputs(&file.model);
             inputs.extend(self.custom.clone());
-            let mut files = Batch::new(folder, inputs)?;
-            files.write_content("report.html", page(&problem, &diagnosis, Vec::new()).html())?;
+            let mut files = Batch::new(folder, inputs)?.in_language(out.language());
+            files.write_page(&page(&problem, &diagnosis, Vec::new()))?;
             written = files.kept()?;
         }
         if self.json {

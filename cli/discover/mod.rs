@@ -16,6 +16,7 @@ use helixlock_report::Page;
 use self::json::DiscoveryJson;
 use crate::shared::angular::in_unit;
 use crate::shared::answer::{Answer, Answering};
+use crate::shared::language::Reporter;
 use crate::shared::measured::Files;
 use crate::shared::next::Next;
 use crate::shared::output::{apart, print_json, print_page, write_content, write_page};
@@ -39,7 +40,7 @@ pub(crate) struct Discover {
 impl Discover {
     /// Prints the proposals; exit status 1 when the input itself is doubted, or nothing was
     /// proposed that could be written.
-    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+    pub(crate) fn run(self, out: &mut impl Reporter) -> anyhow::Result<ExitCode> {
         apart([("`-o`", self.output.as_deref()), ("`--page`", self.page.as_deref())])?;
         let (file, problem, discovery) = self.found()?;
         let written = match &self.output {
@@ -53,7 +54,7 @@ impl Discover {
         };
         if let Some(path) = &self.page {
             let page = drawn(&file, &problem, &discovery)?;
-            write_page(path, self.files.inputs(&file.model), &page)?;
+            write_page(path, self.files.inputs(&file.model), &page, out.language())?;
         }
         let measurement = &problem.measurement;
         if self.json {

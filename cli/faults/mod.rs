@@ -18,6 +18,7 @@ use self::rows::{COLUMNS, Faults, cells_of, faults_of, word, write_csv};
 use crate::shared::cases::{Campaign, Cases, Row, Shard, apart_from_cases};
 use crate::shared::input::machine_files;
 use crate::shared::keys::keys;
+use crate::shared::language::Reporter;
 use crate::shared::output::{print_json, print_page, write_page};
 
 /// Flips of a campaign.
@@ -60,7 +61,7 @@ pub(crate) struct FaultsCommand {
 
 impl FaultsCommand {
     /// Runs what is missing of the campaign, writes and prints it.
-    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+    pub(crate) fn run(self, out: &mut impl Reporter) -> anyhow::Result<ExitCode> {
         apart_from_cases(self.output.as_deref(), [("`--page`", self.page.as_deref())])?;
         let file = MachineFile::read(&self.machine)?;
         let flips = Flips::new(&file.model, self.instants)?;
@@ -73,7 +74,7 @@ impl FaultsCommand {
         let faults = faults_of(&worked.table)?;
         if let Some(path) = &self.page {
             let page = page::page(&file.model.title, &faults);
-            write_page(path, machine_files(&self.machine, &file.model), &page)?;
+            write_page(path, machine_files(&self.machine, &file.model), &page, out.language())?;
         }
         if self.json {
             print_json(out, &FaultsJson::new(&faults))?;

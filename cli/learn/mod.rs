@@ -27,6 +27,7 @@ use crate::shared::answer::{Answer, Answering};
 use crate::shared::captured::Signals;
 use crate::shared::effect_file::own_effects;
 use crate::shared::input::{Input, machine_files};
+use crate::shared::language::Reporter;
 use crate::shared::next::Next;
 use crate::shared::output::{self, Batch, Written, print_json};
 use crate::shared::residual_table::residual_table;
@@ -68,7 +69,7 @@ pub(crate) struct Learn {
 
 impl Learn {
     /// Writes the folder; exit status 1 when the input itself is doubted, else 0.
-    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+    pub(crate) fn run(self, out: &mut impl Reporter) -> anyhow::Result<ExitCode> {
         match (&self.machine, &self.data, &self.output) {
             (Some(machine), Some(data), folder) => {
                 self.learn(machine, data, folder.as_deref(), out)
@@ -83,7 +84,7 @@ impl Learn {
         machine: &Path,
         data: &Path,
         folder: Option<&Path>,
-        out: &mut impl Write,
+        out: &mut impl Reporter,
     ) -> anyhow::Result<ExitCode> {
         let learned = self.learned(machine, data)?;
         let Learned { problem, diagnosis, check, book, .. } = &learned;
@@ -92,7 +93,7 @@ impl Learn {
             let page = diagnosis_page::page(problem, diagnosis, closed_loop(check));
             let mut inputs = machine_files(machine, &learned.file.model);
             inputs.extend(self.custom.iter().cloned().chain([data.to_owned()]));
-            let mut files = Batch::new(folder, inputs)?;
+            let mut files = Batch::new(folder, inputs)?.in_language(out.language());
             kept = keep_aside(&mut files, &[learned.machine(), &learned.text])?;
             written = write_folder(files, learned.machine(), &learned.ledger(data)?, &page)?;
         }
@@ -221,7 +222,7 @@ fn write_folder(
 ) -> anyhow::Result<Written> {
     files.write_json(LEDGER, json)?;
     files.write_content(MACHINE, learned)?;
-    files.write_content("report.html", page.html())?;
+    files.write_page(page)?;
     files.kept()
 }
 
@@ -245,7 +246,7 @@ fn read_ledger(path: &Path) -> anyhow::Result<Value> {
 }
 
 /// Goes back to the machine file before the last round that still stands.
-fn undo(folder: &Path, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+fn undo(folder: &Path, out: &mut impl Reporter) -> anyhow::Result<ExitCode> {
     output::recover(folder)?;
     let path = folder.join(LEDGER);
     let mut book = read_ledger(&path)?;
@@ -263,11 +264,11 @@ fn undo(folder: &Path, out: &mut impl Write) -> anyhow::Result<ExitCode> {
     };
     last["taken_back"] = Value::from(true);
     let added = last["added"].as_str().unwrap_or("nothing").to_owned();
-    let mut files = Batch::new(folder, [])?;
+    let mut files = Batch::new(folder, [])?.in_language(out.language());
     let kept = edited_aside(&mut files)?;
     files.write_json(LEDGER, &book)?;
     files.write_content(MACHINE, machine)?;
-    files.write_content("report.html", undone_page::page(&book).html())?;
+    files.write_page(&undone_page::page(&book))?;
     files.keep()?;
     write!(out, "{}", kept::note(kept.as_deref()))?;
     writeln!(out, "{added} taken back")?;

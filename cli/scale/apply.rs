@@ -1,7 +1,6 @@
 //! `helixlock scale apply`: what a table leaves of measured errors.
 
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
@@ -16,6 +15,7 @@ use super::json::AppliedJson;
 use super::samples::read_samples;
 use super::{page, text};
 use crate::shared::answer::{Answer, Answering};
+use crate::shared::language::Reporter;
 use crate::shared::output::{Batch, Written, print_json};
 use crate::shared::quantity::{length_um, position_mm};
 
@@ -65,16 +65,15 @@ pub(crate) enum By {
 
 impl Apply {
     /// Does it.
-    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+    pub(crate) fn run(self, out: &mut impl Reporter) -> anyhow::Result<ExitCode> {
         let comparison = self.compared()?;
         let result = AppliedJson::new(&comparison, self.limit);
         let written = match &self.output {
-            Some(output) => write_applied(
-                output,
-                [self.image.clone(), self.data.clone()],
-                &comparison,
-                &result,
-            )?,
+            Some(output) => {
+                let files = Batch::new(output, [self.image.clone(), self.data.clone()])?
+                    .in_language(out.language());
+                write_applied(files, &comparison, &result)?
+            }
             None => Written::default(),
         };
         if self.json {
@@ -112,13 +111,11 @@ impl Answering for Apply {
 }
 
 fn write_applied(
-    output: &Path,
-    inputs: [PathBuf; 2],
+    mut files: Batch,
     comparison: &Comparison,
     result: &AppliedJson<'_>,
 ) -> anyhow::Result<Written> {
     let page = page::page(comparison);
-    let mut files = Batch::new(output, inputs)?;
     files.write_report(&page::figure(comparison), result, &page)?;
     let corrected = corrected_table(comparison);
     files.write("corrected.csv", |mut file| Ok(write_csv(&corrected, &mut file)?))?;

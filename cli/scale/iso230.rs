@@ -1,6 +1,5 @@
 //! `helixlock scale iso230`: positioning accuracy by ISO 230-2.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -15,6 +14,7 @@ use super::json::AxisTestJson;
 use super::samples::{read_samples, targets};
 use super::{axis_page, text};
 use crate::shared::answer::{Answer, Answering};
+use crate::shared::language::Reporter;
 use crate::shared::output::{Batch, Written, print_json};
 use crate::shared::quantity::length_um;
 use crate::shared::refused::in_file;
@@ -52,12 +52,15 @@ const MOST_READINGS: usize = 10_000;
 
 impl Iso230 {
     /// Does it.
-    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+    pub(crate) fn run(self, out: &mut impl Reporter) -> anyhow::Result<ExitCode> {
         let test = self.test()?;
         let result = AxisTestJson::new(&test);
         let inputs = self.sheet.iter().chain([&self.data]).cloned();
         let written = match &self.output {
-            Some(output) => write_files(output, inputs.collect(), &self.data, &test, &result)?,
+            Some(output) => {
+                let files = Batch::new(output, inputs)?.in_language(out.language());
+                write_files(files, &self.data, &test, &result)?
+            }
             None => Written::default(),
         };
         if self.json {
@@ -132,13 +135,11 @@ fn noise_um(sources: &[Source]) -> f64 {
 }
 
 fn write_files(
-    output: &Path,
-    inputs: Vec<PathBuf>,
+    mut files: Batch,
     data: &Path,
     test: &AxisTest,
     result: &AxisTestJson<'_>,
 ) -> anyhow::Result<Written> {
-    let mut files = Batch::new(output, inputs)?;
     files.write_report(&axis_page::figure(test), result, &axis_page::page(data, test))?;
     files.kept()
 }

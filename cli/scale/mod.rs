@@ -14,7 +14,6 @@ mod page;
 mod samples;
 mod text;
 
-use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{Args, Subcommand};
@@ -25,6 +24,7 @@ use self::export::Export;
 pub(crate) use self::iso230::Iso230;
 pub(crate) use self::model::Model;
 
+use crate::shared::language::Reporter;
 /// Build, apply and export a table of positioning errors
 ///
 /// Errors of a machine scale against a calibrated one are read from `position_mm`, `error_um`
@@ -47,7 +47,7 @@ enum Action {
 
 impl ScaleCommand {
     /// Does what the word after `scale` says.
-    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+    pub(crate) fn run(self, out: &mut impl Reporter) -> anyhow::Result<ExitCode> {
         match self.action {
             Action::Build(build) => build.run(out),
             Action::Apply(apply) => apply.run(out),

@@ -1,6 +1,5 @@
 //! `helixlock scale model`: a scale like the document's, and what limits its compensation.
 
-use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -14,6 +13,7 @@ use helixlock_traces::csv::RowWriter;
 
 use super::json::ModelJson;
 use crate::shared::answer::{Answer, Answering};
+use crate::shared::language::Reporter;
 use crate::shared::output::{Batch, Written, print_json};
 use crate::shared::page_pieces::{panel, picture};
 use crate::shared::quantity::{length_mm, length_um};
@@ -64,10 +64,13 @@ pub(crate) struct Model {
 
 impl Model {
     /// Models, writes, prints.
-    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+    pub(crate) fn run(self, out: &mut impl Reporter) -> anyhow::Result<ExitCode> {
         let (before, budget) = self.budget()?;
         let written = match &self.output {
-            Some(output) => self.write_files(output, &budget)?,
+            Some(output) => {
+                let files = Batch::new(output, [])?.in_language(out.language());
+                self.write_files(files, &budget)?
+            }
             None => Written::default(),
         };
         if self.json {
@@ -117,14 +120,9 @@ impl Model {
         }
     }
 
-    fn write_files(
-        &self,
-        output: &std::path::Path,
-        budget: &[Residual],
-    ) -> anyhow::Result<Written> {
+    fn write_files(&self, mut files: Batch, budget: &[Residual]) -> anyhow::Result<Written> {
         let (scale, detector) = (self.scale(), self.detector());
         let page = self.page(&scale, budget);
-        let mut files = Batch::new(output, [])?;
         for (name, step_mm, run) in
             [("table-run.csv", self.step, 1), ("check-run.csv", self.step / 10.0, 2)]
         {
@@ -138,7 +136,7 @@ impl Model {
                 Ok(())
             })?;
         }
-        files.write_content("report.html", page.html())?;
+        files.write_page(&page)?;
         files.kept()
     }
 

@@ -6,8 +6,7 @@ mod page;
 mod sheet;
 mod text;
 
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::{Context, bail};
@@ -23,6 +22,7 @@ use self::evaluation::Evaluation;
 use self::json::ScrewJson;
 use self::sheet::{Measured, reading_noise_um, sheet_of, with_budgets};
 use crate::shared::answer::{Answer, Answering};
+use crate::shared::language::Reporter;
 use crate::shared::output::{Batch, Written, print_json};
 use crate::shared::quantity::{deviation_um, lead_mm, length_mm, length_um, position_mm};
 use crate::shared::refused::in_file;
@@ -116,13 +116,16 @@ enum By {
 
 impl Screw {
     /// Evaluates, writes, prints.
-    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+    pub(crate) fn run(self, out: &mut impl Reporter) -> anyhow::Result<ExitCode> {
         let evaluation = self.evaluate()?;
         let asked = self.asked(&evaluation);
         let result = ScrewJson::new(&evaluation, asked);
         let inputs = self.table.iter().chain(&self.sheet).chain([&self.data]).cloned();
         let written = match &self.output {
-            Some(output) => write_files(output, inputs.collect(), &evaluation, &result)?,
+            Some(output) => {
+                let files = Batch::new(output, inputs)?.in_language(out.language());
+                write_files(files, &evaluation, &result)?
+            }
             None => Written::default(),
         };
         if self.json {
@@ -272,13 +275,11 @@ impl Answering for Screw {
 }
 
 fn write_files(
-    output: &Path,
-    inputs: Vec<PathBuf>,
+    mut files: Batch,
     evaluation: &Evaluation,
     result: &ScrewJson<'_>,
 ) -> anyhow::Result<Written> {
     let page = page::page(evaluation);
-    let mut files = Batch::new(output, inputs)?;
     files.write_report(&page::figure(evaluation), result, &page)?;
     files.kept()
 }

@@ -14,6 +14,7 @@ use serde::Serialize;
 
 use self::target::Target;
 use self::unfinished::Unfinished;
+use super::language::Language;
 
 mod apart;
 mod commit;
@@ -22,6 +23,9 @@ mod unfinished;
 
 pub(crate) use apart::apart;
 pub(crate) use commit::recover;
+
+/// Name of the page that a command leaves in its folder.
+pub(crate) const REPORT: &str = "report.html";
 
 /// What a file is filled through; some formats go back to their header.
 pub(crate) trait Output: Write + Seek {}
@@ -39,6 +43,8 @@ pub(crate) struct Batch {
     /// What a name of the folder leads to, elsewhere or not a file.
     outside: Vec<Outside>,
     _folder: MadeFolder,
+    /// Language of the pages.
+    language: Language,
 }
 
 /// A folder that was made for files; it goes again if none came.
@@ -75,7 +81,13 @@ impl Batch {
             inputs: inputs.into_iter().collect(),
             inside: Vec::new(),
             outside: Vec::new(),
+            language: Language::En,
         })
+    }
+
+    /// The same with its pages in a language.
+    pub(crate) fn in_language(self, language: Language) -> Self {
+        Self { language, ..self }
     }
 
     /// The folder.
@@ -143,9 +155,14 @@ impl Batch {
         result: &impl Serialize,
         page: &Page,
     ) -> anyhow::Result<()> {
-        self.write_content("figure.svg", figure.svg())?;
+        self.write_content("figure.svg", self.language.picture(figure.svg()))?;
         self.write_json("result.json", result)?;
-        self.write_content("report.html", page.html())
+        self.write_page(page)
+    }
+
+    /// Writes the page of a command.
+    pub(crate) fn write_page(&mut self, page: &Page) -> anyhow::Result<()> {
+        self.write_content(REPORT, self.language.page(page))
     }
 
     /// Gives every file its name, and says which there are.
@@ -218,6 +235,7 @@ pub(crate) fn write_whole(
         inputs: inputs.into_iter().collect(),
         inside: Vec::new(),
         outside: Vec::new(),
+        language: Language::En,
     };
     batch.put(name, path, fill)?;
     batch.keep()
@@ -232,13 +250,14 @@ pub(crate) fn write_content(
     write_whole(path, inputs, |file| Ok(file.write_all(content.as_ref())?))
 }
 
-/// Writes a page as [`write_whole`] does.
+/// Writes a page in a language as [`write_whole`] does.
 pub(crate) fn write_page(
     path: &Path,
     inputs: impl IntoIterator<Item = PathBuf>,
     page: &Page,
+    language: Language,
 ) -> anyhow::Result<()> {
-    write_content(path, inputs, page.html())
+    write_content(path, inputs, language.page(page))
 }
 
 /// Tells a user where a page is; nothing without one.

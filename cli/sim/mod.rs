@@ -6,7 +6,6 @@ mod summary;
 mod table;
 mod waveforms;
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -21,15 +20,14 @@ use self::summary::Summary;
 use crate::shared::answer::{Answer, Answering};
 use crate::shared::browser::open_page;
 use crate::shared::input::machine_files;
+use crate::shared::language::Reporter;
 use crate::shared::next::Next;
-use crate::shared::output::{Batch, Written, print_json};
+use crate::shared::output::{Batch, REPORT, Written, print_json};
 use crate::shared::progress;
 use crate::shared::quantity::length_mm;
 
 /// Name of the table in its folder.
 const TRACE: &str = "trace.csv";
-/// Name of the page in its folder.
-const REPORT: &str = "report.html";
 
 /// Grind a workpiece clock by clock, without and with the correction
 ///
@@ -68,7 +66,7 @@ pub(crate) struct Sim {
 
 impl Sim {
     /// Simulates, writes, and prints the summary.
-    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+    pub(crate) fn run(self, out: &mut impl Reporter) -> anyhow::Result<ExitCode> {
         let output = self.output.as_deref().context("no folder, expected `-o DIR`")?;
         let (machine, options) = (Model::read(&self.machine)?, self.options());
         let place = |error| in_file(&self.machine, error);
@@ -76,7 +74,8 @@ impl Sim {
         let probe = course.probe(&machine, &self.view()).map_err(place)?;
         let bar = progress::bar(course.clocks(), "clocks");
         let mut progress = |clocks| bar.set_position(clocks);
-        let mut files = Batch::new(output, machine_files(&self.machine, &machine))?;
+        let mut files =
+            Batch::new(output, machine_files(&self.machine, &machine))?.in_language(out.language());
         let recorded = Recorded {
             model: &machine,
             options: &options,
@@ -141,6 +140,6 @@ fn write_files(
     let trace = table::table(machine, simulation);
     files.write(TRACE, |mut file| Ok(write_csv(&trace, &mut file)?))?;
     files.write_json("summary.json", summary)?;
-    files.write_content(REPORT, page)?;
+    files.write_page(&page)?;
     files.kept()
 }

@@ -17,12 +17,12 @@ const POSITION: &str = "position in mm";
 /// Comparisons drawn singly, to show the hunting.
 const HUNTING_SHOWN: usize = 60;
 
-/// The page as HTML.
+/// The page.
 pub(crate) fn page(
     machine: &Machine,
     simulation: &Simulation,
     summary: &Summary,
-) -> anyhow::Result<String> {
+) -> anyhow::Result<Page> {
     let illustrations = illustrate(machine, &simulation.course)?;
     let clock_hz = simulation.course.clock_hz();
     let mut parts = vec![Part::Numbers(numbers(summary))];
@@ -43,7 +43,7 @@ pub(crate) fn page(
             caption: CALIBRATION_CAPTION.into(),
         },
     ]);
-    Ok(Page { title: summary.title.clone(), summary: sentence(summary), parts }.html())
+    Ok(Page { title: summary.title.clone(), summary: sentence(summary), parts })
 }
 
 const LEAD_CAPTION: &str = "Lead error of the finished thread, positive when it is longer than \

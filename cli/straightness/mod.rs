@@ -25,6 +25,7 @@ use self::json::{PlansJson, StraightnessJson};
 use self::readings::read_readings;
 use self::sheet::sheet_of;
 use crate::shared::answer::{Answer, Answering};
+use crate::shared::language::Reporter;
 use crate::shared::output::{Batch, Written, print_json};
 use crate::shared::quantity::{length_mm, length_um};
 use crate::shared::refused::in_file;
@@ -102,7 +103,7 @@ pub(crate) struct StraightnessCommand {
 
 impl StraightnessCommand {
     /// Plans, or separates, writes and prints.
-    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+    pub(crate) fn run(self, out: &mut impl Reporter) -> anyhow::Result<ExitCode> {
         if self.plan {
             return self.run_plan(out);
         }
@@ -112,7 +113,10 @@ impl StraightnessCommand {
         let result = StraightnessJson::new(&evaluation, self.limit);
         let inputs = self.sheet.as_deref().into_iter().chain([path]).map(Path::to_owned);
         let written = match &self.output {
-            Some(output) => write_files(output, inputs.collect(), &evaluation, &result)?,
+            Some(output) => {
+                let files = Batch::new(output, inputs)?.in_language(out.language());
+                write_files(files, &evaluation, &result)?
+            }
             None => Written::default(),
         };
         if self.json {
@@ -275,13 +279,11 @@ fn whole_steps(steps: f64) -> usize {
 }
 
 fn write_files(
-    output: &Path,
-    inputs: Vec<PathBuf>,
+    mut files: Batch,
     evaluation: &Evaluation,
     result: &StraightnessJson<'_>,
 ) -> anyhow::Result<Written> {
     let page = page::page(evaluation);
-    let mut files = Batch::new(output, inputs)?;
     files.write_report(&page::figure(evaluation), result, &page)?;
     let tables = [
         ("separated.csv", separated_table(evaluation.chosen())),

@@ -17,6 +17,7 @@ use crate::shared::answer::{Answer, Answering};
 use crate::shared::cases::{Campaign, Cases, Row, Shard, Worked, apart_from_cases, write_numbers};
 use crate::shared::input::machine_files;
 use crate::shared::keys::keys;
+use crate::shared::language::Reporter;
 use crate::shared::output::{print_page, write_page};
 
 /// Most places that are named.
@@ -64,7 +65,7 @@ pub(crate) struct Sweep {
 
 impl Sweep {
     /// Runs what is missing and writes the table.
-    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+    pub(crate) fn run(self, out: &mut impl Reporter) -> anyhow::Result<ExitCode> {
         apart_from_cases(self.output.as_deref(), [("`--page`", self.page.as_deref())])?;
         let file = MachineFile::read(&self.machine)?;
         let plan = self.plan()?;
@@ -72,7 +73,7 @@ impl Sweep {
         if let Some(path) = &self.page {
             let title = &file.model.title;
             let page = page::page(title, &worked.table, &plan.columns(), &worked.rows);
-            write_page(path, machine_files(&self.machine, &file.model), &page)?;
+            write_page(path, machine_files(&self.machine, &file.model), &page, out.language())?;
         }
         worked.print(&CAMPAIGN, out)?;
         let failed = |row: &Row| Some(format!("case {}: {}", row.case, row.failure.as_ref()?));

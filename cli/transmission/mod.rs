@@ -8,7 +8,7 @@ mod text;
 mod truth;
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::{anyhow, bail};
@@ -25,6 +25,7 @@ use self::json::TransmissionJson;
 use self::pulses::{Names, read_pulses};
 use self::truth::read_truth;
 use crate::shared::answer::{Answer, Answering};
+use crate::shared::language::Reporter;
 use crate::shared::output::{Batch, Written, print_json};
 use crate::shared::quantity::{frequency_hz, lead_mm, time_s};
 use crate::shared::refused::in_file;
@@ -112,11 +113,14 @@ const MOST_SHAFTS: usize = 500;
 
 impl TransmissionCommand {
     /// Measures, writes, prints.
-    pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+    pub(crate) fn run(self, out: &mut impl Reporter) -> anyhow::Result<ExitCode> {
         let evaluation = self.evaluate()?;
         let result = TransmissionJson::new(&evaluation);
         let written = match &self.output {
-            Some(output) => self.write_files(output, &evaluation, &result)?,
+            Some(output) => {
+                let files = Batch::new(output, self.inputs())?.in_language(out.language());
+                self.write_files(files, &evaluation, &result)?
+            }
             None => Written::default(),
         };
         if self.json {
@@ -200,12 +204,11 @@ impl TransmissionCommand {
 
     fn write_files(
         &self,
-        output: &Path,
+        mut files: Batch,
         evaluation: &Evaluation,
         result: &TransmissionJson<'_>,
     ) -> anyhow::Result<Written> {
         let page = page::page(evaluation);
-        let mut files = Batch::new(output, self.inputs())?;
         files.write_report(&page::figure(evaluation), result, &page)?;
         if let Some(best) = evaluation.best() {
             let error = error_table(&best.reading);

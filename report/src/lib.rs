@@ -13,6 +13,7 @@ pub mod table;
 pub mod waveform;
 
 pub use colour::Colour;
+pub use markup::translated;
 pub use page::{Page, Part};
 pub use plot::{Axis, Band, Figure, Label, Panel, Scale, Series, Style};
 pub use table::Table;

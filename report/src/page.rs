@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::markup::escaped;
+use crate::markup::{escaped, translated};
 use crate::table::Table;
 
 /// A page; a browser shows it from a file, a printer prints it.
@@ -48,9 +48,23 @@ impl Page {
     /// The page as HTML; the same page gives the same bytes.
     #[must_use]
     pub fn html(&self) -> String {
+        self.tagged("en")
+    }
+
+    /// The page in another language: its tag, as in `zh`, and what each English text is there.
+    ///
+    /// Listings and what stands in fields are their writers' own, and stay.
+    #[must_use]
+    pub fn html_in(&self, language: &str, say: impl Fn(&str) -> String) -> String {
+        let parts = self.parts.iter().map(|part| part.said(&say)).collect();
+        let said = Self { title: say(&self.title), summary: say(&self.summary), parts };
+        said.tagged(language)
+    }
+
+    fn tagged(&self, language: &str) -> String {
         let title = escaped(&self.title);
         let mut html = format!(
-            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+            "<!DOCTYPE html>\n<html lang=\"{language}\">\n<head>\n<meta charset=\"utf-8\">\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
              <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n\
              <h1>{title}</h1>\n"
@@ -63,6 +77,29 @@ impl Page {
         }
         html.push_str("</main>\n</body>\n</html>\n");
         html
+    }
+}
+
+impl Part {
+    fn said(&self, say: &impl Fn(&str) -> String) -> Self {
+        match self {
+            Self::Heading(text) => Self::Heading(say(text)),
+            Self::Text(text) => Self::Text(say(text)),
+            Self::Numbers(numbers) => {
+                let both = |(value, meaning): &(String, String)| (say(value), say(meaning));
+                Self::Numbers(numbers.iter().map(both).collect())
+            }
+            Self::Picture { svg, caption } => {
+                Self::Picture { svg: translated(svg, say), caption: say(caption) }
+            }
+            Self::Fields(fields) => {
+                let name = |(name, value): &(String, String)| (say(name), value.clone());
+                Self::Fields(fields.iter().map(name).collect())
+            }
+            Self::Table(table) => Self::Table(table.said(say)),
+            Self::Note(text) => Self::Note(say(text)),
+            Self::Listing(text) => Self::Listing(text.clone()),
+        }
     }
 }
 
@@ -123,8 +160,33 @@ mod tests {
         assert!(html.contains("<dd>0.31 µm</dd><dt>after</dt>"));
         assert!(html.contains("slew limit &lt;reached&gt;"));
         assert!(html.contains("<dt>Signature</dt><dd></dd>"));
+        assert!(html.starts_with("<!DOCTYPE html>\n<html lang=\"en\">"));
         for outside in ["http:", "https:", "src=", "href=", "@import", "url("] {
             assert!(!html.contains(outside), "{outside}");
         }
+    }
+
+    #[test]
+    fn another_language_says_all_texts_but_listings_and_what_stands_in_fields() {
+        let mut table = Table::new(["a"]);
+        table.row(["a", "1"]);
+        let page = Page {
+            title: "a".into(),
+            summary: "a".into(),
+            parts: vec![
+                Part::Heading("a".into()),
+                Part::Text("a".into()),
+                Part::Numbers(vec![("a".into(), "a".into())]),
+                Part::Picture { svg: "<svg><text>a</text></svg>".into(), caption: "a".into() },
+                Part::Table(table),
+                Part::Note("a".into()),
+                Part::Fields(vec![("a".into(), "b".into())]),
+                Part::Listing("b".into()),
+            ],
+        };
+        let said = page.html_in("zh", |text| text.replace('a', "甲").replace('b', "乙"));
+        let own = page.html().replace("lang=\"en\"", "lang=\"zh\"");
+        assert_eq!(said, own.replace(">a<", ">甲<"));
+        assert_eq!(said.matches('甲').count(), 13);
     }
 }

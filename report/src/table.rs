@@ -41,6 +41,12 @@ impl Table {
         self
     }
 
+    /// The table with every cell said anew.
+    pub(crate) fn said(&self, say: &impl Fn(&str) -> String) -> Self {
+        let all = |cells: &Vec<String>| cells.iter().map(|cell| say(cell)).collect();
+        Self { header: all(&self.header), rows: self.rows.iter().map(all).collect() }
+    }
+
     /// The table as HTML; columns of numbers are set to the right.
     #[must_use]
     pub fn html(&self) -> String {

@@ -2,9 +2,11 @@
 
 use clap::ValueEnum;
 
-use super::line;
+use helixlock_report::{Page, translated};
 
-/// Language of reports.
+use super::line::{self, said};
+
+/// Language of reports and pages.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Language {
     /// English
@@ -15,6 +17,22 @@ pub(crate) enum Language {
 }
 
 impl Language {
+    /// A page as HTML, in this language.
+    pub(crate) fn page(self, page: &Page) -> String {
+        match self {
+            Self::En => page.html(),
+            Self::Zh => page.html_in("zh", said),
+        }
+    }
+
+    /// A picture as SVG, in this language.
+    pub(crate) fn picture(self, svg: String) -> String {
+        match self {
+            Self::En => svg,
+            Self::Zh => translated(&svg, said),
+        }
+    }
+
     /// Some lines of a report, in this language.
     pub(crate) fn of(self, lines: &str) -> String {
         match self {

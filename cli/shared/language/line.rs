@@ -72,7 +72,8 @@ fn first(cell: &str) -> String {
     chinese.trim_start_matches('|').to_owned()
 }
 
-fn said(cell: &str) -> String {
+/// A cell in Chinese that needs no place.
+pub(super) fn said(cell: &str) -> String {
     chinese(cell).trim_start_matches(FLUSH_RIGHT).to_owned()
 }
 

@@ -2,6 +2,8 @@
 //!
 //! Commands write English. At the door to the terminal every line is looked up in a table of
 //! phrases; what the table does not know stays as it is. Data, such as JSON, never come here.
+//! Pages and pictures are looked up text by text when they are written; commands that write them
+//! ask what they print to, a [`Reporter`], for the language.
 
 mod choice;
 mod line;
@@ -9,4 +11,4 @@ mod phrases;
 mod translated;
 
 pub(crate) use self::choice::Language;
-pub(crate) use self::translated::Translated;
+pub(crate) use self::translated::{Reporter, Translated};

@@ -3,7 +3,8 @@
 //!
 //! A phrase may have holes. `{shape}` holds a phrase in its turn; `{NAME}` is passed on as it
 //! stands; and so is `{N}`, whose single letter stands for a number or a word without blanks.
-//! Of several phrases that fit, the one with the most letters of its own is taken.
+//! Of several phrases that fit, the one with the most letters of its own is taken. A hole before
+//! other words of its phrase holds nothing with `; ` in it, which separates phrases.
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -102,10 +103,10 @@ impl Pattern {
             match part {
                 Part::Text(text) => filled.push_str(text),
                 Part::Hole(name) if is_kept(name) => filled.push_str(&found[name]),
-                Part::Hole(name) => filled.push_str(&chinese(&found[name])),
+                Part::Hole(name) => filled.push_str(chinese(&found[name]).trim_start_matches('>')),
             }
         }
-        filled
+        filled.replace("？。", "？") // a question has its own stop
     }
 }
 
@@ -136,11 +137,15 @@ fn is_kept(hole: &str) -> bool {
 }
 
 fn shape(english: &str) -> Regex {
+    let ends = english.trim_end_matches('.');
     let shape: String = parts(english)
         .map(|part| match part {
             Part::Text(text) => regex::escape(text),
             Part::Hole(name) if name.len() == 1 => format!(r"(?<{name}>\S+)"),
-            Part::Hole(name) => format!("(?<{name}>.+?)"),
+            Part::Hole(name) if is_kept(name) || ends.ends_with(&format!("{{{name}}}")) => {
+                format!("(?<{name}>.+?)")
+            }
+            Part::Hole(name) => format!("(?<{name}>(?:[^;]|;[^ ])+?)"),
         })
         .collect();
     Regex::new(&format!("^{shape}$")).expect("a test makes a pattern of every phrase")

@@ -4,16 +4,29 @@ use std::io::{self, Write};
 
 use super::choice::Language;
 
+/// What a command prints its report to, and what knows the language of its pages.
+pub(crate) trait Reporter: Write {
+    /// Language of the pages.
+    fn language(&self) -> Language;
+}
+
 /// Passes whole lines on in a language; the rest of a line waits for its end or for a `flush`.
 pub(crate) struct Translated<W: Write> {
     out: W,
     language: Language,
+    /// Lines are no report: they are passed on as they come, though pages have the language.
+    is_data: bool,
     begun: Vec<u8>,
 }
 
 impl<W: Write> Translated<W> {
     pub(crate) fn new(out: W, language: Language) -> Self {
-        Self { out, language, begun: Vec::new() }
+        Self { out, language, is_data: false, begun: Vec::new() }
+    }
+
+    /// The same for a command that prints data.
+    pub(crate) fn of_data(out: W, language: Language) -> Self {
+        Self { is_data: true, ..Self::new(out, language) }
     }
 
     fn pass_on(&mut self, bytes: usize) -> io::Result<()> {
@@ -25,9 +38,15 @@ impl<W: Write> Translated<W> {
     }
 }
 
+impl<W: Write> Reporter for Translated<W> {
+    fn language(&self) -> Language {
+        self.language
+    }
+}
+
 impl<W: Write> Write for Translated<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        if self.language == Language::En {
+        if self.is_data || self.language == Language::En {
             return self.out.write(bytes);
         }
         self.begun.extend_from_slice(bytes);

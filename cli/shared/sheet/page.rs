@@ -30,7 +30,7 @@ pub(crate) fn parts(sheet: &Sheet) -> Vec<Part> {
 fn figures(sheet: &Sheet) -> Table {
     let mut table = Table::new([
         "symbol",
-        "figure",
+        "meaning",
         "value in µm",
         "U in µm",
         "k",
@@ -133,7 +133,7 @@ fn every(sheet: &Sheet) -> Table {
     let budgets = || sheet.lines.iter().filter_map(|line| Some((line, line.budget.as_ref()?)));
     let first = budgets().next().map(|(_, budget)| budget);
     let quantities = first.into_iter().flat_map(|budget| &budget.contributions);
-    let mut header = vec!["figure".to_owned()];
+    let mut header = vec!["symbol".to_owned()];
     header.extend(quantities.map(|one| one.source.quantity.clone()));
     header.push("combined".into());
     let mut table = Table::new(header);
