@@ -110,7 +110,7 @@ fn gates_of_another_ring_are_not_equal() {
         let verdict = synthesised(&sources(), &wrong, "ring_distributor", family);
         let verdict = verdict.expect("yosys starts");
         let synthesis::Verdict::Unequal { log } = verdict else { panic!("{verdict:?}") };
-        assert!(log.contains("proof did fail"), "{log}");
+        assert!(log.ends_with("they differ 2 clocks after power-up"), "{log}");
     }
 }
 
@@ -122,7 +122,7 @@ fn gates_that_wrap_at_six_are_not_equal() {
     let synthesis::Verdict::Unequal { log } = verdict.expect("yosys starts") else {
         panic!("a decade that wraps at 6 equals one that wraps at 10");
     };
-    assert!(log.contains("Trying to prove $equiv for \\carry: failed."), "{log}");
+    assert!(log.ends_with("they differ 6 clocks after power-up"), "{log}");
 }
 
 /// Every state with every input of the blocks that have few; the four million of divider and decoder

@@ -1,5 +1,6 @@
 //! Proofs of the emitted Verilog, and how good the proofs are.
 
+pub mod alike;
 mod computer;
 pub mod consequence;
 pub mod covers;

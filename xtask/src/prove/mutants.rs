@@ -6,13 +6,13 @@
 use std::path::Path;
 
 use anyhow::Context;
-use helixlock_gen::Family;
 
+use super::alike::{Likeness, alike};
 use super::lockstep::History;
 use super::properties::{Verdict, prove};
 use super::sources::Sources;
-use super::synthesis::{self, synthesised};
-use crate::tools::{read, write_scratch, yosys};
+use super::synthesis::read_block;
+use crate::tools::{read, write_scratch};
 
 /// One wrong line.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -158,28 +158,10 @@ fn infected(sources: &Sources, mutant: &Mutant, folder: &Path) -> anyhow::Result
     Ok(Sources { verilog: folder.to_owned(), properties: sources.properties.clone() })
 }
 
-/// True when both modules answer alike for ever from power-up, by induction: on their outputs alone,
-/// or with their registers paired.
+/// True when both modules answer alike for ever from power-up.
 fn equivalent(sources: &Sources, wrong: &Sources, module: &str) -> anyhow::Result<bool> {
-    let verdict = synthesised(sources, wrong, module, Family::Ice40)?;
-    if matches!(verdict, synthesis::Verdict::Equal { .. }) {
-        return Ok(true);
-    }
-    let prepare = |sources: &Sources, name: &str| {
-        format!(
-            "read_verilog {}/*.v; prep -top {module} -flatten; design -stash {name};",
-            sources.verilog.display()
-        )
-    };
-    let script = format!(
-        "{} {} design -copy-from right -as right {module}; \
-         design -copy-from wrong -as wrong {module}; \
-         miter -equiv -make_assert -flatten right wrong both; hierarchy -top both; \
-         sat -verify -prove-asserts -tempinduct -maxsteps 4 both",
-        prepare(sources, "right"),
-        prepare(wrong, "wrong"),
-    );
-    Ok(yosys(&script)?.0)
+    let (likeness, _) = alike(module, &read_block(sources, module), &read_block(wrong, module))?;
+    Ok(likeness == Likeness::Alike)
 }
 
 #[cfg(test)]

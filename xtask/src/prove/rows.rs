@@ -125,11 +125,11 @@ fn gates(sources: &Sources, block: &str) -> anyhow::Result<Row> {
         .into_iter()
         .map(|family| Ok((family, synthesis::synthesised(sources, sources, block, family)?)));
     let verdicts: Vec<_> = verdicts.collect::<anyhow::Result<_>>()?;
-    let paired = verdicts.iter().filter_map(|(_, verdict)| match verdict {
-        synthesis::Verdict::Equal { pairs, .. } => Some(pairs.to_string()),
+    let cells = verdicts.iter().filter_map(|(_, verdict)| match verdict {
+        synthesis::Verdict::Equal { cells } => Some(cells.to_string()),
         synthesis::Verdict::Unequal { .. } => None,
     });
-    let paired: Vec<_> = paired.collect();
+    let cells: Vec<_> = cells.collect();
     let unequal = verdicts.iter().find_map(|(family, verdict)| match verdict {
         synthesis::Verdict::Equal { .. } => None,
         synthesis::Verdict::Unequal { log } => {
@@ -138,11 +138,12 @@ fn gates(sources: &Sources, block: &str) -> anyhow::Result<Row> {
     });
     Ok(Row {
         what: format!("`{block}`: the gates after synthesis equal the Verilog"),
-        how: "iCE40, ECP5 and Gowin cells of yosys, registers and outputs paired, induction from \
-              power-up"
+        how: "iCE40, ECP5 and Gowin cells of yosys, sequential equivalence from power-up"
             .to_owned(),
         good: unequal.is_none(),
-        outcome: unequal.unwrap_or_else(|| format!("unbounded, {} bits paired", paired.join(", "))),
+        outcome: unequal.unwrap_or_else(|| {
+            format!("unbounded, {} flip-flops and look-up tables", cells.join(", "))
+        }),
     })
 }
 

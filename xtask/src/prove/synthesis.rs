@@ -1,10 +1,8 @@
 //! After synthesis: the gates that yosys makes for a family of FPGAs equal the Verilog they were
 //! made from.
 //!
-//! Registers and outputs of both are paired by name. By induction with yosys' solver: pairs that
-//! are equal are equal after the next clock, whatever the inputs; and they are equal from power-up,
-//! where every register of the Verilog has to be zero. So are the flip-flops of an iCE40; those of
-//! the others are what the models of their cells say.
+//! They are compared from power-up on, where every register of the Verilog has to be zero. So are
+//! the flip-flops of an iCE40; those of the others are what the models of their cells say.
 
 use std::path::Path;
 
@@ -13,19 +11,14 @@ use helixlock_gen::Family;
 use helixlock_netlist::{Library, Netlist, elaborate};
 use helixlock_rtl::{APART, BLOCKS, BlockCard};
 
+use super::alike::{Likeness, alike};
 use super::sources::Sources;
-use crate::tools::yosys;
-
-/// Clocks from power-up in which the pairs are compared: the deepest induction looks no further back.
-const CLOCKS: u32 = 4;
 
 /// What became of a block.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// The gates answer like the Verilog, for ever.
     Equal {
-        /// Bits of registers and outputs that were paired.
-        pairs: u32,
         /// Flip-flops and look-up tables of the gates.
         cells: u32,
     },
@@ -52,7 +45,7 @@ pub fn synthesised(
     block: &str,
     family: Family,
 ) -> anyhow::Result<Verdict> {
-    let gates = format!("{} {} -top {block}; stat;", read(built, block), family.synthesis());
+    let gates = format!("{} {} -top {block}; stat;", read_block(built, block), family.synthesis());
     compare(sources, &gates, block, family)
 }
 
@@ -73,34 +66,27 @@ pub fn recorded(
 /// Compares the Verilog with what the commands in `gates` leave.
 fn compare(sources: &Sources, gates: &str, block: &str, family: Family) -> anyhow::Result<Verdict> {
     starts_at_zero(block)?;
-    // Registers are called `*_q`; what else has kept its name in the gates may serve another end.
-    let script = format!(
-        "{source} splitnets; design -stash source; {gates} \
-         read_verilog -icells -overwrite -D EQUIV {models}; hierarchy -top {block}; \
-         proc; flatten; rename -hide w:* w:*_q %d; splitnets; opt_clean -purge; \
-         design -stash gates; design -copy-from source -as source {block}; \
-         design -copy-from gates -as gates {block}; equiv_make source gates both; \
-         hierarchy -top both; equiv_miter -assert start; \
-         sat -verify -prove-asserts -set-init-zero -tempinduct -tempinduct-baseonly \
-         -maxsteps {CLOCKS} start; \
-         hierarchy -top both; equiv_simple; equiv_induct -seq {CLOCKS}; equiv_status -assert",
-        source = read(sources, block),
-        models = family.models(),
+    let gates = format!(
+        "{gates} read_verilog -icells -overwrite -D EQUIV {}; hierarchy -top {block}; \
+         proc; flatten; opt_clean -purge;",
+        family.models()
     );
-    let (content, log) = yosys(&script)?;
-    Ok(match pairs(&log) {
-        Some(pairs) if content && log.contains("Equivalence successfully proven!") => {
-            Verdict::Equal { pairs, cells: cells(&log, family) }
-        }
-        _ => Verdict::Unequal { log },
-    })
+    let (likeness, mut log) = alike(block, &read_block(sources, block), &gates)?;
+    if likeness == Likeness::Alike {
+        return Ok(Verdict::Equal { cells: cells(&log, family) });
+    }
+    if let Likeness::Differ { clock } = likeness {
+        log.push_str(&format!("\nthey differ {clock} clocks after power-up"));
+    }
+    Ok(Verdict::Unequal { log })
 }
 
-/// Commands that read a block.
-fn read(sources: &Sources, block: &str) -> String {
+/// Commands that read a block, and those it is made of.
+pub(super) fn read_block(sources: &Sources, block: &str) -> String {
+    let folder = sources.verilog.display();
     format!(
-        "read_verilog {}/*.v; hierarchy -top {block}; proc; flatten; opt_clean;",
-        sources.verilog.display()
+        "read_verilog {folder}/{block}.v; hierarchy -libdir {folder} -top {block}; \
+         proc; flatten; opt_clean;"
     )
 }
 
@@ -116,12 +102,6 @@ fn starts_at_zero(block: &str) -> anyhow::Result<()> {
         }
     }
     Ok(())
-}
-
-/// From "Of those cells 161 are proven and 0 are unproven."
-fn pairs(log: &str) -> Option<u32> {
-    let line = log.lines().rev().find(|line| line.contains("are unproven."))?;
-    line.trim().strip_prefix("Of those cells ")?.split(' ').next()?.parse().ok()
 }
 
 /// Flip-flops and look-up tables in the statistics of the synthesis.
@@ -142,7 +122,7 @@ mod tests {
     #[test]
     fn counts_are_read_from_the_log() {
         let log = "   Number of cells:    9\n     SB_CARRY       1\n     SB_DFFESR      3\n     \
-                   SB_LUT4         5\n\n  Of those cells 161 are proven and 0 are unproven.\n";
-        assert_eq!((pairs(log), cells(log, Family::Ice40)), (Some(161), 8));
+                   SB_LUT4         5\n\n";
+        assert_eq!(cells(log, Family::Ice40), 8);
     }
 }
