@@ -163,6 +163,25 @@ fn the_whole_loop_needs_the_mouse_alone_and_agrees_with_learn() {
 }
 
 #[test]
+fn a_machine_is_described_from_nothing() {
+    let lead = "1/4 in";
+    let run = helixlock(&["dividers", "--lead", lead, "--json"]);
+    let wheels = json(&run.stdout)["settings"][0].clone();
+    let [a, b] = ["a", "b"].map(|key| wheels[key].to_string());
+    let bench = scratch();
+    story("describes", &Server::over(bench.path()), &[lead, &a, &b]);
+    let saved = std::fs::read_to_string(bench.path().join("machine.toml")).unwrap();
+    for line in [format!("lead = \"{lead}\""), format!("\na = {a}"), format!("\nb = {b}")] {
+        assert!(saved.contains(&line), "{saved}");
+    }
+    let machine = bench.path().join("machine.toml");
+    let words = ["sim", machine.to_str().unwrap(), "--length", "1 mm", "-o"];
+    let out = bench.path().join("sim");
+    let run = helixlock(&[&words[..], &[out.to_str().unwrap()]].concat());
+    assert_eq!(run.status, 0, "what was saved runs: {}", run.stderr);
+}
+
+#[test]
 fn an_effect_is_tried_taken_and_taken_back() {
     let (bench, elsewhere) = challenge("6");
     let data = std::fs::read_to_string(elsewhere.path().join("data.csv")).unwrap();

@@ -8,8 +8,8 @@ use std::process::ExitCode;
 use anyhow::ensure;
 use comfy_table::{Table, presets};
 use helixlock_plant::dividers::{
-    COMPENSATOR_REACH_PPM, LineCount, METRIC_TRACK, MODULE_TRACK, Setting, Task, centre_phase,
-    find_line_counts, phase_deg, solve,
+    COMPENSATOR_REACH_PPM, LineCount, METRIC_TRACK, MODULE_TRACK, Setting, Task, USUAL_RANGE_UM,
+    centre_phase, find_line_counts, phase_deg, solve,
 };
 use helixlock_plant::units::{UM, read_quantity};
 use helixlock_plant::{Lead, LeadUnit, Range};
@@ -34,9 +34,9 @@ pub(crate) struct Dividers {
     #[arg(long, value_name = "LENGTH", default_value = "0.63281983 um", value_parser = wavelength)]
     wavelength: f64,
 
-    /// Measuring range to come near to at ×1
-    #[arg(long, value_name = "LENGTH", default_value = "47.5 um", value_parser = measuring_range)]
-    measuring_range: f64,
+    /// Measuring range to come near to at ×1 [default: 47.5 um]
+    #[arg(long, value_name = "LENGTH", value_parser = measuring_range)]
+    measuring_range: Option<f64>,
 
     /// Search line counts that make all leads rational with one compensation
     #[arg(long, conflicts_with = "table")]
@@ -98,7 +98,7 @@ impl Dividers {
             lead,
             lines: self.lines.unwrap_or(track),
             wavelength_um: self.wavelength,
-            range_um: self.measuring_range,
+            range_um: self.measuring_range.unwrap_or(USUAL_RANGE_UM),
         }
     }
 

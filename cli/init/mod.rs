@@ -11,7 +11,7 @@ use clap::Args;
 use comfy_table::{Table, presets};
 use helixlock_plant::nearest::one_of;
 
-use self::templates::{TEMPLATES, Template};
+pub(crate) use self::templates::{TEMPLATES, Template};
 use crate::shared::next::Next;
 use crate::shared::output::Batch;
 

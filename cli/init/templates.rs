@@ -2,16 +2,16 @@
 
 /// A machine file with data for it.
 #[derive(Debug)]
-pub(super) struct Template {
-    pub(super) name: &'static str,
+pub(crate) struct Template {
+    pub(crate) name: &'static str,
     /// Whose machine it is.
-    pub(super) about: &'static str,
+    pub(crate) about: &'static str,
     /// Sections that say what it has.
-    pub(super) has: &'static str,
+    pub(crate) has: &'static str,
     /// True when it has the correction device, so that `sim` runs.
-    pub(super) simulates: bool,
-    pub(super) machine: &'static str,
-    pub(super) data: &'static str,
+    pub(crate) simulates: bool,
+    pub(crate) machine: &'static str,
+    pub(crate) data: &'static str,
 }
 
 macro_rules! template {
@@ -27,7 +27,7 @@ macro_rules! template {
     };
 }
 
-pub(super) const TEMPLATES: &[Template] = &[
+pub(crate) const TEMPLATES: &[Template] = &[
     template!(
         "lead-screw-grinder",
         "a grinder with the correction device",
@@ -41,3 +41,17 @@ pub(super) const TEMPLATES: &[Template] = &[
     template!("robot-joint", "a joint with a strain wave gear", "gears, grating", false),
     template!("gear-tester", "two wheels on a single-flank tester", "gears with teeth", false),
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_workbench_has_words_for_each() {
+        for template in TEMPLATES {
+            let key = format!("template.{}", template.name);
+            let words = helixlock_workbench::words::all().find(|words| words.key == key);
+            assert_eq!(words.map(|words| words.english), Some(template.about), "{key}");
+        }
+    }
+}

@@ -67,6 +67,7 @@ impl Workbench {
                 axes::curve(&*self.opened(ask)?, word(ask, "key")?, sensor(ask), &without(ask))
             }
             "spectrum" => spectrum::spectrum(&*self.opened(ask)?, sensor(ask)),
+            "templates" => edit::templates(),
             "trace" => waves::trace(&self.folder),
             "waves" => waves::waves(&self.folder),
             "job" => self.job(ask).and_then(|(number, job)| json(&job.json(number))),
@@ -84,6 +85,9 @@ impl Workbench {
             }),
             "trial" => self.trial(ask),
             "check" => edit::check(&self.folder, word(ask, "machine")?, &body::<Text>(ask)?.text),
+            "dividers" => {
+                edit::dividers(&self.folder, word(ask, "machine")?, &body::<Text>(ask)?.text)
+            }
             "setting" => edit::set(&self.folder, word(ask, "machine")?, &body::<Setting>(ask)?),
             "drop" => self.dropped.take(word(ask, "name")?, ask.body.clone()),
             "reread" => self.dropped.read(&body::<Said>(ask)?),

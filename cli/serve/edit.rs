@@ -1,12 +1,16 @@
 //! Changes of the machine file by hand.
 
-use helixlock_plant::MachineFile;
+use anyhow::anyhow;
+use helixlock_plant::dividers::{COMPENSATOR_REACH_PPM, Task, USUAL_RANGE_UM, centre_phase, solve};
+use helixlock_plant::{Machine, MachineFile, Part};
 use serde::{Deserialize, Serialize};
 
 use super::folder::Folder;
 use super::ledger::{Pair, Seen};
 use super::refusal::{Answered, Refusal, json};
 use super::state::without_folder;
+use crate::init::{TEMPLATES, Template};
+use crate::shared::next::Next;
 
 /// A text that is to be the machine file.
 #[derive(Debug, Deserialize)]
@@ -29,11 +33,27 @@ struct TextJson {
 }
 
 #[derive(Serialize)]
+struct TemplateJson {
+    name: &'static str,
+    text: &'static str,
+}
+
+#[derive(Serialize)]
+struct SolvedJson {
+    text: String,
+    /// The command that says the same.
+    command: String,
+}
+
+#[derive(Serialize)]
 struct CheckJson {
     errors: Vec<String>,
     title: Option<String>,
     lead_mm: Option<f64>,
+    /// None where nothing divides.
     left_um_per_m: Option<f64>,
+    /// Turns of the machine's own screw in one of the spindle.
+    screw_order: Option<f64>,
     gears: Vec<GearJson>,
 }
 
@@ -42,6 +62,12 @@ struct GearJson {
     name: String,
     order: f64,
     teeth: Option<u32>,
+}
+
+/// The texts there are to begin with, by kind of machine.
+pub(crate) fn templates() -> Answered {
+    let told = |template: &Template| TemplateJson { name: template.name, text: template.machine };
+    json(&TEMPLATES.iter().map(told).collect::<Vec<_>>())
 }
 
 /// What is wrong with a text, and what it says where nothing is.
@@ -58,10 +84,60 @@ pub(crate) fn check(folder: &Folder, name: &str, text: &str) -> Answered {
     json(&CheckJson {
         title: machine.map(|machine| machine.title.clone()),
         lead_mm: machine.map(|machine| machine.workpiece.lead.mm()),
-        left_um_per_m: machine.map(helixlock_plant::rationalisation_um_per_m),
+        left_um_per_m: machine
+            .filter(|machine| machine.has(Part::Dividers))
+            .map(helixlock_plant::rationalisation_um_per_m),
+        screw_order: machine.and_then(screw_order),
         gears: gears.iter().map(gear).collect(),
         errors: parsed.err().map(|e| without_folder(folder, &e.to_string())).into_iter().collect(),
     })
+}
+
+fn screw_order(machine: &Machine) -> Option<f64> {
+    let screw = machine.lead_screw.filter(|_| machine.has(Part::Workpiece))?;
+    Some(machine.workpiece.lead.mm() / screw.mm())
+}
+
+/// A text with the thumb wheels that its lead asks for, and what they leave compensated.
+pub(crate) fn dividers(folder: &Folder, name: &str, text: &str) -> Answered {
+    let file = MachineFile::parse(text, &folder.path(name)?)?;
+    let machine = &file.model.machine;
+    let needed = [Part::Workpiece, Part::Grating, Part::Laser, Part::Dividers];
+    if let Some(part) = machine.lacks(&needed) {
+        return Err(anyhow!("dividers need {part}").into());
+    }
+    let task = Task {
+        lead: machine.workpiece.lead,
+        lines: machine.grating.lines,
+        wavelength_um: machine.laser.wavelength_um,
+        range_um: USUAL_RANGE_UM,
+    };
+    let Some(found) = solve(&task) else {
+        return Err(anyhow!(
+            "lead {} with {} lines: no A and B from 1 to 999 come within {COMPENSATOR_REACH_PPM} ppm",
+            task.lead,
+            task.lines
+        )
+        .into());
+    };
+    let phase = centre_phase(found.b, machine.dividers.range);
+    let rate = found.compensation().map_or(0.0, |(rate, _)| rate);
+    let settings = [
+        // Whatever B was, it allows no phase.
+        ("initial_phase", "0".to_owned()),
+        ("a", found.a.to_string()),
+        ("b", found.b.to_string()),
+        ("initial_phase", phase.to_string()),
+        ("compensation", format!("\"{rate:.6} um/m\"")),
+    ];
+    let mut solved = file.clone();
+    for (key, value) in settings {
+        solved = solved.with_setting(&format!("dividers.{key}"), &value)?;
+    }
+    let words = Next::command("dividers")
+        .words(["--lead", &task.lead.to_string(), "--lines", &task.lines.to_string()])
+        .words(["--wavelength", &format!("{} um", task.wavelength_um)]);
+    json(&SolvedJson { text: solved.text(), command: words.line()? })
 }
 
 /// A text with another value, comments and order kept; nothing is written.

@@ -35,8 +35,12 @@ impl Next {
         if self.0.iter().any(|word| is_pipe(Path::new(word))) {
             return Ok(());
         }
-        let words = shlex::try_join(self.0.iter().map(String::as_str))?;
-        Ok(writeln!(out, "next: {words}")?)
+        Ok(writeln!(out, "next: {}", self.line()?)?)
+    }
+
+    /// The words as a shell reads them.
+    pub(crate) fn line(&self) -> anyhow::Result<String> {
+        Ok(shlex::try_join(self.0.iter().map(String::as_str))?)
     }
 }
 

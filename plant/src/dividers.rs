@@ -108,6 +108,10 @@ impl Setting {
     }
 }
 
+/// Measuring range that `×1` is near to unless another is asked for, µm: that of the metric example
+/// of document 1.
+pub const USUAL_RANGE_UM: f64 = 47.5;
+
 /// What dividers are sought for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Task {

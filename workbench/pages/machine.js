@@ -1,8 +1,9 @@
 // Screen "Machine": a form beside the machine file, both live.
 
-import { app, post } from "./api.js";
+import { app, get, post } from "./api.js";
 import { showMessage } from "./jobs.js";
 import { button, make, number, table } from "./make.js";
+import { train } from "./train.js";
 import { t } from "./words.js";
 
 // Fields of the form: key of the machine file, and its text.
@@ -85,13 +86,35 @@ export async function show(root, page) {
     form(fields, text, changed, page);
     await check();
   };
+  // Another text in place of what stands there, which a button brings back; nothing is saved.
+  const replace = async (other) => {
+    const before = text.value;
+    text.value = other;
+    back.replaceChildren(button(t("machine.back"), () => {
+      text.value = before;
+      back.replaceChildren();
+      return changed();
+    }, { id: "back" }));
+    await changed();
+  };
+  const back = make("span", {});
+  const solved = make("code", { id: "solved" });
+  const solve = button(t("machine.solve"), () => page.attempt(async () => {
+    const found = await post("dividers", { machine: name }, { text: text.value });
+    solved.textContent = found.command;
+    await replace(found.text);
+  }), { id: "solve" });
+  const begin = make("select", { id: "template", change: () => page.attempt(() => replace(templates.find((one) => one.name === begin.value).text)) }, make("option", { value: "", disabled: true, selected: true }, t("machine.begin")));
+  const templates = await get("templates");
+  begin.append(...templates.map((one) => make("option", { value: one.name }, t(`template.${one.name}`))));
   let later;
   text.addEventListener("input", () => {
     clearTimeout(later);
     later = setTimeout(changed, 200);
   });
-  root.append(make("h2", {}, t("machine.title", { name })), errors, make("div", { class: "row" }, save),
-    make("div", { class: "two" }, make("div", {}, fields, facts), make("div", {}, text)));
+  root.append(make("h2", {}, t("machine.title", { name })), errors,
+    make("div", { class: "row" }, save, make("label", {}, make("span", {}, t("machine.template")), begin), back),
+    make("div", { class: "two" }, make("div", {}, fields, make("div", { class: "row" }, solve, solved), facts), make("div", {}, text)));
   await changed();
 }
 
@@ -117,8 +140,9 @@ function form(root, text, changed, page) {
 }
 
 function told(found) {
-  const left = make("p", {}, t("machine.left", { n: number(found.left_um_per_m, 3) }));
-  if (!found.gears.length) return [left];
-  const rows = found.gears.map((gear) => [make("bdi", {}, gear.name), number(gear.order), gear.teeth ? String(gear.teeth) : null]);
-  return [left, table(t("machine.gears"), [t("machine.shaft"), t("machine.order"), t("machine.teeth")], rows, [1, 2])];
+  const left = found.left_um_per_m == null ? null : make("p", { id: "left-by-dividers" }, t("machine.left", { n: number(found.left_um_per_m, 3) }));
+  if (!found.gears.length) return [left].filter(Boolean);
+  const rows = found.gears.map((gear, index) => [String(index + 1), make("bdi", {}, gear.name), number(gear.order), gear.teeth ? String(gear.teeth) : null]);
+  const heads = [t("machine.wheel"), t("machine.shaft"), t("machine.order"), t("machine.teeth")];
+  return [left, train(found.gears, found.screw_order), table(t("machine.gears"), heads, rows, [0, 2, 3])].filter(Boolean);
 }

@@ -36,6 +36,7 @@ files! {
     SCRIPT "measurement.js"
     SCRIPT "plot.js"
     SCRIPT "thin.js"
+    SCRIPT "train.js"
     SCRIPT "waves.js"
     SCRIPT "words.js"
     SCRIPT "uplot/uPlot.iife.min.js"

@@ -82,6 +82,7 @@ mod tests {
             "axis_label.",
             "doubt.",
             "sensor.",
+            "template.",
             "said.",
             "unit.",
         ];
