@@ -148,18 +148,42 @@ fn a_wave_at_one_speed_is_told_and_not_named() {
     assert_eq!(diagnosis.verdict, Verdict::Unexplained);
 }
 
-/// Five runs there and back to 21 targets 25 mm apart: a screw of 12 mm cannot be seen there.
-#[test]
-fn targets_name_no_wave_shorter_than_two_of_their_distances() {
+/// Five runs there and back to targets, over a screw of 12 mm whose error has `harmonic` waves a
+/// turn; the names found.
+fn at_targets(targets_mm: &[f64], harmonic: f64) -> Vec<String> {
     let mut noise = noise(3, 1.0);
-    let rows = (0..210_u32).map(|row| {
-        let (run, nth) = (row / 21, f64::from(row % 21));
-        let (direction, place) = if run % 2 == 0 { (1.0, nth) } else { (-1.0, 20.0 - nth) };
-        let position_mm = 25.0 * place;
-        let error = 0.4 * libm::sin(position_mm / 12.0 * TAU) + noise();
-        [f64::from(run / 2 + 1), 10.0 * f64::from(row), position_mm, direction, error]
+    let rows = (0..10_u32).flat_map(|run| {
+        let there = (0..targets_mm.len()).map(move |nth| {
+            let back = run % 2 == 1;
+            if back { (-1.0, targets_mm.len() - 1 - nth) } else { (1.0, nth) }
+        });
+        there.map(move |(direction, place)| (run, direction, place))
+    });
+    let rows = rows.enumerate().map(|(row, (run, direction, place))| {
+        let position_mm = targets_mm[place];
+        let error = 0.4 * libm::sin(harmonic * position_mm / 12.0 * TAU) + noise();
+        let time_s = 10.0 * f64::from(u32::try_from(row).expect("few rows"));
+        [f64::from(run / 2 + 1), time_s, position_mm, direction, error]
     });
     let diagnosis = diagnose(&Passes::of_rows(rows).problem());
     let last = &diagnosis.rounds[diagnosis.rounds.len() - 1];
-    assert!(last.effects.iter().all(|effect| effect.name != "screw-periodic"));
+    last.effects.iter().map(|effect| effect.name.clone()).collect()
+}
+
+/// Targets 25 mm apart: a screw of 12 mm cannot be seen there.
+#[test]
+fn targets_name_no_wave_shorter_than_two_of_their_distances() {
+    let even: Vec<f64> = (0..21).map(|place| 25.0 * f64::from(place)).collect();
+    assert!(at_targets(&even, 1.0).iter().all(|name| name != "screw-periodic"));
+}
+
+/// Targets up to 10 mm off those places tell even three waves a turn from all that is slower; two
+/// would be a wave of the spindle too.
+#[test]
+fn uneven_targets_name_waves_far_shorter_than_their_distances() {
+    let place = |place: u32| 25.0 * f64::from(place) + f64::from(place * place * 13 % 41) - 20.0;
+    let uneven: Vec<f64> = (1..=41).map(|nth| place(nth) * 0.5 + 12.5 * f64::from(nth)).collect();
+    for harmonic in [1.0, 3.0] {
+        assert_eq!(at_targets(&uneven, harmonic), ["screw-periodic"], "{harmonic} waves a turn");
+    }
 }

@@ -18,5 +18,5 @@ pub(crate) use axes::{by_factors, evenly, product};
 pub(crate) use chi_squared::chi_squared_tail;
 pub(crate) use golden_section::golden_maximum;
 pub(crate) use looks::Looks;
-pub(crate) use sampling::{highest_frequency, usual_rate};
+pub(crate) use sampling::{highest_frequency, resolves, usual_rate};
 pub(crate) use summary::{count, median, rms_about_means, spread};

@@ -23,26 +23,47 @@ pub(crate) fn usual_rate(coordinate: &[f64]) -> f64 {
 /// so the limit is half of the first such frequency, at most four times the rate.
 #[must_use]
 pub(crate) fn highest_frequency(coordinate: &[f64]) -> f64 {
-    let range = spread(coordinate);
     let rate = usual_rate(coordinate);
-    if range <= 0.0 || coordinate.len() < 3 {
+    if spread(coordinate) <= 0.0 || coordinate.len() < 3 {
         return 0.5 * rate;
     }
-    let step = 0.25 / range;
-    let points = (2.0 * HIGHEST_AGAINST_RATE * rate / step).clamp(4.0, MOST_POINTS);
+    let end = 2.0 * HIGHEST_AGAINST_RATE * rate;
+    let (returns, looked_at) = first_return(coordinate, end);
+    returns.unwrap_or(looked_at).max(rate) * 0.5
+}
+
+/// True when the places tell a wave of so many cycles a unit from every slower one, however far it
+/// lies above those that are searched.
+#[must_use]
+pub(crate) fn resolves(coordinate: &[f64], frequency: f64) -> bool {
+    if frequency < 0.5 * usual_rate(coordinate) {
+        return true;
+    }
+    if spread(coordinate) <= 0.0 || coordinate.len() < 3 {
+        return false;
+    }
+    let (returns, looked_at) = first_return(coordinate, 2.0 * frequency);
+    // As far as was asked for, but for rounding.
+    returns.is_none() && 1.999 * frequency <= looked_at
+}
+
+/// First frequency up to `end` at which the spectral window comes back, and how far was looked.
+fn first_return(coordinate: &[f64], end: f64) -> (Option<f64>, f64) {
+    let step = 0.25 / spread(coordinate);
+    let points = (end / step).clamp(4.0, MOST_POINTS);
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "clamped to small positive numbers"
     )]
     let window = fourier::sizes(coordinate, &vec![1.0; coordinate.len()], step, points as usize);
+    let from = WINDOW_FROM * usual_rate(coordinate);
     let returns = window
         .iter()
         .enumerate()
         .map(|(index, size)| (step * count(index), size / count(coordinate.len())))
-        .find(|(frequency, size)| WINDOW_FROM * rate < *frequency && ALIKE_WINDOW < *size);
-    let end = step * points;
-    returns.map_or(end, |(frequency, _)| frequency).max(rate) * 0.5
+        .find(|(frequency, size)| from < *frequency && ALIKE_WINDOW < *size);
+    (returns.map(|(frequency, _)| frequency), step * points)
 }
 
 #[cfg(test)]
@@ -61,6 +82,23 @@ mod tests {
         // Quadratic residues are spread evenly without being evenly spaced.
         let mut places: Vec<f64> = (0..500).map(|i| f64::from(i * i % 9973) / 200.0).collect();
         places.sort_by(f64::total_cmp);
-        assert!(30.0 < highest_frequency(&places), "{}", highest_frequency(&places));
+        let highest = highest_frequency(&places);
+        assert!(30.0 < highest, "{highest}");
+    }
+
+    #[test]
+    fn uneven_places_resolve_more_than_is_searched() {
+        // Quadratic residues once more, as places off an even row.
+        let places: Vec<f64> =
+            (0..97_u32).map(|i| f64::from(i) + 0.8 / 97.0 * f64::from(i * i % 97)).collect();
+        let highest = highest_frequency(&places);
+        assert!((highest - 4.0 * usual_rate(&places)).abs() < 1e-9, "{highest}");
+        assert!(resolves(&places, 1.5 * highest));
+    }
+
+    #[test]
+    fn what_has_an_alias_is_not_resolved() {
+        let even: Vec<f64> = (0..500).map(|i| 0.1 * f64::from(i)).collect();
+        assert!(resolves(&even, 4.9) && !resolves(&even, 5.1) && !resolves(&even, 40.0));
     }
 }

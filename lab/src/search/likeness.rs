@@ -9,7 +9,7 @@ use helixlock_plant::{CATALOGUE, Context, Entry, Role, Search, Smoothness, Term}
 use crate::model::{Component, Problem, State, pattern};
 use crate::noise::{Block, Whitener};
 use crate::numerics::least_squares::dot;
-use crate::numerics::{count, highest_frequency, least_squares, spread};
+use crate::numerics::{count, least_squares, resolves, spread};
 use crate::policy::evidence::{HIGH_HARMONIC_PRICE, SHAPE, VISITS, WAVE, WAVES_A_PASS};
 use crate::policy::extent::ROWS_A_COLUMN;
 use crate::policy::reading::REVERSAL_REACH;
@@ -196,8 +196,8 @@ pub(crate) fn by_the_clock(problem: &Problem, component: &Component) -> bool {
         && WAVES_A_PASS <= longest_s * term.values[hertz]
 }
 
-/// True unless a wave over the travel is shorter than two distances of the targets that all
-/// samples stand at: what it shows there is each target's own.
+/// True unless all samples stand at targets that do not tell a wave over the travel from a longer
+/// one, as even ones with less than two in a wave: what it shows there is each target's own.
 #[must_use]
 pub(crate) fn resolved(problem: &Problem, component: &Component) -> bool {
     if component.term.parameters.iter().all(|what| what.role != Role::Amplitude) {
@@ -223,7 +223,7 @@ pub(crate) fn resolved(problem: &Problem, component: &Component) -> bool {
         });
         rates.fold(0.0, f64::max)
     };
-    rate(1.0) - rate(0.0) < TAU * highest_frequency(&turns)
+    resolves(&turns, (rate(1.0) - rate(0.0)) / TAU)
 }
 
 /// Values about the mean of each pass of each sensor.

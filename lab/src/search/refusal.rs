@@ -101,7 +101,7 @@ impl fmt::Display for Refusal {
             Self::Clock => f.write_str(
                 "a frequency in time needs a clock, two speeds and three waves in a pass",
             ),
-            Self::Targets => f.write_str("shorter than two distances of the targets"),
+            Self::Targets => f.write_str("not told by the targets from a longer wave"),
             Self::Play => f.write_str("a play wider than every move of the motor"),
             Self::Again => f.write_str("it is in the model already"),
             Self::Angle { order, ahead } => {

@@ -71,14 +71,14 @@ fn compare(sources: &Sources, gates: &str, block: &str, family: Family) -> anyho
          proc; flatten; opt_clean -purge;",
         family.models()
     );
-    let (likeness, mut log) = alike(block, &read_block(sources, block), &gates)?;
-    if likeness == Likeness::Alike {
-        return Ok(Verdict::Equal { cells: cells(&log, family) });
-    }
-    if let Likeness::Differ { clock } = likeness {
-        log.push_str(&format!("\nthey differ {clock} clocks after power-up"));
-    }
-    Ok(Verdict::Unequal { log })
+    let (likeness, log) = alike(block, &read_block(sources, block), &gates)?;
+    Ok(match likeness {
+        Likeness::Alike => Verdict::Equal { cells: cells(&log, family) },
+        Likeness::Differ { clock } => {
+            Verdict::Unequal { log: format!("{log}\nthey differ {clock} clocks after power-up") }
+        }
+        Likeness::Open => Verdict::Unequal { log },
+    })
 }
 
 /// Commands that read a block, and those it is made of.
