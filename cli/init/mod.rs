@@ -1,7 +1,5 @@
 //! `helixlock init`: a machine file to begin with, and data that it can be tried on.
 
-mod templates;
-
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -11,9 +9,9 @@ use clap::Args;
 use comfy_table::{Table, presets};
 use helixlock_plant::nearest::one_of;
 
-pub(crate) use self::templates::{TEMPLATES, Template};
 use crate::shared::next::Next;
 use crate::shared::output::Batch;
+use crate::shared::templates::{TEMPLATES, Template};
 
 /// Write a machine file for a kind of machine, with comments that teach, and data to try it on
 ///

@@ -9,8 +9,8 @@ use super::folder::Folder;
 use super::ledger::{Pair, Seen};
 use super::refusal::{Answered, Refusal, json};
 use super::state::without_folder;
-use crate::init::{TEMPLATES, Template};
 use crate::shared::next::Next;
+use crate::shared::templates::{TEMPLATES, Template};
 
 /// A text that is to be the machine file.
 #[derive(Debug, Deserialize)]

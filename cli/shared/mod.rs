@@ -25,6 +25,7 @@ pub(crate) mod residual_table;
 pub(crate) mod series;
 pub(crate) mod sheet;
 pub(crate) mod spectrum;
+pub(crate) mod templates;
 pub(crate) mod terminal;
 pub(crate) mod trace_column;
 pub(crate) mod wheels;
