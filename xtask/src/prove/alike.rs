@@ -45,7 +45,9 @@ pub fn alike(top: &str, right: &str, other: &str) -> anyhow::Result<(Likeness, S
     }
     // Rewriting first leaves signal correspondence a quarter of its work.
     let steps = format!("read {}; dc2; scorr; dprove; print_status", miter.display());
-    let (_, said) = run(Command::new("yosys-abc").args(["-c", &steps]), "yosys")?;
+    // It leaves files of its own where it runs.
+    let mut abc = Command::new("yosys-abc");
+    let (_, said) = run(abc.args(["-c", &steps]).current_dir(folder.path()), "yosys")?;
     log.push_str(&said);
     Ok((likeness(&said), log))
 }
