@@ -23,8 +23,8 @@ pub(crate) use self::build::Build;
 use self::export::Export;
 pub(crate) use self::iso230::Iso230;
 pub(crate) use self::model::Model;
-
 use crate::shared::language::Reporter;
+
 /// Build, apply and export a table of positioning errors
 ///
 /// Errors of a machine scale against a calibrated one are read from `position_mm`, `error_um`

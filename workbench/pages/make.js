@@ -12,6 +12,14 @@ export function make(name, about = {}, ...inside) {
   return element;
 }
 
+// A part of a picture.
+export function drawn(name, about, ...inside) {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", name);
+  for (const [key, value] of Object.entries(about)) element.setAttribute(key, value);
+  element.append(...inside);
+  return element;
+}
+
 export function button(text, act, about = {}) {
   return make("button", { type: "button", click: act, ...about }, text);
 }

@@ -3,7 +3,7 @@
 // Two wheels mesh when as many teeth of both pass in a turn of the spindle; wheels of one order sit
 // on one shaft. What no mesh leads to stands below, apart.
 
-import { make } from "./make.js";
+import { drawn, make } from "./make.js";
 import { t } from "./words.js";
 
 const LEFT = 120; // room for what a shaft is called
@@ -55,24 +55,17 @@ function placed(shafts) {
   return { width: LEFT + COLUMN * Math.max(1, column), height: bottom };
 }
 
-const svg = (name, about, ...inside) => {
-  const element = document.createElementNS("http://www.w3.org/2000/svg", name);
-  for (const [key, value] of Object.entries(about)) element.setAttribute(key, value);
-  element.append(...inside);
-  return element;
-};
-
 // Numbers on the wheels are those of the table's rows.
 export function train(gears, screwOrder) {
   const shafts = shaftsOf(gears, screwOrder);
   const { width, height } = placed(shafts);
-  const drawing = svg("svg", { class: "train", width: width + 8, height: height + 8, role: "img", "aria-label": t("machine.train", { n: shafts.length }) });
+  const drawing = drawn("svg", { class: "train", width: width + 8, height: height + 8, role: "img", "aria-label": t("machine.train", { n: shafts.length }) });
   for (const { order, says, wheels, y } of shafts) {
-    drawing.append(svg("line", { x1: LEFT - 14, x2: width, y1: y + 4, y2: y + 4 }));
-    drawing.append(svg("text", { x: 0, y: y + 8 }, [...says, `×${Number(order.toPrecision(4))}`].join(" ")));
+    drawing.append(drawn("line", { x1: LEFT - 14, x2: width, y1: y + 4, y2: y + 4 }));
+    drawing.append(drawn("text", { x: 0, y: y + 8 }, [...says, `×${Number(order.toPrecision(4))}`].join(" ")));
     for (const { x, radius, number } of wheels) {
-      drawing.append(svg("rect", { x: x - 9, y: y + 4 - radius, width: 18, height: 2 * radius, rx: 2 }));
-      drawing.append(svg("text", { x, y: y + 8, class: "wheel" }, String(number)));
+      drawing.append(drawn("rect", { x: x - 9, y: y + 4 - radius, width: 18, height: 2 * radius, rx: 2 }));
+      drawing.append(drawn("text", { x, y: y + 8, class: "wheel" }, String(number)));
     }
   }
   return make("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": t("machine.gears") }, drawing);

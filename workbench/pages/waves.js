@@ -2,7 +2,7 @@
 
 import { app, get, getFrame } from "./api.js";
 import { run } from "./jobs.js";
-import { button, make, number } from "./make.js";
+import { button, drawn, make, number } from "./make.js";
 import { Chart, curvesOf } from "./plot.js";
 import { t } from "./words.js";
 
@@ -48,15 +48,6 @@ async function draw(root, page) {
     app.instant_mm = undefined;
   }
   paint(bits, await get("waves"), instant.value === "" ? null : Number(instant.value));
-}
-
-const SVG = "http://www.w3.org/2000/svg";
-
-function drawn(name, about, text) {
-  const element = document.createElementNS(SVG, name);
-  for (const [key, value] of Object.entries(about)) element.setAttribute(key, value);
-  if (text) element.textContent = text;
-  return element;
 }
 
 // One row a signal: bits as steps, counts with their numbers, micrometres as curves.

@@ -24,11 +24,7 @@ pub(crate) fn usual_rate(coordinate: &[f64]) -> f64 {
 #[must_use]
 pub(crate) fn highest_frequency(coordinate: &[f64]) -> f64 {
     let rate = usual_rate(coordinate);
-    if spread(coordinate) <= 0.0 || coordinate.len() < 3 {
-        return 0.5 * rate;
-    }
-    let end = 2.0 * HIGHEST_AGAINST_RATE * rate;
-    let (returns, looked_at) = first_return(coordinate, end);
+    let (returns, looked_at) = first_return(coordinate, 2.0 * HIGHEST_AGAINST_RATE * rate);
     returns.unwrap_or(looked_at).max(rate) * 0.5
 }
 
@@ -39,17 +35,19 @@ pub(crate) fn resolves(coordinate: &[f64], frequency: f64) -> bool {
     if frequency < 0.5 * usual_rate(coordinate) {
         return true;
     }
-    if spread(coordinate) <= 0.0 || coordinate.len() < 3 {
-        return false;
-    }
     let (returns, looked_at) = first_return(coordinate, 2.0 * frequency);
     // As far as was asked for, but for rounding.
     returns.is_none() && 1.999 * frequency <= looked_at
 }
 
-/// First frequency up to `end` at which the spectral window comes back, and how far was looked.
+/// First frequency up to `end` at which the spectral window comes back, and how far was looked: at
+/// nothing where there are hardly any places.
 fn first_return(coordinate: &[f64], end: f64) -> (Option<f64>, f64) {
-    let step = 0.25 / spread(coordinate);
+    let range = spread(coordinate);
+    if range <= 0.0 || coordinate.len() < 3 {
+        return (None, 0.0);
+    }
+    let step = 0.25 / range;
     let points = (end / step).clamp(4.0, MOST_POINTS);
     #[expect(
         clippy::cast_possible_truncation,
