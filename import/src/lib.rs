@@ -21,6 +21,7 @@ mod header;
 mod instant;
 mod layout;
 mod limits;
+mod marks;
 mod number;
 mod outline;
 mod propose;

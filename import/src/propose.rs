@@ -13,6 +13,7 @@ use crate::fringes;
 use crate::grid::Grid;
 use crate::header;
 use crate::limits;
+use crate::marks;
 use crate::outline::{Outline, outline};
 use crate::question::Question;
 use crate::recipe::{ColumnRule, Recipe};
@@ -178,10 +179,14 @@ pub(crate) fn understand(
         let found = format!("{} columns", outline.width);
         return Err(ImportError::found(place, found, format!("up to {}", limits::COLUMNS)));
     }
+    let told = decisions.given("table", "missing").is_some();
     let missing = delimited::missing_words(grid, decisions);
     let headers = header::headers(grid, &outline)?;
     decisions.headers.extend(headers.iter().map(|header| header.name.clone()));
     let samples = samples(grid, &outline, decimal, &missing);
+    if !told {
+        marks::ask(grid, &outline, (&headers, &samples), (decimal, &missing), decisions);
+    }
     let unit = preamble_unit(grid, &outline);
     let rules = rules::propose(&headers, &samples, unit.as_deref(), decisions);
     decisions.made.columns.clone_from(&rules);

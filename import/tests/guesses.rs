@@ -148,6 +148,27 @@ fn only_a_plain_humidity_is_taken_as_relative() {
 }
 
 /// Packed numbers are what their attributes make of them; a recipe can have them as they are.
+/// Nines where a logger had nothing are asked about; a counter that passes 999 is not.
+#[test]
+fn nines_far_from_all_others_are_asked_about() {
+    let text = file("Position [mm],Error [um],Count", |row| {
+        let error = if row % 9 == 4 { "-999.0".into() } else { format!("0.{row}") };
+        format!("{row},{error},{}", 980 + row)
+    });
+    let proposal = proposed(&text, "");
+    let [question] = proposal.questions.as_slice() else { panic!("{:?}", proposal.questions) };
+    assert_eq!(
+        question.text,
+        "`-999.0` stands 4 times in column `Error [um]`, and no other value comes near it"
+    );
+    let missing = |answer: usize| {
+        let proposal = proposed(&text, &question.answers[answer].recipe);
+        assert!(proposal.questions.is_empty(), "{:?}", proposal.questions);
+        column(&proposal, "error_um").iter().filter(|value| value.is_nan()).count()
+    };
+    assert_eq!([missing(0), missing(1)], [4, 0]);
+}
+
 #[test]
 fn packed_arrays_are_unpacked_and_the_recipe_says_so() {
     let bytes = include_bytes!("samples/packed.h5");

@@ -1,0 +1,80 @@
+//! Numbers that stand for no reading, as loggers and instruments write them.
+//!
+//! A logger writes nines where it has nothing: `-999`, `9999.0`. They are asked about where no other
+//! value of their column comes near them.
+
+use toml_edit::{Array, Value};
+
+use crate::decide::Decisions;
+use crate::grid::Grid;
+use crate::header::Header;
+use crate::number::number;
+use crate::outline::Outline;
+use crate::question::Answer;
+use crate::samples::{Holds, Samples, rows};
+
+/// A mark is as far from all others as these are from each other, times this.
+const APART: f64 = 10.0;
+
+/// Asks about every such number.
+pub(crate) fn ask(
+    grid: &Grid,
+    outline: &Outline,
+    (headers, samples): (&[Header], &[Samples]),
+    (decimal, missing): (char, &[String]),
+    decisions: &mut Decisions<'_>,
+) {
+    let rows = rows(outline);
+    let mut known: Vec<String> = missing.to_vec();
+    for (column, samples) in samples.iter().enumerate() {
+        let cells = || rows.iter().map(|row| grid.cell(*row, column).trim());
+        let mut marks: Vec<&str> = cells().filter(|cell| is_mark(cell)).collect();
+        marks.sort_unstable();
+        marks.dedup();
+        marks.retain(|mark| {
+            !known.iter().any(|word| word == mark)
+                && number(mark, decimal).is_some_and(|value| is_apart(value, samples))
+        });
+        for mark in marks {
+            let times = cells().filter(|cell| *cell == mark).count();
+            let name = &headers[column].name;
+            let text = format!(
+                "`{mark}` stands {times} times in column `{name}`, and no other value comes near it"
+            );
+            let read = answer("it is a reading", &known);
+            known.push(mark.to_owned());
+            decisions.question(&text, vec![answer("it stands for a missing value", &known), read]);
+        }
+    }
+}
+
+fn answer(label: &str, missing: &[String]) -> Answer {
+    let words = Value::from(missing.iter().collect::<Array>());
+    Answer { label: label.to_owned(), recipe: format!("[table]\nmissing = {words}") }
+}
+
+/// Three nines or more, with a sign or a fraction of zeros or nines.
+fn is_mark(cell: &str) -> bool {
+    let digits = cell.trim_start_matches(['-', '+', '\u{2212}']);
+    let (whole, fraction) = digits.split_once(['.', ',']).unwrap_or((digits, ""));
+    let all = |text: &str, of: u8| text.bytes().all(|byte| byte == of);
+    2 < whole.len() && all(whole, b'9') && (all(fraction, b'0') || all(fraction, b'9'))
+}
+
+/// True when the other values of the column lie together, far from this one.
+fn is_apart(mark: f64, samples: &Samples) -> bool {
+    if samples.holds != Holds::Numbers {
+        return false;
+    }
+    let others = samples.values.iter().filter(|value| value.is_finite());
+    let others = others.filter(|value| value.to_bits() != mark.to_bits());
+    let (mut least, mut most, mut count) = (f64::INFINITY, f64::NEG_INFINITY, 0_usize);
+    for value in others {
+        least = least.min(*value);
+        most = most.max(*value);
+        count += 1;
+    }
+    // One value more is no sign of anything: a scale may end there.
+    let distance = (mark - most).max(least - mark);
+    1 < count && APART * (most - least) < distance
+}
