@@ -81,6 +81,6 @@ fn a_bitstream_is_watched_and_held_to_its_logic() {
     let (path, name) = machine(&folder);
     let model = Model::read(&path).expect("a sound machine");
     let board = Board::of_bitstream(&name, "icestick", &FRONT);
-    watch::a_pass_is_watched_to_the_clock(&board, &model, &name);
+    watch::a_pass_is_watched_to_the_clock(&board, (&model, &name), 12, 15 * PERIOD);
     compare::faults_are_found_at_their_clocks(&board, &model, &name);
 }

@@ -50,13 +50,22 @@ impl Board {
         Self::compiled(folder, pins, faults, &["placed.v"])
     }
 
-    /// The emitted Verilog with a text of a block exchanged.
+    /// The emitted Verilog, which runs faster than its gates.
+    pub(crate) fn of_verilog(machine: &str, words: &[&str]) -> Self {
+        Self::of_blocks(project(machine, "icestick", words))
+    }
+
+    /// The same with a text of a block exchanged.
     pub(crate) fn of_mutant(machine: &str, words: &[&str], mutant: &Mutant) -> Self {
         let folder = project(machine, "icestick", words);
         let block = folder.path().join(format!("rtl/{}.v", mutant.block));
         let sound = std::fs::read_to_string(&block).expect("the block is there");
         assert!(sound.contains(mutant.was), "{}: {}", mutant.block, mutant.was);
         put(&block, &sound.replacen(mutant.was, mutant.now, 1));
+        Self::of_blocks(folder)
+    }
+
+    fn of_blocks(folder: TempDir) -> Self {
         let mut files: Vec<_> = std::fs::read_dir(folder.path().join("rtl"))
             .expect("blocks")
             .map(|entry| entry.expect("a file").path().display().to_string())
