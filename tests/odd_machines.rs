@@ -1,7 +1,8 @@
 //! Odd values in good machine files: whatever a value is, the command ends, and never by a panic.
 //!
 //! Each value of an example in turn is left out, or made zero, negative, enormous, minute, empty or
-//! of another kind. `HELIXLOCK_ODD_MACHINES=all` tries the machine of every example.
+//! of another kind: every third of these for one example, and with `HELIXLOCK_ODD_MACHINES=all`
+//! each of them for every example.
 
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -18,17 +19,17 @@ const NUMBERS: [&str; 7] = ["0", "-1", "1e300", "-1e300", "1e-300", "nan", "9007
 /// What a whole value becomes.
 const VALUES: [&str; 8] = ["\"\"", "0", "-1", "1e300", "nan", "[]", "true", "9223372036854775807"];
 
-/// The machine files of the examples.
-fn machines() -> Vec<PathBuf> {
+/// The machine files to change, and one in how many of their changes is tried.
+fn machines() -> (Vec<PathBuf>, usize) {
     let folder = repository().join("examples");
     if std::env::var("HELIXLOCK_ODD_MACHINES").is_err() {
-        return vec![folder.join("sg7430-6mm/machine.toml")];
+        return (vec![folder.join("sg7430-6mm/machine.toml")], 3);
     }
     let entries = std::fs::read_dir(folder).expect("the examples are there");
     let paths = entries.map(|entry| entry.expect("it can be listed").path().join("machine.toml"));
     let mut machines: Vec<_> = paths.filter(|path| path.exists()).collect();
     machines.sort();
-    machines
+    (machines, 1)
 }
 
 /// The text with one line changed in every way.
@@ -87,9 +88,10 @@ fn run(folder: &Path, words: &[&str]) -> (Option<i32>, String) {
 #[test]
 fn no_value_makes_the_command_panic_or_hang() {
     let mut runs = 0;
-    for machine in machines() {
+    let (machines, one_in) = machines();
+    for machine in machines {
         let text = std::fs::read_to_string(&machine).expect("the example is there");
-        for variant in variants(&text) {
+        for variant in variants(&text).into_iter().step_by(one_in) {
             let folder = scratch();
             put(&folder.path().join("machine.toml"), &variant);
             for words in [
@@ -105,5 +107,5 @@ fn no_value_makes_the_command_panic_or_hang() {
             }
         }
     }
-    assert!(runs > 400, "{runs} runs");
+    assert!(runs > 130, "{runs} runs");
 }
