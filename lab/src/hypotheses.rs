@@ -13,6 +13,7 @@ mod setting_trial;
 mod settings;
 mod slow_noise;
 mod tails;
+mod time_reversal;
 mod trial;
 mod unfolding;
 mod waves;

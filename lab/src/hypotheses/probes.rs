@@ -10,6 +10,7 @@ use super::local::{self, Local};
 use super::repeatability::repeatability;
 use super::slow_noise::taken_for_noise;
 use super::tails::chance_with_tails;
+use super::time_reversal::one_way;
 use super::waves;
 use helixlock_plant::Column;
 
@@ -89,6 +90,7 @@ pub(crate) fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> V
     all.extend(cyclic_shapes(problem, model, fit));
     all.extend(repeats(problem, fit));
     all.extend(jumping(problem, fit));
+    all.extend(one_way_jumps(problem, fit));
     all.extend(local_shapes(problem, fit));
     all.extend(waves::lines(problem, model, fit));
     all.extend(waves::bands(problem, fit));
@@ -203,6 +205,15 @@ fn jumping(problem: &Problem, fit: &Fit) -> Option<Structure> {
     }
     let p_value = (probes(problem) * chance).min(1.0);
     Some(Structure::without_place("time", "several jumps", rms_um, p_value))
+}
+
+/// Creep one way and jumps back, as stick and slip leave them.
+fn one_way_jumps(problem: &Problem, fit: &Fit) -> Option<Structure> {
+    let (jump_um, chance) = one_way(problem, fit)?;
+    // Root mean square of a saw tooth of that height.
+    let rms_um = jump_um / f64::sqrt(12.0);
+    let p_value = (probes(problem) * chance).min(1.0);
+    Some(Structure::without_place("time", "creeps one way and jumps back", rms_um, p_value))
 }
 
 /// Anything in a short stretch.

@@ -207,3 +207,9 @@ pub(crate) const ROWS_A_CELL: usize = 4;
 ///
 /// Chosen. Doubled: shapes of more than a twelfth of a pass are left to the smooth curves.
 pub(crate) const WINDOWS: usize = 6;
+
+/// Rows of the stretches whose means are differenced for jumps that go one way only.
+///
+/// Chosen: the longest averages a quarter of the noise away, and slower jumps are smooth curves.
+/// One more: every chance is a fifth larger, and a creep over 64 rows and more shows better.
+pub(crate) const REVERSED_STRETCHES: [usize; 5] = [1, 2, 4, 8, 16];
