@@ -5,7 +5,7 @@ use helixlock_report::{Colour, Page, Part, Series, Style, Table};
 
 use crate::shared::page_pieces::{panel, picture};
 use crate::shared::residual_picture::{points, x_axis};
-use crate::shared::words::{doubted, with_error, with_p};
+use crate::shared::words::{doubted, why_left, with_error, with_p};
 
 /// The page; `before` and `after` compare the data with the model as it is and with the proposals.
 pub(super) fn page(
@@ -26,7 +26,7 @@ pub(super) fn page(
     }
     for left in &found.residual {
         let (shape, along) = (&left.shape, &left.along);
-        let size = format!("{:.4} {unit} rms, {}", left.rms_um, with_p(left.p_value));
+        let size = format!("{:.4} {unit} rms, {}", left.rms_um, why_left(left));
         parts.push(Part::Note(format!("Left: {shape} along {along}, {size}.")));
     }
     if !found.experiments.is_empty() {
@@ -125,7 +125,8 @@ fn runners_up(all: &[RunnerUp]) -> Table {
 fn experiments(found: &Discovery) -> Table {
     let mut table = Table::new(["experiment", "tells it from", "evidence expected"]);
     for one in found.experiments.iter().take(5) {
-        table.row([one.action.clone(), one.between.1.clone(), format!("{:.0}", one.evidence)]);
+        let expected = if one.is_a_run() { format!("{:.0}", one.evidence) } else { String::new() };
+        table.row([one.action.clone(), one.between.1.clone(), expected]);
     }
     table
 }

@@ -5,7 +5,7 @@ use std::io::Write;
 use helixlock_lab::{Discovery, Found, Proposal};
 
 use crate::shared::diagnosis_text::{print_doubts, print_effect};
-use crate::shared::words::{with_error, with_p};
+use crate::shared::words::{why_left, with_error, with_p};
 
 /// Verdict, formulas with their numbers, what else could stand there, what to do next.
 pub(super) fn print(out: &mut impl Write, found: &Discovery, unit: &str) -> anyhow::Result<()> {
@@ -34,7 +34,7 @@ pub(super) fn print(out: &mut impl Write, found: &Discovery, unit: &str) -> anyh
             left.shape,
             left.along,
             left.rms_um,
-            with_p(left.p_value)
+            why_left(left)
         )?;
     }
     for (place, best) in found.experiments.iter().take(3).enumerate() {
@@ -44,7 +44,7 @@ pub(super) fn print(out: &mut impl Write, found: &Discovery, unit: &str) -> anyh
             if place == 0 { "\nto tell it from the others:" } else { "" }.trim_end()
         )?;
         write!(out, "  {}", best.action)?;
-        if 0.0 < best.evidence {
+        if best.is_a_run() {
             write!(out, ": evidence {:.0} against {}", best.evidence, best.between.1)?;
         }
     }

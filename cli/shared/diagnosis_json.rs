@@ -98,8 +98,8 @@ keys! {
     ExperimentJson<'a>(advice: &'a Advice) {
         action: &'a str = &advice.action,
         between: &'a (String, String) = &advice.between,
-        evidence: f64 = advice.evidence,
-        separation_um: f64 = advice.separation_um,
+        evidence: Option<f64> = advice.is_a_run().then_some(advice.evidence),
+        separation_um: Option<f64> = advice.is_a_run().then_some(advice.separation_um),
     }
 }
 

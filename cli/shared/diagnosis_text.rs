@@ -4,7 +4,7 @@ use std::io::Write;
 
 use helixlock_lab::{Diagnosis, Doubt, FittedEffect};
 
-use crate::shared::words::{with_error, with_p};
+use crate::shared::words::{why_left, with_error, with_p};
 
 /// Standard errors below this have no digit among three decimals.
 const SMALL: f64 = 5e-4;
@@ -40,7 +40,7 @@ pub(crate) fn print(out: &mut impl Write, diagnosis: &Diagnosis, unit: &str) -> 
             left.shape,
             left.along,
             left.rms_um,
-            with_p(left.p_value)
+            why_left(left)
         )?;
     }
     Ok(())

@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-use helixlock_lab::{Doubt, Verdict};
+use helixlock_lab::{Doubt, Structure, Verdict};
 
 /// Chances below this come from rounding, and say no more than that it is very small.
 const SMALLEST: f64 = 1e-99;
@@ -22,6 +22,15 @@ pub(crate) fn chance(p_value: f64) -> String {
 pub(crate) fn with_p(p_value: f64) -> String {
     let chance = chance(p_value);
     if chance.starts_with('<') { format!("p {chance}") } else { format!("p = {chance}") }
+}
+
+/// Why structure is told of: its chance in noise, or that there is none.
+pub(crate) fn why_left(left: &Structure) -> String {
+    if left.is_beyond_chance() {
+        with_p(left.p_value)
+    } else {
+        "not to be told from noise".to_owned()
+    }
 }
 
 /// What is said of a limit.

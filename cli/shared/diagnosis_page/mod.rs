@@ -7,7 +7,7 @@ use helixlock_report::{Page, Part, Table};
 
 use self::pictures::before_and_after;
 pub(crate) use self::pictures::{Left, falling};
-use crate::shared::words::{chance, doubted};
+use crate::shared::words::{chance, doubted, why_left};
 
 /// The page, with what else is known of the model behind the pictures of the data.
 pub(crate) fn page(problem: &Problem, diagnosis: &Diagnosis, more: Vec<Part>) -> Page {
@@ -17,12 +17,12 @@ pub(crate) fn page(problem: &Problem, diagnosis: &Diagnosis, more: Vec<Part>) ->
     parts.extend(diagnosis.doubts.iter().map(|doubt| Part::Note(doubted(doubt))));
     parts.extend(diagnosis.residual.iter().map(|left| {
         Part::Note(format!(
-            "Left: {} along {}{}, {:.4} {unit} rms, chance {}.",
+            "Left: {} along {}{}, {:.4} {unit} rms, {}.",
             left.shape,
             left.along,
             left.at.map_or(String::new(), |at| format!(" at {at:.4}")),
             left.rms_um,
-            chance(left.p_value)
+            why_left(left)
         ))
     }));
     let left: Vec<Left> = diagnosis.rounds.iter().map(Left::from).collect();
@@ -114,7 +114,7 @@ fn next(diagnosis: &Diagnosis, unit: &str) -> Vec<Part> {
             advice.action.clone(),
             advice.between.0.clone(),
             advice.between.1.clone(),
-            format!("{:.3}", advice.separation_um),
+            if advice.is_a_run() { format!("{:.3}", advice.separation_um) } else { String::new() },
         ]);
     }
     vec![Part::Heading("What to measure next".into()), Part::Table(table)]

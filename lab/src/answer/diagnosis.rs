@@ -1,6 +1,6 @@
 //! The answer: what is missing in a model, how sure that is, and what would make it surer.
 
-use helixlock_plant::{Role, Term};
+use helixlock_plant::{Role, Search, Term};
 use rayon::prelude::*;
 
 use super::experiment::{self, Advice};
@@ -315,10 +315,15 @@ fn rejected(step: &Step, chosen: Option<&str>) -> Vec<(String, String)> {
 #[must_use]
 pub(crate) fn effects(problem: &Problem, state: &State) -> Vec<FittedEffect> {
     let covariance = joint_covariance(problem, state);
-    (0..state.components.len()).map(|index| fitted(state, &covariance, index)).collect()
+    (0..state.components.len()).map(|index| fitted(problem, state, &covariance, index)).collect()
 }
 
-fn fitted(state: &State, covariance: &JointCovariance, index: usize) -> FittedEffect {
+fn fitted(
+    problem: &Problem,
+    state: &State,
+    covariance: &JointCovariance,
+    index: usize,
+) -> FittedEffect {
     let component = &state.components[index];
     let (used, from) = state.coefficients(index);
     let linear = covariance_rows(&covariance.linear, from, component.width());
@@ -326,6 +331,11 @@ fn fitted(state: &State, covariance: &JointCovariance, index: usize) -> FittedEf
     let mut parameters = Vec::new();
     for estimate in component.estimates(used, &linear) {
         let what = &component.term.parameters[estimate.parameter];
+        if component.is_counted(estimate.parameter) {
+            let (key, value) = (what.key(), estimate.value.round());
+            parameters.push(FittedParameter { key, value, stderr: None, warning: None });
+            continue;
+        }
         let stderr =
             libm::hypot(estimate.stderr, component.term.nature().uncertainty * estimate.value);
         // Neither zero nor half a turn is a special phase.
@@ -343,16 +353,31 @@ fn fitted(state: &State, covariance: &JointCovariance, index: usize) -> FittedEf
     }
     for (place, &parameter) in component.term.nonlinear_indices().iter().enumerate() {
         let what = &component.term.parameters[parameter];
-        let stderr = covariance.nonlinear[index][place];
         let value = component.term.values[parameter];
-        if term.nature().is_setting() && value == 0.0 {
+        let unused = term.nature().is_setting() && value == 0.0;
+        if unused || !component.depends_on(problem, used, place) {
             continue;
         }
+        let stderr = covariance.nonlinear[index][place];
+        let stderr = if what.search == Search::Time {
+            Some(stderr.unwrap_or(0.0).max(between_samples_s(problem, value)))
+        } else {
+            stderr
+        };
         let value = if setting_counts(&term, what) { value.round() } else { value };
         let warning = stderr.and_then(|stderr| warning_at_bound(value, stderr, &what.range));
         parameters.push(FittedParameter { key: what.key(), value, stderr, warning });
     }
     FittedEffect { name: component.term.name.clone(), term, parameters }
+}
+
+/// Standard deviation, in s, of a moment that lies anywhere between two samples.
+fn between_samples_s(problem: &Problem, at_s: f64) -> f64 {
+    let time_s = &problem.record.time_s;
+    let after = time_s.partition_point(|time| *time < at_s);
+    let around =
+        after.checked_sub(1).and_then(|before| Some((time_s[before], *time_s.get(after)?)));
+    around.map_or(0.0, |(before, after)| (after - before) / f64::sqrt(12.0))
 }
 
 /// True for a setting that is a whole number: every one that has no unit.

@@ -32,6 +32,14 @@ pub struct Advice {
     pub unit: &'static str,
 }
 
+impl Advice {
+    /// True for a run whose samples were worked out; without, there are no figures to be told.
+    #[must_use]
+    pub fn is_a_run(&self) -> bool {
+        0.0 < self.evidence
+    }
+}
+
 /// A change of the measurement that an operator can make.
 pub(crate) struct Experiment {
     action: &'static str,
@@ -104,8 +112,8 @@ pub(crate) fn advice(problem: &Problem, state: &State, found: &[Rivals]) -> Vec<
     all
 }
 
-/// Experiments between an explanation and others that do nearly as well, best first; the last of
-/// them is to log more where none would tell.
+/// Experiments that would decide between an explanation and others that do nearly as well, best
+/// first; to log more where none would.
 #[must_use]
 pub(crate) fn apart(
     problem: &Problem,
@@ -125,10 +133,10 @@ pub(crate) fn apart(
             };
             worth_more(runs.iter().filter_map(run).collect())
         })
-        .filter(|advice| WORTHWHILE_UM < advice.separation_um && 0.0 < advice.evidence)
+        .filter(|advice| WORTHWHILE_UM < advice.separation_um && MARGIN <= advice.evidence)
         .collect();
     all.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
-    if all.first().is_none_or(|best| best.evidence < MARGIN) {
+    if all.is_empty() {
         all.push(Advice {
             action: LOG.to_owned(),
             between: (own.name.clone(), first.name.clone()),
@@ -209,6 +217,7 @@ pub(crate) fn for_pair(advice: &[Advice], name: &str, component: &Component) -> 
     let best = advice.iter().find(|one| one.between.0 == name || one.between.1 == name);
     let card = Term::card(component.term.kind()).map(|card| card.separated_by);
     match (best, card) {
+        (Some(best), Some(card)) if !best.is_a_run() => format!("{}; also: {card}", best.action),
         (Some(best), Some(card)) => format!(
             "{}: {} and {} would differ by {:.3} {}, evidence {:.0}; also: {card}",
             best.action,

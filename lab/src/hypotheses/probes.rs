@@ -17,7 +17,7 @@ use helixlock_plant::Column;
 use crate::model::{Columns, Fit, Problem, Row, Stage, settle};
 use crate::noise::{Whitener, rms, swift_rms};
 use crate::numerics::{chi_squared_tail, count, spread};
-use crate::policy::chance::{MANY_COLUMNS, PROBES, SIGNIFICANCE};
+use crate::policy::chance::{MANY_COLUMNS, NAMED, PROBES, SIGNIFICANCE};
 use crate::policy::extent::{
     BUMP_ORDER, COLUMNS_OF_PASSES, CURVE_OF_A_PASS, CURVE_ORDER, HARMONICS, ROWS_A_COLUMN, TURNS,
     WAVE_ORDER,
@@ -45,6 +45,13 @@ pub struct Structure {
 }
 
 impl Structure {
+    /// True for what is beyond chance; what is not was left for another reason, as a curve that
+    /// cannot be told from slow noise.
+    #[must_use]
+    pub fn is_beyond_chance(&self) -> bool {
+        self.p_value < NAMED
+    }
+
     /// Structure along a coordinate that stands at no particular place of it.
     pub(crate) fn without_place(along: &str, shape: &str, rms_um: f64, p_value: f64) -> Self {
         let (along, shape) = (along.to_owned(), shape.to_owned());

@@ -153,6 +153,31 @@ impl Component {
         estimates.into_iter().filter(|estimate| self.uses(estimate.parameter)).collect()
     }
 
+    /// True for a number of something, found to be whole: it has no error.
+    #[must_use]
+    pub(crate) fn is_counted(&self, parameter: usize) -> bool {
+        let linear = self.term.parameters[..=parameter].iter().map(|what| match what.role {
+            Role::Amplitude => 2,
+            Role::Linear | Role::Squared | Role::Known { .. } => 1,
+            Role::Phase | Role::Nonlinear => 0,
+        });
+        let behind: usize = linear.sum();
+        let column = behind.checked_sub(1).and_then(|column| self.whole.get(column));
+        column.is_some_and(Option::is_some)
+    }
+
+    /// True unless a nonlinear parameter changes nothing in the columns in use, as the moment of a
+    /// hop without a hop.
+    #[must_use]
+    pub(crate) fn depends_on(&self, problem: &Problem, used: &[f64], place: usize) -> bool {
+        let what = &self.term.parameters[self.term.nonlinear_indices()[place]];
+        let shown = self.shown_um(problem, used);
+        [*what.range.start(), *what.range.end()].into_iter().any(|end| {
+            let other = self.with_value(place, end).shown_um(problem, used);
+            other.is_none() || other != shown
+        })
+    }
+
     /// True when a parameter belongs to a column in use.
     #[must_use]
     pub(crate) fn uses(&self, parameter: usize) -> bool {
