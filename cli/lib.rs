@@ -30,6 +30,7 @@ mod straightness;
 mod sweep;
 mod transmission;
 
+use std::env;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
@@ -93,11 +94,12 @@ const CAMPAIGNS: [&Campaign; 4] =
 /// Exit status: 0 done, 1 the answer is no, 2 the input or the words are wrong.
 #[must_use]
 pub fn main() -> ExitCode {
-    let (words, is_report) = match words() {
+    let asked = Language::asked(env::args_os());
+    let (words, is_report) = match words(asked) {
         Ok(words) => words,
         Err(words) if words.use_stderr() => {
             // Nothing is left to tell the user if this fails, here and below.
-            let _ = write!(io::stderr(), "{}", shown(&words.render().to_string()));
+            let _ = write!(io::stderr(), "{}", asked.error(&words));
             return ExitCode::from(2);
         }
         Err(help) => help.exit(),
@@ -123,8 +125,8 @@ pub fn main() -> ExitCode {
 }
 
 /// The words of the process, and whether what they print is a report.
-fn words() -> Result<(Words, bool), clap::Error> {
-    let matches = Words::command().try_get_matches()?;
+fn words(asked: Language) -> Result<(Words, bool), clap::Error> {
+    let matches = asked.help(Words::command()).try_get_matches()?;
     Ok((Words::from_arg_matches(&matches)?, is_report(&matches)))
 }
 
