@@ -30,7 +30,7 @@ pub struct Joint {
 impl JointRule {
     /// The joints inside a curve of error against position, with the step at each.
     ///
-    /// `curve` is sorted by position; a side with fewer than two samples gives no line and no joint.
+    /// `curve` is sorted by position; a side with samples at fewer than two places gives no line and no joint.
     #[must_use]
     pub fn joints(&self, curve: &[(f64, f64)]) -> Vec<Joint> {
         let inside = self.places(curve);
@@ -97,9 +97,10 @@ struct Side {
 }
 
 impl Side {
-    /// The least-squares line through samples; `None` for fewer than two.
+    /// The least-squares line through sorted samples; `None` unless they have two places.
     fn through(samples: &[(f64, f64)]) -> Option<Self> {
-        if samples.len() < 2 {
+        let [first, .., last] = samples else { return None };
+        if last.0 <= first.0 {
             return None;
         }
         let count = number(samples.len());
@@ -133,6 +134,15 @@ mod tests {
             }
         };
         (0..=500).map(|k| (f64::from(k), error(f64::from(k)))).collect()
+    }
+
+    /// Both ways over one target beside the joint: its samples are at one place.
+    #[test]
+    fn one_place_makes_no_line() {
+        let curve: Vec<_> = [0.0, 240.0, 240.0, 260.0, 265.0, 500.0].map(|x| (x, 1.0)).into();
+        assert!(RULE.joints(&curve).is_empty());
+        let two: Vec<_> = [0.0, 235.0, 240.0, 260.0, 265.0, 500.0].map(|x| (x, 1.0)).into();
+        assert_eq!(RULE.joints(&two), [Joint { at_mm: 250.0, step_um: 0.0 }]);
     }
 
     #[test]
