@@ -29,6 +29,8 @@ mod sim;
 mod straightness;
 mod sweep;
 mod transmission;
+#[cfg(test)]
+mod words_tests;
 
 use std::env;
 use std::io::{self, Write};

@@ -7,7 +7,7 @@
 //! own; what is wrong with words is looked up line by line, as reports are.
 
 mod choice;
-mod help;
+pub(crate) mod help;
 mod line;
 mod phrases;
 mod translated;

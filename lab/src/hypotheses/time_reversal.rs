@@ -108,7 +108,7 @@ fn pairs(values: &[f64], stretch: usize) -> Vec<Pair> {
     for change in values.windows(2 * stretch).map(change).filter(|change| change.abs() > 0.0) {
         match extremes.last_mut() {
             Some(last) if 0.0 < *last * change => {
-                *last = last.abs().max(change.abs()).copysign(change)
+                *last = last.abs().max(change.abs()).copysign(change);
             }
             _ => extremes.push(change),
         }
@@ -146,7 +146,7 @@ fn usual_jump(excesses: &[f64]) -> f64 {
         sum += **one;
         0.5 * all <= sum
     });
-    half.map_or(0.0, |one| one.powf(1.0 / f64::from(POWER)))
+    half.map_or(0.0, |one| libm::pow(*one, 1.0 / f64::from(POWER)))
 }
 
 #[cfg(test)]
