@@ -147,7 +147,6 @@ fn only_a_plain_humidity_is_taken_as_relative() {
     }
 }
 
-/// Packed numbers are what their attributes make of them; a recipe can have them as they are.
 /// Nines where a logger had nothing are asked about; a counter that passes 999 is not.
 #[test]
 fn nines_far_from_all_others_are_asked_about() {
@@ -169,6 +168,7 @@ fn nines_far_from_all_others_are_asked_about() {
     assert_eq!([missing(0), missing(1)], [4, 0]);
 }
 
+/// Packed numbers are what their attributes make of them; a recipe can have them as they are.
 #[test]
 fn packed_arrays_are_unpacked_and_the_recipe_says_so() {
     let bytes = include_bytes!("samples/packed.h5");

@@ -24,8 +24,8 @@ const MACHINES: [&str; 3] = [
 /// What `gen` and `compare` are told.
 const WORDS: [&str; 6] = ["--board", "icebreaker", "--pins", "rx", "--debounce", "0"];
 
-/// A machine, forty times as fast as it is, and how many comparisons its pass is to have: two, or with
-/// `HELIXLOCK_BOARD=all` twenty as fast as it is.
+/// A machine, forty times as fast as it is, and how many comparisons its pass is to have: two, or
+/// with `HELIXLOCK_BOARD=all` twenty as fast as it is.
 fn fast(machine: &str) -> (Model, f64) {
     let all = std::env::var("HELIXLOCK_BOARD").is_ok_and(|words| words == "all");
     let mut model = Model::read(&repository().join(machine)).expect("a sound machine");
