@@ -44,9 +44,20 @@ const STORIES: &[(&str, &str)] = &[
         "helixlock compare challenge/machine.toml challenge/data.csv",
     ),
     ("certify EX/sg7430-6mm/machine.toml --length 10 --pulses 100", "helixlock faults "),
+    ("faults EX/sg7430-6mm/machine.toml --instants 1 --output 'all flips.csv'", "helixlock gen "),
+    (
+        "faults EX/sg7430-6mm/machine.toml --instants 1 --shard 1/1 -o parts",
+        "helixlock merge parts -o faults.csv",
+    ),
     ("effects", "helixlock effects screw-periodic"),
     ("dividers --lead '6 mm'", "helixlock init"),
     ("scale build EX/inductosyn-scale/table.csv -o table.hex", "helixlock scale export table.hex "),
+    ("scale model -o scale", "helixlock scale build scale/table-run.csv -o table.hex"),
+    (
+        "transmission EX/transmission-error/pulses.csv --input-lines 200 --output-lines 720 --ratio 36 -o worm",
+        "helixlock init",
+    ),
+    ("scale iso230 EX/inductosyn-scale/axis.csv", "helixlock scale build "),
 ];
 
 /// Reports that leave nothing to do.

@@ -33,10 +33,12 @@ fn parts_are_the_whole(words: &[&str], ending: &str, says: &str) {
     assert!(Path::new(&format!("{whole}.journal")).exists(), "what goes on after an interruption");
 }
 
-/// The lines of a table from the one that begins so, to the next empty line.
+/// The lines of a table from the one that begins so, to an empty line or the command that is next,
+/// which only a run that has read the machine file can say.
 fn from<'a>(text: &'a str, begin: &str) -> Vec<&'a str> {
     let lines = text.lines().skip_while(|line| !line.trim_start().starts_with(begin));
-    let lines: Vec<&str> = lines.take_while(|line| !line.is_empty()).collect();
+    let ends = |line: &&str| line.is_empty() || line.starts_with("next: ");
+    let lines: Vec<&str> = lines.take_while(|line| !ends(line)).collect();
     assert!(2 < lines.len(), "{text}");
     lines
 }

@@ -19,6 +19,7 @@ use crate::shared::cases::{Campaign, Cases, Row, Shard, apart_from_cases};
 use crate::shared::input::machine_files;
 use crate::shared::keys::keys;
 use crate::shared::language::Reporter;
+use crate::shared::next::Next;
 use crate::shared::output::{print_json, print_page, write_page};
 
 /// Flips of a campaign.
@@ -85,7 +86,18 @@ impl FaultsCommand {
             print(out, &faults)?;
         }
         print_page(out, self.page.as_deref())?;
+        self.print_next(out)?;
         Ok(ExitCode::SUCCESS)
+    }
+
+    /// A part is joined with the others; a device that was seen to recover is built.
+    fn print_next(&self, out: &mut impl Reporter) -> anyhow::Result<()> {
+        match (self.shard, &self.output) {
+            (Some(_), Some(parts)) => {
+                Next::command("merge").words([parts]).output("faults.csv").print(out)
+            }
+            _ => Next::command("gen").words([&self.machine]).output("fpga").print(out),
+        }
     }
 
     fn cases(&self, file: &MachineFile) -> Cases {

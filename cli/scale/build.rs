@@ -1,7 +1,7 @@
 //! `helixlock scale build`: the table of a measured scale.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::Context;
@@ -17,6 +17,7 @@ use super::json::BuiltJson;
 use super::samples::read_samples;
 use super::text;
 use crate::shared::answer::{Answer, Answering};
+use crate::shared::next::Next;
 use crate::shared::output::print_json;
 use crate::shared::quantity::{length_mm, length_um, position_mm};
 use crate::shared::refused::in_file;
@@ -81,6 +82,11 @@ impl Build {
         forward.sort_by(|a, b| a.0.total_cmp(&b.0));
         Ok(Built { table, joints: joints.joints(&forward), samples: samples.len() })
     }
+}
+
+/// Says how measured errors become an image.
+pub(super) fn print_build(out: &mut impl Write, data: &Path) -> anyhow::Result<()> {
+    Next::command("scale").words(["build"]).words([data]).output("table.hex").print(out)
 }
 
 /// A table, and what it was made of.

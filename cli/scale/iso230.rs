@@ -10,6 +10,7 @@ use helixlock_metrology::scale::Detector;
 use helixlock_metrology::uncertainty::{Acts, Budget, Readings, Source};
 
 use super::axis_test::AxisTest;
+use super::build::print_build;
 use super::json::AxisTestJson;
 use super::samples::{read_samples, targets};
 use super::{axis_page, text};
@@ -68,6 +69,7 @@ impl Iso230 {
         } else {
             text::print_axis(out, &test)?;
             written.print(out)?;
+            print_build(out, &self.data)?;
         }
         Ok(if test.holds() { ExitCode::SUCCESS } else { ExitCode::from(1) })
     }

@@ -11,6 +11,7 @@ use helixlock_metrology::scale::{
 use helixlock_report::{Colour, Page, Panel, Part, Series, Style, Table};
 use helixlock_traces::csv::RowWriter;
 
+use super::build::print_build;
 use super::json::ModelJson;
 use crate::shared::answer::{Answer, Answering};
 use crate::shared::language::Reporter;
@@ -20,6 +21,9 @@ use crate::shared::quantity::{length_mm, length_um};
 
 /// Pitch of an inductosyn, mm.
 const PITCH_MM: f64 = 2.0;
+
+/// The run that a table is built of.
+const TABLE_RUN: &str = "table-run.csv";
 
 /// Model a scale of ±5.5 µm, compensate it, and show what limits the rest
 #[derive(Debug, Args)]
@@ -86,6 +90,9 @@ impl Model {
             )?;
         }
         written.print(out)?;
+        if let Some(output) = &self.output {
+            print_build(out, &output.join(TABLE_RUN))?;
+        }
         Ok(ExitCode::SUCCESS)
     }
 
@@ -124,7 +131,7 @@ impl Model {
         let (scale, detector) = (self.scale(), self.detector());
         let page = self.page(&scale, budget);
         for (name, step_mm, run) in
-            [("table-run.csv", self.step, 1), ("check-run.csv", self.step / 10.0, 2)]
+            [(TABLE_RUN, self.step, 1), ("check-run.csv", self.step / 10.0, 2)]
         {
             let samples = scale.samples(step_mm, &detector, run);
             files.write(name, |file| {

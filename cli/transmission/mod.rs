@@ -26,6 +26,7 @@ use self::pulses::{Names, read_pulses};
 use self::truth::read_truth;
 use crate::shared::answer::{Answer, Answering};
 use crate::shared::language::Reporter;
+use crate::shared::next::Next;
 use crate::shared::output::{Batch, Written, print_json};
 use crate::shared::quantity::{frequency_hz, lead_mm, time_s};
 use crate::shared::refused::in_file;
@@ -111,6 +112,9 @@ enum By {
 /// Most shafts that a spectrum is looked through for; a gearbox has some ten.
 const MOST_SHAFTS: usize = 500;
 
+/// What `helixlock compare` reads.
+const HAND_OVER: &str = "compare.csv";
+
 impl TransmissionCommand {
     /// Measures, writes, prints.
     pub(crate) fn run(self, out: &mut impl Reporter) -> anyhow::Result<ExitCode> {
@@ -128,8 +132,20 @@ impl TransmissionCommand {
         } else {
             text::print(out, &evaluation)?;
             written.print(out)?;
+            self.print_next(out)?;
         }
         Ok(if evaluation.holds() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+    }
+
+    /// What was handed over is compared with a model, once there is one.
+    fn print_next(&self, out: &mut impl Reporter) -> anyhow::Result<()> {
+        match (&self.output, &self.machine) {
+            (Some(output), Some(machine)) => {
+                Next::command("compare").words([machine, &output.join(HAND_OVER)]).print(out)
+            }
+            (Some(_), None) => Next::command("init").print(out),
+            (None, _) => Ok(()),
+        }
     }
 
     fn evaluate(&self) -> anyhow::Result<Evaluation> {
@@ -213,7 +229,7 @@ impl TransmissionCommand {
         if let Some(best) = evaluation.best() {
             let error = error_table(&best.reading);
             files.write("error.csv", |mut file| Ok(write_csv(&error, &mut file)?))?;
-            files.write("compare.csv", |file| self.hand_over(file, &best.reading))?;
+            files.write(HAND_OVER, |file| self.hand_over(file, &best.reading))?;
         }
         files.kept()
     }
