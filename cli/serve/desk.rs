@@ -156,8 +156,10 @@ impl Workbench {
         let effect = if command == "add" { word(ask, "effect")? } else { "" };
         let file = MachineFile::parse(&pair.machine, &self.folder.path(machine)?)?;
         let keep = pair.own_effects(&file);
-        let window = ["from", "to"].map(|end| ask.words.get(end).map_or("", String::as_str));
-        let words = words(command, &Subject { machine, data, effect, keep, window })?;
+        let told = |name: &str| ask.words.get(name).map_or("", String::as_str);
+        let (window, language) = (["from", "to"].map(told), told("language"));
+        let subject = Subject { machine, data, effect, keep, window, language };
+        let words = words(command, &subject)?;
         let line = line(&words, machine);
         let effect = Some(effect).filter(|effect| !effect.is_empty()).map(str::to_owned);
         let order = Order { words, line, effect, revision: pair.revision() };

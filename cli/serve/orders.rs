@@ -19,6 +19,8 @@ pub(crate) struct Subject<'a> {
     pub(crate) keep: usize,
     /// Begin and end of a waveform, s; empty for the usual one.
     pub(crate) window: [&'a str; 2],
+    /// Language of the pages that it writes.
+    pub(crate) language: &'a str,
 }
 
 /// Words of a command.
@@ -27,11 +29,11 @@ pub(crate) struct Subject<'a> {
 ///
 /// A command that is none of the workbench's, or an effect that is not in the catalogue.
 pub(crate) fn words(command: &str, subject: &Subject<'_>) -> anyhow::Result<Vec<String>> {
-    let &Subject { machine, data, effect, keep, window } = subject;
+    let &Subject { machine, data, effect, keep, .. } = subject;
     let words: Vec<String> = match command {
         "compare" | "diagnose" => [command, machine, data, "--json"].map(str::to_owned).into(),
         "learn" => ["learn", machine, data, "-o", SCRATCH, "--json"].map(str::to_owned).into(),
-        "sim" => simulated(machine, window)?,
+        "sim" => simulated(subject)?,
         "add" => {
             let known = CATALOGUE.iter().any(|card| card.kind == effect);
             known.then_some(()).with_context(|| format!("`{effect}` is no effect we know"))?;
@@ -48,13 +50,16 @@ pub(crate) fn words(command: &str, subject: &Subject<'_>) -> anyhow::Result<Vec<
 }
 
 /// A simulation, its waveform between two instants where those are given.
-fn simulated(machine: &str, window: [&str; 2]) -> anyhow::Result<Vec<String>> {
-    let mut words = vec!["sim", machine];
-    for (name, second) in ["--from", "--to"].into_iter().zip(window) {
+fn simulated(subject: &Subject<'_>) -> anyhow::Result<Vec<String>> {
+    let mut words = vec!["sim", subject.machine];
+    for (name, second) in ["--from", "--to"].into_iter().zip(subject.window) {
         if !second.is_empty() {
             second.parse::<f64>().with_context(|| format!("`{second}` is no second"))?;
             words.extend([name, second]);
         }
+    }
+    if subject.language == "zh" {
+        words.extend(["--language", "zh"]);
     }
     words.extend(["-o", SIMULATION, "--json"]);
     Ok(words.into_iter().map(str::to_owned).collect())
@@ -86,9 +91,13 @@ fn quoted(word: &str) -> String {
 mod tests {
     use super::*;
 
+    fn subject(machine: &str) -> Subject<'_> {
+        let (effect, window) = ("abbe", ["", ""]);
+        Subject { machine, data: "data.csv", effect, keep: 0, window, language: "en" }
+    }
+
     fn typed(command: &str, machine: &str, keep: usize) -> String {
-        let window = ["", ""];
-        let subject = Subject { machine, data: "data.csv", effect: "abbe", keep, window };
+        let subject = Subject { keep, ..subject(machine) };
         line(&words(command, &subject).unwrap(), machine)
     }
 
@@ -104,9 +113,14 @@ mod tests {
     }
 
     #[test]
+    fn a_page_is_written_in_the_language_of_the_screen() {
+        let chinese = words("sim", &Subject { language: "zh", ..subject("m.toml") }).unwrap();
+        assert_eq!(line(&chinese, "m.toml"), "helixlock sim m.toml --language zh -o simulation");
+    }
+
+    #[test]
     fn nothing_else_is_begun() {
-        let window = ["x", ""];
-        let subject = Subject { machine: "m", data: "d", effect: "--custom", keep: 0, window };
+        let subject = Subject { effect: "--custom", window: ["x", ""], ..subject("m") };
         assert!(words("sim", &subject).is_err());
         assert!(words("serve", &subject).is_err() && words("add", &subject).is_err());
     }

@@ -1,7 +1,7 @@
 // Long work: begun, watched, stopped; its command line is shown and can be copied.
 
 import { get, post, sameKeys } from "./api.js";
-import { t } from "./words.js";
+import { currentLanguage, t } from "./words.js";
 
 const element = (id) => document.getElementById(id);
 let current = null;
@@ -33,7 +33,7 @@ const pause = (ms) => new Promise((done) => setTimeout(done, ms));
 // Runs a command of the workbench; gives its number and what it printed, or nothing when stopped.
 export async function run(command, words = {}) {
   if (current) await post("stop", { job: current }).catch(() => {});
-  let job = await post("begin", { command, ...words });
+  let job = await post("begin", { command, language: currentLanguage(), ...words });
   const number = job.job;
   current = number;
   showLine(job.line);
