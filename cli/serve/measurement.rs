@@ -8,6 +8,7 @@ use helixlock_import::recipe::{KEYS, Kind};
 use helixlock_import::{ColumnRule, Proposal, Recipe, Source, Value, propose};
 use helixlock_plant::LOGGED_COLUMNS;
 use helixlock_traces::csv::write_csv;
+use helixlock_traces::{LONGEST_BYTES, unpacked};
 use serde::{Deserialize, Serialize};
 
 use super::folder::Folder;
@@ -91,10 +92,11 @@ struct SavedJson {
 }
 
 impl Dropped {
-    /// Takes a file in and says how it would be read.
+    /// Takes a file in, unpacked where gzip has packed it, and says how it would be read.
     pub(crate) fn take(&self, name: &str, bytes: Vec<u8>) -> Answered {
         let name = Path::new(name).file_name().and_then(|name| name.to_str()).unwrap_or("data");
-        let file = File { name: name.to_owned(), bytes };
+        let bytes = unpacked(bytes, LONGEST_BYTES, Path::new(name))?;
+        let file = File { name: name.strip_suffix(".gz").unwrap_or(name).to_owned(), bytes };
         let reading = read(&file, &Said::default())?;
         let answer = reading_json(&file, &reading);
         *held(&self.last) = Some(file);
@@ -261,4 +263,33 @@ fn settings(recipe: &Recipe) -> Vec<SettingJson> {
         })
     });
     known.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Write;
+
+    use flate2::Compression;
+    use flate2::write::GzEncoder;
+
+    use super::*;
+
+    #[test]
+    fn a_dropped_file_is_read_as_it_was_before_gzip_packed_it() {
+        let mut text = String::from("position_mm,error_um\n");
+        for row in 0..40 {
+            text += &format!("{row},{}\n", row % 7);
+        }
+        let mut packer = GzEncoder::new(Vec::new(), Compression::default());
+        packer.write_all(text.as_bytes()).unwrap();
+        let packed = packer.finish().unwrap();
+        let dropped = |name: &str, bytes: &[u8]| {
+            let taken = Dropped::default().take(name, bytes.to_vec());
+            taken.map(|answer| String::from_utf8(answer.body).unwrap()).ok().unwrap()
+        };
+        assert_eq!(dropped("run.csv.gz", &packed), dropped("run.csv", text.as_bytes()));
+        assert!(
+            Dropped::default().take("run.csv.gz", packed[..packed.len() / 2].to_vec()).is_err()
+        );
+    }
 }

@@ -30,8 +30,12 @@ pub fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, TraceError> {
     unpacked(bytes, most, path)
 }
 
-/// What gzip has compressed, or the bytes as they are.
-fn unpacked(bytes: Vec<u8>, most: u64, path: &Path) -> Result<Vec<u8>, TraceError> {
+/// What gzip has compressed, or the bytes as they are; `path` is for messages only.
+///
+/// # Errors
+///
+/// A damaged archive, and one of more than `most` bytes.
+pub fn unpacked(bytes: Vec<u8>, most: u64, path: &Path) -> Result<Vec<u8>, TraceError> {
     if bytes.starts_with(GZIP) {
         return read_at_most(MultiGzDecoder::new(bytes.as_slice()), most, bytes.len(), path);
     }

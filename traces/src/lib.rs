@@ -22,7 +22,7 @@ pub mod vcd;
 pub use capture::{Capture, CapturedSignal, read_capture};
 pub use dump::{Dump, Variable};
 pub use error::{At, TraceError};
-pub use file::{LONGEST_BYTES, read_bytes, read_table, table_of};
+pub use file::{LONGEST_BYTES, read_bytes, read_table, table_of, unpacked};
 pub use fst::FstWriter;
 pub use number::{LARGEST, in_range};
 pub use table::{Column, Table, TextColumn};
