@@ -276,13 +276,11 @@ mod tests {
 
     #[test]
     fn a_dropped_file_is_read_as_it_was_before_gzip_packed_it() {
-        let mut text = String::from("position_mm,error_um\n");
-        for row in 0..40 {
-            text += &format!("{row},{}\n", row % 7);
-        }
-        let mut packer = GzEncoder::new(Vec::new(), Compression::default());
-        packer.write_all(text.as_bytes()).unwrap();
-        let packed = packer.finish().unwrap();
+        let rows: Vec<String> = (0..40).map(|row| format!("{row},{}", row % 7)).collect();
+        let text = format!("position_mm,error_um\n{}\n", rows.join("\n"));
+        let mut encoder = GzEncoder::new(Vec::new(), Compression::default());
+        encoder.write_all(text.as_bytes()).unwrap();
+        let packed = encoder.finish().unwrap();
         let dropped = |name: &str, bytes: &[u8]| {
             let taken = Dropped::default().take(name, bytes.to_vec());
             taken.map(|answer| String::from_utf8(answer.body).unwrap()).ok().unwrap()
