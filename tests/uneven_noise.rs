@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use helixlock_lab::Diagnosis;
+use helixlock_lab::{Diagnosis, Verdict};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -44,6 +44,32 @@ fn a_louder_stretch_is_no_wear() {
         assert!(names(&found).is_empty(), "{seed}: {:?}", names(&found));
         noise.iter_mut().enumerate().for_each(|(row, value)| *value += 2.0 * wave(row));
         assert_eq!(names(&diagnosed(noise)), ["screw-periodic"], "{seed}");
+    }
+}
+
+/// Passes on a day with more and less traffic.
+#[test]
+fn passes_of_unequal_noise_hold_no_band() {
+    for seed in 0..SEEDS {
+        let mut chance = ChaCha8Rng::seed_from_u64(seed);
+        let rows =
+            || (0..6).flat_map(|pass| (0..300).map(move |row| (f64::from(pass), f64::from(row))));
+        let mut error_um = Vec::new();
+        for _ in 0..6 {
+            let louder: f64 = StandardNormal.sample(&mut chance);
+            let mut slow = 0.0;
+            error_um.extend(white(&mut chance, 600).chunks(2).map(|drawn| {
+                slow = 0.8 * slow + 0.6 * drawn[0];
+                libm::exp(0.7 * louder) * (slow + 0.5 * drawn[1])
+            }));
+        }
+        let found = diagnosed::diagnosed(vec![
+            ("time_s", rows().map(|(pass, row)| 170.0 * pass + 0.5 * row).collect()),
+            ("pass", rows().map(|(pass, _)| pass).collect()),
+            ("position_mm", rows().map(|(_, row)| 2.0 * row).collect()),
+            ("error_um", error_um),
+        ]);
+        assert_eq!(found.verdict, Verdict::NothingMissing, "{seed}");
     }
 }
 

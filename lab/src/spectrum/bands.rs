@@ -3,11 +3,14 @@
 //!
 //! The fitted noise falls from its slow part to its white one, so that it can follow any slope of a
 //! spectrum and no hump. Whitened by it, every frequency cell of noise gains a χ² with two degrees
-//! of freedom, and `w` cells side by side one with `2w`.
+//! of freedom, and `w` cells side by side one with `2w`: or with fewer where the noise is louder in
+//! some rows than in others, since neighbouring cells are then alike (Satterthwaite 1946).
+
+use nalgebra::DMatrix;
 
 use super::order_spectrum::{Point, Scan};
 use crate::noise::rms;
-use crate::numerics::least_squares::dot;
+use crate::numerics::least_squares::{LinearFit, dot};
 use crate::numerics::{chi_squared_tail, count, least_squares};
 
 /// Cells of the narrowest and the widest band. A narrower one is a line; in a wider one the errors
@@ -63,16 +66,52 @@ fn fitted(scan: &Scan<'_>, white: &[f64], band: &[Point]) -> Band {
     let views: Vec<&[f64]> = waves.iter().map(Vec::as_slice).collect();
     let fit = least_squares::fit(&views, white);
     let gain = dot(white, white) - fit.residual_square;
-    let freedom = count(fit.rank);
+    let rank = count(fit.rank);
+    let freedom = freedom(&views, white, &fit);
     let shown = scan.shown(band.iter().map(|point| point.frequency), &fit.coefficients);
-    let beyond_noise = (1.0 - freedom / gain.max(f64::MIN_POSITIVE)).max(0.0);
+    let beyond_noise = (1.0 - rank / gain.max(f64::MIN_POSITIVE)).max(0.0);
     let (first, last) = (band[0].frequency, band[band.len() - 1].frequency);
     Band {
         frequency: 0.5 * (first + last),
         width: last - first + scan.resolution(),
         rms: rms(scan.layout, &shown) * beyond_noise.sqrt(),
-        p_value: chi_squared_tail(gain, freedom),
+        p_value: chi_squared_tail(gain * freedom / rank.max(1.0), freedom),
     }
+}
+
+/// Rows whose squares are one estimate of how loud the noise is there: chosen, its variance is then
+/// known to a third. Fewer take chance for loudness, more miss a short burst.
+const ALIKE: usize = 16;
+
+/// Degrees of freedom of what waves take away together, from what they leave.
+///
+/// Of noise `s·z` it is `zᵀSPSz` with the projection `P` on the waves; the χ² with its mean and its
+/// variance has `tr(SPS)² / tr((SPS)²)` degrees of freedom.
+fn freedom(waves: &[&[f64]], white: &[f64], fit: &LinearFit) -> f64 {
+    let mut left = white.to_vec();
+    for (wave, coefficient) in waves.iter().zip(&fit.coefficients) {
+        left.iter_mut().zip(*wave).for_each(|(left, wave)| *left -= coefficient * wave);
+    }
+    let loud = left.chunks(ALIKE).flat_map(|part| {
+        let root = (dot(part, part) / count(part.len())).sqrt();
+        std::iter::repeat_n(root, part.len())
+    });
+    let loud: Vec<f64> = loud.collect();
+    let weighed: Vec<Vec<f64>> =
+        waves.iter().map(|wave| wave.iter().zip(&loud).map(|(a, b)| a * b).collect()).collect();
+    let size = waves.len();
+    let upper =
+        DMatrix::from_fn(
+            size,
+            size,
+            |i, j| {
+                if i <= j { dot(&weighed[i], &weighed[j]) } else { 0.0 }
+            },
+        );
+    let spread = DMatrix::from_fn(size, size, |i, j| upper[(i.min(j), i.max(j))]);
+    let taken = &fit.covariance * spread;
+    let (mean, variance) = (taken.trace(), (&taken * &taken).trace());
+    if 0.0 < variance { mean * mean / variance } else { count(fit.rank) }
 }
 
 /// One point of a scan a cell.
