@@ -79,10 +79,16 @@ fn the_printed_table_is_fresh() {
     assert!(fresh, "docs/verification.md is stale: cargo run --release -p xtask -- prove --write");
 }
 
-/// The gates of every block and of the device on its board, unbounded.
+/// The gates of every block and of the device on its board, unbounded; of other families than iCE40
+/// those that count, and with `HELIXLOCK_BOARD=all` every block's.
 fn gates_equal_the_verilog(family: Family) {
+    let all = std::env::var("HELIXLOCK_BOARD").is_ok_and(|words| words == "all");
+    let counts = ["decade_counter", "programmable_divider", "phase_meter", "reset_counter"];
     let sources = sources();
     for card in synthesis::blocks() {
+        if !(all || family == Family::Ice40 || counts.contains(&card.name)) {
+            continue;
+        }
         let verdict = synthesised(&sources, &sources, card.name, family).expect("yosys starts");
         assert!(matches!(verdict, synthesis::Verdict::Equal { .. }), "{}: {verdict:?}", card.name);
     }
