@@ -7,6 +7,7 @@ use std::process::{Command, ExitCode};
 use anyhow::Context;
 use clap::Parser;
 use xtask::prove::rows::{self, Extent};
+use xtask::prove::table::markdown;
 use xtask::prove::{Sources, document};
 use xtask::python;
 use xtask::same_output::SameOutput;
@@ -30,8 +31,8 @@ enum Task {
         /// Only this block
         #[arg(long, value_name = "BLOCK")]
         block: Option<String>,
-        /// Put the table into docs/verification.md
-        #[arg(long, conflicts_with_all = ["short", "block"])]
+        /// Put the table into docs/verification.md; with a block, what is said of it and the totals
+        #[arg(long, conflicts_with = "short")]
         write: bool,
     },
     /// Print what the command is made of, as SPDX
@@ -112,10 +113,14 @@ fn prove(root: &Path, extent: &Extent, write: bool, out: &mut impl Write) -> any
     let sources = Sources::of(root);
     let witness_folder = root.join("target/witnesses");
     std::fs::create_dir_all(&witness_folder)?;
-    let (table, good) = rows::all(&sources, &witness_folder, extent)?;
-    writeln!(out, "{table}")?;
+    let shares = rows::all(&sources, &witness_folder, extent)?;
+    writeln!(out, "{}", markdown(&shares))?;
+    let good = rows::good(&shares);
     if write {
-        document::write(root, &sources, &table)?;
+        document::write(root, &sources, shares)?;
+        for stale in document::stale(root, &sources)? {
+            writeln!(out, "still stale: {stale}")?;
+        }
     }
     Ok(good)
 }

@@ -14,6 +14,7 @@ pub mod rows;
 mod sources;
 pub mod synthesis;
 pub mod table;
+pub mod tally;
 pub mod vacuity;
 mod workshop;
 

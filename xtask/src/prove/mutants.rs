@@ -40,6 +40,14 @@ pub enum Fate {
     Survived,
 }
 
+impl Fate {
+    /// True when the properties or the lockstep noticed it.
+    #[must_use]
+    pub fn is_noticed(&self) -> bool {
+        matches!(self, Self::Properties | Self::Lockstep)
+    }
+}
+
 /// Pairs of texts exchanged for one another, blanks around them so that they stand alone.
 const EXCHANGES: [(&str, &str); 16] = [
     (" & ", " | "),

@@ -1,6 +1,5 @@
 //! All proofs and campaigns, a row each.
 
-use std::fmt::Write;
 use std::path::Path;
 
 use anyhow::bail;
@@ -13,7 +12,8 @@ use super::exhaustive::{Outcome, exhaustively};
 use super::lockstep::History;
 use super::mutants::{Fate, Mutant, of_module, try_mutant};
 use super::properties::{Verdict, claim, prove};
-use super::table::{Row, markdown};
+use super::table::{FAILS, Row, Share, total};
+use super::tally::Tally;
 use super::vacuity::idle;
 use super::{Sources, forgets, synthesis};
 
@@ -32,39 +32,60 @@ impl Extent {
     }
 }
 
-/// The whole table, with the mutants that nothing noticed below it, and whether all is well.
+/// All that is said of the blocks, in the order of the list.
 ///
 /// Waveforms of witnesses go to `folder`.
 ///
 /// # Errors
 ///
 /// When there is no such block, a tool cannot be started, or a file cannot be read or written.
-pub fn all(sources: &Sources, folder: &Path, extent: &Extent) -> anyhow::Result<(String, bool)> {
-    if let Some(block) =
-        extent.block.as_ref().filter(|_| !synthesis::blocks().any(|card| extent.takes(card.name)))
-    {
+pub fn all(sources: &Sources, folder: &Path, extent: &Extent) -> anyhow::Result<Vec<Share>> {
+    let cards: Vec<_> = synthesis::blocks().filter(|card| extent.takes(card.name)).collect();
+    if let Some(block) = extent.block.as_ref().filter(|_| cards.is_empty()) {
         bail!("block `{block}`, expected one of the list");
     }
-    let mut blocks = sources.blocks()?;
-    blocks.retain(|block| extent.takes(block));
-    let rows: anyhow::Result<Vec<_>> =
-        blocks.par_iter().map(|block| proven(sources, block, folder)).collect();
-    let mut rows: Vec<_> = rows?.into_iter().flatten().collect();
-    if extent.takes("device") {
+    let with_properties = sources.blocks()?;
+    let shares = cards.par_iter().map(|card| {
+        let proven = with_properties.iter().any(|block| block == card.name);
+        share(sources, card.name, proven.then_some(folder), extent.one_in)
+    });
+    shares.collect()
+}
+
+/// True when all of it holds.
+#[must_use]
+pub fn good(shares: &[Share]) -> bool {
+    let mut lines = shares.iter().flat_map(|share| &share.lines);
+    total(shares).row("").good && !lines.any(|line| line.contains(FAILS))
+}
+
+/// What is said of a block; of its properties, if it has any, with witnesses into the folder.
+fn share(
+    sources: &Sources,
+    block: &str,
+    folder: Option<&Path>,
+    one_in: usize,
+) -> anyhow::Result<Share> {
+    let mut rows = match folder {
+        Some(folder) => proven(sources, block, folder)?.to_vec(),
+        None => Vec::new(),
+    };
+    if block == "device" {
         rows.push(power_up(sources)?);
     }
-    let cards: Vec<_> = synthesis::blocks().filter(|card| extent.takes(card.name)).collect();
-    let equal: anyhow::Result<Vec<_>> =
-        cards.par_iter().map(|card| equality(sources, card.name)).collect();
-    rows.extend(equal?.into_iter().flatten());
-    let (row, survivors) = mutants(sources, extent)?;
-    rows.push(row);
-    let mut text = markdown(&rows);
-    for (Mutant { module, line, was, now }, fate) in survivors {
-        // Writing to a string cannot fail.
-        let _ = write!(text, "\n- {fate:?}: `{module}.v:{line}`, `{was}` as `{}`", now.trim());
+    rows.extend(equality(sources, block)?);
+    let mut unnoticed = Vec::new();
+    if BLOCKS.iter().any(|card| card.name == block) {
+        let tried = mutants(sources, block, one_in)?;
+        rows.push(Tally::of(tried.iter().map(|(_, fate)| fate)).row(block));
+        let left = tried.iter().filter(|(_, fate)| !fate.is_noticed());
+        unnoticed.extend(left.map(|(mutant, fate)| {
+            let Mutant { module, line, was, now } = mutant;
+            format!("- {fate:?}: `{module}.v:{line}`, `{was}` as `{}`", now.trim())
+        }));
     }
-    Ok((text, rows.iter().all(|row| row.good)))
+    let lines = rows.iter().map(Row::line).collect();
+    Ok(Share { block: block.to_owned(), lines, unnoticed })
 }
 
 /// The rows of one block: its properties, that none of them is idle, and its witnesses.
@@ -166,32 +187,13 @@ fn equality(sources: &Sources, block: &str) -> anyhow::Result<Vec<Row>> {
     Ok(rows)
 }
 
-/// The row of the mutants, and those that nothing noticed.
-fn mutants(sources: &Sources, extent: &Extent) -> anyhow::Result<(Row, Vec<(Mutant, Fate)>)> {
-    let mut tried = Vec::new();
-    for card in BLOCKS.iter().filter(|card| extent.takes(card.name)) {
-        let mutants = of_module(sources, card.name)?;
-        let chosen: Vec<_> = mutants.into_iter().step_by(extent.one_in).collect();
-        let history = History::draw(card.name, 30_000, 7430)?;
-        let fates: anyhow::Result<Vec<_>> = chosen
-            .into_par_iter()
-            .map(|mutant| try_mutant(sources, &mutant, &history).map(|fate| (mutant, fate)))
-            .collect();
-        tried.extend(fates?);
-    }
-    let count = |wanted| tried.iter().filter(|(_, fate)| *fate == wanted).count();
-    let (properties, lockstep) = (count(Fate::Properties), count(Fate::Lockstep));
-    let (equivalent, survived) = (count(Fate::Equivalent), count(Fate::Survived));
-    let real = properties + lockstep + survived;
-    let row = Row {
-        what: format!("{} mutants, one mistake each", tried.len()),
-        how: "properties, then 30 000 clocks in Icarus against the engine".to_owned(),
-        outcome: format!(
-            "{properties} killed by properties, {lockstep} by lockstep, {survived} survive; \
-             {equivalent} more are proven equal to the original"
-        ),
-        good: 100 * (properties + lockstep) >= 95 * real,
-    };
-    tried.retain(|(_, fate)| matches!(fate, Fate::Equivalent | Fate::Survived));
-    Ok((row, tried))
+/// A block's mutants, one in so many, and what became of each.
+fn mutants(sources: &Sources, block: &str, one_in: usize) -> anyhow::Result<Vec<(Mutant, Fate)>> {
+    let mutants = of_module(sources, block)?;
+    let chosen: Vec<_> = mutants.into_iter().step_by(one_in).collect();
+    let history = History::draw(block, 30_000, 7430)?;
+    let fates = chosen
+        .into_par_iter()
+        .map(|mutant| try_mutant(sources, &mutant, &history).map(|fate| (mutant, fate)));
+    fates.collect()
 }

@@ -1,5 +1,6 @@
 //! Folders of Verilog.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
@@ -47,6 +48,26 @@ impl Sources {
     /// When the folder cannot be read.
     pub fn modules(&self) -> anyhow::Result<Vec<String>> {
         stems(&self.verilog, "v")
+    }
+
+    /// The modules that a block is made of, itself among them, with their texts.
+    ///
+    /// # Errors
+    ///
+    /// When a file cannot be read.
+    pub fn made_of(&self, block: &str) -> anyhow::Result<BTreeMap<String, String>> {
+        let modules = self.modules()?;
+        let mut found = BTreeMap::new();
+        let mut waiting = vec![block.to_owned()];
+        while let Some(module) = waiting.pop() {
+            let text = read(&self.verilog.join(format!("{module}.v")))?;
+            // An instance begins with the name of its module.
+            let first_words = text.lines().filter_map(|line| line.split_whitespace().next());
+            let inner = first_words.filter(|word| modules.iter().any(|module| module == word));
+            waiting.extend(inner.filter(|word| !found.contains_key(*word)).map(str::to_owned));
+            found.insert(module, text);
+        }
+        Ok(found)
     }
 }
 
