@@ -43,6 +43,7 @@ mod learning;
 mod licences;
 mod linuxcnc;
 mod lockstep;
+mod logic_analyser;
 mod make_sim;
 mod metrology;
 mod next;

@@ -131,6 +131,9 @@ pub const BLOCKS: &[BlockCard] = &[
             telemetry_send, telemetry_byte, ready, tick_period, built_divide_a, built_divide_b, built_range_x2,
             built_initial_phase, built_compensation, built_compensation_insert, built_step_period)
         "Wheels turned over a serial port while the device is at rest"),
+    card!(logic_analyser::LogicAnalyser(clock, clear, probes, received, received_byte, ready, rate,
+            megahertz, ticks, ticks_rest, memory_data)
+        "What eight signals did, told to programs that speak SUMP"),
     BlockCard {
         name: "board_shell",
         summary: "The device with its wheels set, and the pins a builder wires",

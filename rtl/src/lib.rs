@@ -18,6 +18,7 @@ pub mod initial_phase_selector;
 pub mod input_conditioner;
 pub mod input_synchroniser;
 pub mod level_synchroniser;
+pub mod logic_analyser;
 pub mod phase_meter;
 pub mod programmable_divider;
 pub mod quadrature_decoder;

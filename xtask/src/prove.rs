@@ -11,6 +11,7 @@ pub mod lockstep;
 pub mod mutants;
 pub mod properties;
 pub mod rows;
+mod sniffer;
 mod sources;
 pub mod synthesis;
 pub mod table;

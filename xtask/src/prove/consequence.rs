@@ -76,6 +76,7 @@ const WORTHS: &[(&[&str], Worth)] = &[
     (&["calibrate_low_input", "calibrate_high_input", "range_input"], Worth::Switch),
     (&["enable_input", "stop_input", "supervisor", "alarm", "milliseconds"], Worth::Switch),
     (&["telemetry", "transmitter", "uart_transmitter", "frame_check", "tx"], Worth::Apart),
+    (&["logic_analyser"], Worth::Apart),
     (&["receiver", "uart_receiver", "settings_port"], Worth::Switch),
     (&["scale_lookup", "digital_comparison", "subdivided_comparison"], Worth::Apart),
 ];

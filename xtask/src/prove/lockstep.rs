@@ -15,6 +15,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::computer::Computer;
 use super::consequence::worth;
+use super::sniffer::Sniffer;
 use super::sources::Sources;
 use super::workshop::Workshop;
 use crate::tools::{run, write_scratch};
@@ -51,15 +52,28 @@ impl History {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut workshop = (block == "board_shell").then(Workshop::default);
         let mut computer = (block == "settings_port").then(Computer::wild);
+        let mut sniffer = (block == "logic_analyser").then(Sniffer::default);
         let mut lines = Vec::with_capacity(clocks);
         for clock in 0..clocks {
             for input in &inputs {
-                let level = match (&mut workshop, &mut computer, input.name.as_str()) {
-                    (Some(workshop), ..) => workshop.level(&input.name, clock, &mut random),
-                    (_, Some(computer), "received") => computer.received(clock, &mut random).into(),
-                    (_, Some(computer), "received_byte") => computer.byte(),
+                let at_computer = (&mut computer, &mut sniffer, input.name.as_str());
+                let level = match (&mut workshop, at_computer) {
+                    (Some(workshop), _) => workshop.level(&input.name, clock, &mut random),
+                    (_, (Some(computer), _, "received")) => {
+                        computer.received(clock, &mut random).into()
+                    }
+                    (_, (Some(computer), _, "received_byte")) => computer.byte(),
+                    (_, (_, Some(sniffer), "received")) => {
+                        sniffer.received(clock, &mut random).into()
+                    }
+                    (_, (_, Some(sniffer), "received_byte")) => sniffer.byte(),
                     _ => next_level(input, engine.value(input.id), clock, &mut random),
                 };
+                if let Some(sniffer) = sniffer.as_mut().filter(|_| input.name == "clear")
+                    && level == 1
+                {
+                    sniffer.begin();
+                }
                 engine.set_input(input.id, level);
             }
             let bits = inputs.iter().chain(&outputs).map(|port| {
@@ -170,8 +184,9 @@ fn next_level(input: &Port, now: u64, clock: usize, random: &mut ChaCha8Rng) -> 
     let seldom = clock > 0 && !one_in(512);
     match input.name.as_str() {
         "telemetry_byte" if one_in(3) => 0,
-        "data" | "telemetry_byte" => random.random_range(0..=mask(input.width)),
+        "data" | "telemetry_byte" | "memory_data" => random.random_range(0..=mask(input.width)),
         "count" if input.width > 1 => random.random_range(0..=mask(input.width)),
+        "probes" if one_in(3) => random.random_range(0..=mask(input.width)),
         "ready" => u64::from(!one_in(3)),
         "send" | "telemetry_send" | "take" | "level" => u64::from(one_in(3)),
         "at_rest" => u64::from(!one_in(4)),
@@ -199,6 +214,9 @@ fn next_level(input: &Port, now: u64, clock: usize, random: &mut ChaCha8Rng) -> 
         "start" | "enable" => u64::from(clock > 8 && !one_in(2048)),
         "calibrate"
         | "tick_period"
+        | "rate"
+        | "megahertz"
+        | "ticks_rest"
         | "built_step_period"
         | "range_x2"
         | "insert"

@@ -133,7 +133,7 @@ fn constants(line: &str) -> Vec<String> {
     lines
 }
 
-/// Tries the proofs, then the lockstep, on a mutant.
+/// Tries the lockstep, then the proofs, on a mutant.
 ///
 /// # Errors
 ///
@@ -141,13 +141,14 @@ fn constants(line: &str) -> Vec<String> {
 pub fn try_mutant(sources: &Sources, mutant: &Mutant, history: &History) -> anyhow::Result<Fate> {
     let folder = tempfile::tempdir()?;
     let wrong = infected(sources, mutant, folder.path())?;
+    // Clocks are over sooner than proofs.
+    if history.first_difference(&wrong)?.is_some() {
+        return Ok(Fate::Lockstep);
+    }
     if sources.blocks()?.contains(&mutant.module)
         && matches!(prove(&wrong, &mutant.module)?, Verdict::NotProven { .. })
     {
         return Ok(Fate::Properties);
-    }
-    if history.first_difference(&wrong)?.is_some() {
-        return Ok(Fate::Lockstep);
     }
     Ok(if equivalent(sources, &wrong, &mutant.module)? { Fate::Equivalent } else { Fate::Survived })
 }

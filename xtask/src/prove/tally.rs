@@ -43,7 +43,7 @@ impl Tally {
         let of = if block.is_empty() { String::new() } else { format!("`{block}`: ") };
         Row {
             what: format!("{of}{tried}{TRIED}"),
-            how: "properties, then 30 000 clocks in Icarus against the engine".to_owned(),
+            how: "30 000 clocks in Icarus against the engine, then properties".to_owned(),
             outcome: format!(
                 "{noticed} are noticed, {survive} survive; \
                  {equal} more are proven equal to the original"
