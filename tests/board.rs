@@ -1,5 +1,6 @@
 //! The commands that talk to a board, with the gates of a bitstream in its place.
 
+mod analyser;
 mod compare;
 mod line;
 mod recorded;

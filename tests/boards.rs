@@ -285,6 +285,61 @@ fn a_settings_port_is_there_when_asked_for() {
     assert!(both.contains("found the pins `rx` and `range`, expected one of them"), "{both}");
 }
 
+/// A logic analyser with its memory stands where the telemetry did; without it there is no trace.
+#[test]
+fn an_analyser_is_there_when_asked_for() {
+    let folder = tempfile::tempdir().expect("a scratch folder");
+    let has = |name: &str, words: &[&str]| {
+        let output = folder.path().join(name);
+        let run = generate(Path::new(MACHINE), &output, words);
+        assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+        let blocks = ["logic_analyser", "sample_memory", "telemetry", "settings_port"];
+        let there = blocks.map(|block| output.join(format!("rtl/{block}.v")).exists());
+        (there, fs::read_to_string(output.join("rtl/board_shell.v")).expect("text"))
+    };
+    let (there, shell) = has("without", &["--board", "hx8k"]);
+    assert_eq!(there, [false, false, true, false]);
+    assert!(!shell.contains("analyser") && !shell.contains("memory"), "{shell}");
+    let (there, shell) = has("with", &["--board", "hx8k", "--pins", "analyser"]);
+    assert_eq!(there, [true, true, false, false]);
+    assert!(shell.contains("input  wire         rx,") && shell.contains(".megahertz(7'hc),"));
+    if std::env::var("HELIXLOCK_BOARD").is_ok_and(|words| words == "all") {
+        let with = folder.path().join("with");
+        let said = Command::new("make").args(["sim-board_shell", "-C"]).arg(with).output();
+        let said = said.expect("make starts");
+        let text = String::from_utf8_lossy(&said.stdout).into_owned();
+        assert!(said.status.success() && text.contains("PASS "), "{text}");
+    }
+
+    let said = |words: &[&str]| failure(&generate(Path::new(MACHINE), folder.path(), words));
+    let none = said(&["--pins", "analyser"]);
+    assert!(none.starts_with("helixlock: board `icestick` has no room for `analyser`"), "{none}");
+    let both = said(&["--board", "hx8k", "--pins", "rx,analyser"]);
+    assert!(both.contains("found the pins `rx` and `analyser`, expected one of them"), "{both}");
+}
+
+/// What is not there takes no block's place, and a memory stands beside a block that has one.
+#[test]
+fn what_is_not_there_is_not_exchanged() {
+    let mut design = crate::golden_verilog::whole_design();
+    let block = crate::golden_verilog::design_of("logic_analyser");
+    let said = |result: Result<(), helixlock_gen::GenError>| result.unwrap_err().to_string();
+    let new = ("analyser", &block);
+    let mut exchanged = |old, inputs: &[_]| helixlock_gen::exchange(&mut design, old, new, inputs);
+    assert_eq!(said(exchanged("nobody", &[])), "block `nobody` is not one of the design");
+    let nowhere = [("ready", helixlock_gen::Source::Signals(&["nowhere"]))];
+    assert_eq!(said(exchanged("telemetry", &nowhere)), "signal `nowhere` is not one of the design");
+    assert_eq!(
+        said(exchanged("step_driver", &[])),
+        "block `step_driver`: `direction_pin` is read, and nothing stands in its place"
+    );
+    assert_eq!(
+        said(helixlock_gen::attach_memory(&mut design, "telemetry")),
+        "signal `telemetry_memory_write` is not one of the design"
+    );
+    assert_eq!(design, crate::golden_verilog::whole_design());
+}
+
 /// A block is taken out when nothing is left that reads it.
 #[test]
 fn what_is_read_is_not_taken_out() {

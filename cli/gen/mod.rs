@@ -22,6 +22,7 @@ use self::device_vectors::device_vectors;
 use self::summary::Summary;
 use self::vectors::vectors;
 use self::written::Written;
+use crate::shared::analyser::with_memory;
 use crate::shared::board_design::{Front, TOP};
 use crate::shared::output::{Batch, print_json};
 
@@ -78,6 +79,9 @@ impl Gen {
         let mut design = self.front.design(&dialled.settings, &conditioning)?;
         describe(&mut design, &machine, &board);
         let netlist = Netlist::new(&design)?;
+        if self.front.has_analyser() {
+            with_memory(&mut design)?;
+        }
         prefix(&mut design, &self.prefix);
         let benches = [
             Bench {

@@ -9,6 +9,8 @@ use helixlock_rtl::settings::{Conditioning, Encoder, Settings};
 use helixlock_rtl::settings_port::PASSED;
 use helixlock_sim::library;
 
+use super::analyser;
+
 /// Name of the top module.
 pub(crate) const TOP: &str = "board_shell";
 
@@ -16,7 +18,7 @@ pub(crate) const TOP: &str = "board_shell";
 pub(crate) const BAUD: u32 = 115_200;
 
 /// What is between the pins and the device.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(crate) struct Front {
     /// Further pins, separated by commas
     #[arg(long, value_name = "PINS", value_delimiter = ',')]
@@ -54,10 +56,13 @@ enum Pin {
     LaserIndex,
     /// Serial port: settings from a computer, by `helixlock board set`
     Rx,
+    /// Serial port: a logic analyser in place of the telemetry, for `sigrok-cli` and `PulseView`
+    Analyser,
 }
 
 impl Pin {
-    const ALL: [(Self, &str); 8] = [
+    /// The pins, but for the serial port's.
+    const ALL: [(Self, &str); 7] = [
         (Self::Range, "range_x2"),
         (Self::Enable, "enable"),
         (Self::EmergencyStop, "emergency_stop"),
@@ -65,7 +70,6 @@ impl Pin {
         (Self::LaserB, "laser_b"),
         (Self::GratingIndex, "grating_index"),
         (Self::LaserIndex, "laser_index"),
-        (Self::Rx, "rx"),
     ];
 }
 
@@ -86,7 +90,7 @@ impl Front {
             laser: Encoder { quadrature: has(Pin::LaserB), index: has(Pin::LaserIndex) },
         };
         conditioning.check()?;
-        self.check_settings_port(board)?;
+        self.check_serial_port(board)?;
         Ok(conditioning)
     }
 
@@ -95,26 +99,53 @@ impl Front {
         self.pins.contains(&Pin::Rx)
     }
 
-    /// The port has a pin and, on the small FPGAs, room; a range is set in one way.
-    fn check_settings_port(&self, board: &Board) -> anyhow::Result<()> {
+    /// True when the serial port is a logic analyser's.
+    pub(crate) fn has_analyser(&self) -> bool {
+        self.pins.contains(&Pin::Analyser)
+    }
+
+    /// The port has a pin and, on the small FPGAs, room; a range is set in one way, and the port is
+    /// one block's.
+    fn check_serial_port(&self, board: &Board) -> anyhow::Result<()> {
         let takes = |board: &Board| board.pins.iter().any(|pin| pin.port == "rx");
-        if !self.is_set_from_outside() {
+        if !self.is_set_from_outside() && !self.has_analyser() {
             return Ok(());
         }
         if !takes(board) {
+            let wanted = if self.has_analyser() { "analyser" } else { "rx" };
             let all = Board::all()?;
             let others: Vec<_> = all.iter().filter(|board| takes(board)).collect();
             let names: Vec<_> = others.iter().map(|board| board.name.as_str()).collect();
             bail!(
-                "board `{}` has no room for `rx`, expected one of {}",
+                "board `{}` has no room for `{wanted}`, expected one of {}",
                 board.name,
                 names.join(", ")
             );
         }
-        if self.pins.contains(&Pin::Range) {
+        if self.is_set_from_outside() && self.has_analyser() {
+            bail!("found the pins `rx` and `analyser`, expected one of them: the port is one's");
+        }
+        if self.is_set_from_outside() && self.pins.contains(&Pin::Range) {
             bail!("found the pins `rx` and `range`, expected one of them: settings have a range");
         }
         Ok(())
+    }
+
+    /// What can be simulated of [`Front::design`]: no model has the memory of an analyser, so neither
+    /// that is there nor the pin it talks on.
+    pub(crate) fn model(
+        &self,
+        settings: &Settings,
+        conditioning: &Conditioning,
+    ) -> anyhow::Result<Design> {
+        if !self.has_analyser() {
+            return self.design(settings, conditioning);
+        }
+        let mut others = self.clone();
+        others.pins.retain(|pin| *pin != Pin::Analyser);
+        let mut design = others.design(settings, conditioning)?;
+        leave_out(&mut design, "tx", 0)?;
+        Ok(design)
     }
 
     /// The board shell with these settings, without the pins that nobody asked for: their levels
@@ -126,9 +157,15 @@ impl Front {
     ) -> anyhow::Result<Design> {
         let shell = BoardShell::connected(settings, conditioning)?;
         let mut design = elaborate(TOP, &shell, &library())?;
-        if !self.pins.contains(&Pin::Rx) {
+        if !self.is_set_from_outside() {
             bypass(&mut design, "settings_port", &PASSED)?;
+        }
+        if self.has_analyser() {
+            // Ticks are milliseconds.
+            analyser::put_in(&mut design, u64::from(conditioning.tick_period / 1000))?;
+        } else if !self.is_set_from_outside() {
             bypass(&mut design, "receiver", &[])?;
+            leave_out(&mut design, "rx", 0)?;
         }
         for (pin, port) in Pin::ALL {
             if !self.pins.contains(&pin) {

@@ -1,5 +1,6 @@
 //! What the commands share: reading measurements, writing files, words, pieces of pages.
 
+pub(crate) mod analyser;
 pub(crate) mod angular;
 pub(crate) mod answer;
 pub(crate) mod board_design;

@@ -102,7 +102,7 @@ fn driver(module: &Module, wire: SignalId) -> Option<&Expression> {
 }
 
 /// The statement with other expressions in the place of signals, of a width each.
-fn with_signals(
+pub(crate) fn with_signals(
     statement: &Statement,
     replace: &impl Fn(SignalId, u32) -> Expression,
 ) -> Statement {
@@ -151,7 +151,7 @@ fn retarget(statement: &mut Statement, now: &impl Fn(SignalId) -> SignalId) {
 }
 
 /// Takes modules away that no other is made of.
-fn drop_unused(design: &mut Design) {
+pub(crate) fn drop_unused(design: &mut Design) {
     let top = design.modules.len() - 1;
     let used = |design: &Design, module: usize| {
         let mut instances = design.modules.iter().flat_map(|module| &module.instances);

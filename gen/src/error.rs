@@ -89,6 +89,12 @@ pub enum GenError {
         /// As asked for.
         block: String,
     },
+    /// A signal the top of a design does not have.
+    #[error("signal `{signal}` is not one of the design")]
+    NoSignal {
+        /// As asked for.
+        signal: String,
+    },
     /// A block that cannot be taken out.
     #[error("block `{block}`: `{output}` is read, and nothing stands in its place")]
     NoWay {

@@ -104,15 +104,17 @@ fn count_cells(log: &str, sort: &str) -> u32 {
     counts.sum()
 }
 
-/// Used and available cells: `ICESTORM_LC:   287/ 1280    22%`.
+/// Used and available cells: `ICESTORM_LC:   287/ 1280    22%`. With block RAM the placer tells its
+/// way of each sort of cell as well, in lines without two such numbers.
 fn used_cells(log: &str, sort: &str) -> Result<(u32, u32), GenError> {
-    let read = || {
-        let (_, rest) = log.rsplit_once(sort)?;
+    let read = |line: &str| {
+        let (_, rest) = line.split_once(sort)?;
         let (used, rest) = rest.split_once('/')?;
         let available = rest.split_ascii_whitespace().next()?;
         Some((used.trim().parse().ok()?, available.parse().ok()?))
     };
-    read().ok_or(GenError::Report { tool: "nextpnr", figure: "number of logic cells" })
+    let missing = GenError::Report { tool: "nextpnr", figure: "number of logic cells" };
+    log.lines().rev().find_map(read).ok_or(missing)
 }
 
 /// Highest clock: `Total path delay: 9.12 ns (109.65 MHz)`.
@@ -153,7 +155,8 @@ mod tests {
 
     #[test]
     fn reads_cells_and_clock() {
-        let log = "Info: \t         ICESTORM_LC:   287/ 1280    22%\n";
+        let log = "Info: \t         ICESTORM_LC:   287/ 1280    22%\n\
+                   Info:     at iteration #1, type ICESTORM_LC: wirelen solved = 613\n";
         assert_eq!(used_cells(log, "ICESTORM_LC:").unwrap(), (287, 1280));
         let report = "Total path delay: 9.12 ns (109.65 MHz)\n";
         assert!((icetime_mhz(report).unwrap() - 109.65).abs() < 1e-9);

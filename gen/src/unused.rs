@@ -19,6 +19,11 @@ pub(crate) fn bits_read(module: &Module) -> Vec<u64> {
     for register in &module.registers {
         mark(register.input, u64::MAX);
     }
+    if let Some(memory) = module.memory {
+        for id in [memory.address, memory.write, memory.sample] {
+            mark(id, u64::MAX);
+        }
+    }
     for instance in &module.instances {
         for &id in &instance.connections {
             if module.signal(id).role == Role::InstanceInput {

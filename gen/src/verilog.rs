@@ -56,6 +56,7 @@ impl<'a> Writer<'a> {
             self.group(group)?;
         }
         self.flip_flops();
+        self.memory();
         self.unused();
         self.lines.dedent();
         self.lines.push("endmodule");
@@ -300,9 +301,35 @@ impl<'a> Writer<'a> {
         self.lines.push("end");
     }
 
+    /// Written or read, never both: so block RAM of every family does it alike.
+    fn memory(&mut self) {
+        let (Some(memory), Some(clock)) = (self.module.memory, self.module.clock()) else { return };
+        let [address, write, sample, word] =
+            [memory.address, memory.write, memory.sample, memory.word].map(|id| self.name(id));
+        let width = range(self.module.signal(memory.word).width);
+        self.lines.gap();
+        self.lines.push(&spaced(&["reg", &width, &format!("words [0:{}]", memory.words - 1), ";"]));
+        self.lines.gap();
+        self.lines.push(&format!("always @(posedge {clock}) begin"));
+        self.lines.indent();
+        self.lines.push(&format!("if ({write}) begin"));
+        self.lines.indent();
+        self.lines.push(&format!("words[{address}] <= {sample};"));
+        self.lines.dedent();
+        self.lines.push("end else begin");
+        self.lines.indent();
+        self.lines.push(&format!("{word} <= words[{address}];"));
+        self.lines.dedent();
+        self.lines.push("end");
+        self.lines.dedent();
+        self.lines.push("end");
+    }
+
     fn unused(&mut self) {
         let mut unused = unused(self.module);
-        let clocked = !self.module.registers.is_empty() || !self.module.instances.is_empty();
+        let clocked = !self.module.registers.is_empty()
+            || !self.module.instances.is_empty()
+            || self.module.memory.is_some();
         unused.extend(self.module.clock().filter(|_| !clocked).map(str::to_owned));
         if unused.is_empty() {
             return;

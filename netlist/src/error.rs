@@ -26,6 +26,12 @@ pub enum NetlistError {
         /// What it is.
         feature: &'static str,
     },
+    /// Words that are not flip-flops.
+    #[error("{block}: found a memory, which no engine has")]
+    Memory {
+        /// Instance.
+        block: String,
+    },
     /// A name in the kernel that is no field.
     #[error(
         "{block}: `{name}` is not a signal of this block\nhint: a Rust constant needs a `Constant` field"

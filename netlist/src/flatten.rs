@@ -16,7 +16,8 @@ impl Netlist {
     ///
     /// # Errors
     ///
-    /// [`NetlistError::Loop`] when logic feeds itself without a flip-flop.
+    /// [`NetlistError::Loop`] when logic feeds itself without a flip-flop, [`NetlistError::Memory`]
+    /// when a module has more than flip-flops.
     pub fn new(design: &Design) -> Result<Self, NetlistError> {
         let mut flat = Flat { design, netlist: Self::default() };
         let top = design.top();
@@ -62,6 +63,9 @@ impl Flat<'_> {
     ) -> Result<(), NetlistError> {
         let wires = self.wires(module, prefix, ports);
         let block = prefix.strip_suffix('.').unwrap_or(&module.name);
+        if module.memory.is_some() {
+            return Err(NetlistError::Memory { block: block.to_owned() });
+        }
         for (target, value) in execute(module, block)? {
             self.netlist.assignments.push(Assignment {
                 target: wires.of(target),

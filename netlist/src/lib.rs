@@ -32,4 +32,4 @@ pub use elaborate::elaborate;
 pub use error::NetlistError;
 pub use flat::{Assignment, Expression, Netlist, Node, Register, Signal, SignalId, mask};
 pub use library::Library;
-pub use module::{Design, Instance, Module, ModuleSignal, Port, PortKind, Role, Statement};
+pub use module::{Design, Instance, Memory, Module, ModuleSignal, Port, PortKind, Role, Statement};

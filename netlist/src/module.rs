@@ -42,6 +42,23 @@ pub struct Module {
     pub instances: Vec<Instance>,
     /// What drives outputs, locals, flip-flops and the inputs of blocks inside.
     pub body: Vec<Statement>,
+    /// Words beside the flip-flops; no block of rust-hdl has them, and no engine.
+    pub memory: Option<Memory>,
+}
+
+/// Words of which one is written or read at every clock.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Memory {
+    /// How many.
+    pub words: u64,
+    /// Which one.
+    pub address: SignalId,
+    /// It is written.
+    pub write: SignalId,
+    /// What is written.
+    pub sample: SignalId,
+    /// The word last read.
+    pub word: SignalId,
 }
 
 impl Module {

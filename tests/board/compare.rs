@@ -153,7 +153,7 @@ fn a_mutated_block_is_told_in_micrometres() {
         was: "assign q = jk_q;",
         now: "assign q = ~jk_q;",
     };
-    let board = Board::of_mutant(&name, &FRONT, &mutant);
+    let board = Board::of_mutant(&name, "icestick", &FRONT, &mutant);
     let mut gates = board.start(0);
     grind(&mut gates, &Model::read(&path).expect("a sound machine"), END, |_| {});
     let (run, said) = compared(&name, &gates);

@@ -51,13 +51,13 @@ impl Board {
     }
 
     /// The emitted Verilog, which runs faster than its gates.
-    pub(crate) fn of_verilog(machine: &str, words: &[&str]) -> Self {
-        Self::of_blocks(project(machine, "icestick", words))
+    pub(crate) fn of_verilog(machine: &str, board: &str, words: &[&str]) -> Self {
+        Self::of_blocks(project(machine, board, words))
     }
 
     /// The same with a text of a block exchanged.
-    pub(crate) fn of_mutant(machine: &str, words: &[&str], mutant: &Mutant) -> Self {
-        let folder = project(machine, "icestick", words);
+    pub(crate) fn of_mutant(machine: &str, board: &str, words: &[&str], mutant: &Mutant) -> Self {
+        let folder = project(machine, board, words);
         let block = folder.path().join(format!("rtl/{}.v", mutant.block));
         let sound = std::fs::read_to_string(&block).expect("the block is there");
         assert!(sound.contains(mutant.was), "{}: {}", mutant.block, mutant.was);

@@ -113,6 +113,6 @@ fn a_metre_loses_no_frame() {
     }
     put(&path, &text);
     let model = Model::read(&path).expect("a sound machine");
-    let board = Board::of_verilog(&name, &FRONT);
+    let board = Board::of_verilog(&name, "icestick", &FRONT);
     a_pass_is_watched_to_the_clock(&board, (&model, &name), 10_533, 10_536 * FAST_PERIOD);
 }

@@ -59,7 +59,7 @@ impl Compare {
         machine.fpga.clock_hz = 1e6 * f64::from(board.clock_mhz);
         let dialled = settings_for(&machine)?;
         let conditioning = self.front.conditioning(&board)?;
-        let netlist = Netlist::new(&self.front.design(&dialled.settings, &conditioning)?)?;
+        let netlist = Netlist::new(&self.front.model(&dialled.settings, &conditioning)?)?;
         let capture = read_capture(&self.log)?;
         let log = PinLog::new(&capture, &netlist, &board, conditioning.active_low)?;
         let outcome = run::compare(&Circuit::new(netlist), &log).context("the model")?;
