@@ -36,19 +36,70 @@ const PERIOD: u64 = 200;
 /// nine bits to the middle of the stop bit.
 const RECEIVED: u64 = 2 + BIT_CLOCKS / 2 + 9 * BIT_CLOCKS;
 
-/// A pseudo-terminal has no modem lines, and libserialport 0.1.1 opens nothing without: this stands
-/// in for them, before the C library.
-const MODEM_LINES: &str = r#"
+/// Stands before the C library in a program that talks to gates at a pseudo-terminal. That has no
+/// modem lines, and libserialport 0.1.1 opens nothing without. And gates run slower than a board,
+/// the more so beside other work, where libsigrok gives an answer 20 ms and a byte 30 ms: its time
+/// passes 30 times as slowly.
+const STAND_IN: &str = r#"
 #include <dlfcn.h>
+#include <poll.h>
 #include <stdarg.h>
 #include <sys/ioctl.h>
+#include <sys/select.h>
+#include <sys/syscall.h>
+#include <sys/time.h>
+#include <time.h>
+#include <unistd.h>
+
+static const long SLOWER = 30;
+
+template <typename Real> static Real real(const char *name) {
+  return (Real)dlsym(RTLD_NEXT, name);
+}
+
+static long long nanoseconds(clockid_t which) {
+  timespec now;
+  syscall(SYS_clock_gettime, which, &now);
+  return (now.tv_sec * 1000000000LL + now.tv_nsec) / SLOWER;
+}
+
+extern "C" int clock_gettime(clockid_t which, timespec *now) noexcept {
+  long long passed = nanoseconds(which);
+  *now = {passed / 1000000000, passed % 1000000000};
+  return 0;
+}
+
+extern "C" int gettimeofday(timeval *now, void *) noexcept {
+  long long passed = nanoseconds(CLOCK_REALTIME) / 1000;
+  *now = {passed / 1000000, passed % 1000000};
+  return 0;
+}
+
+extern "C" int nanosleep(const timespec *time, timespec *rest) {
+  long long wait = (time->tv_sec * 1000000000LL + time->tv_nsec) * SLOWER;
+  timespec longer = {wait / 1000000000, wait % 1000000000};
+  return real<int (*)(const timespec *, timespec *)>("nanosleep")(&longer, rest);
+}
+
+extern "C" int poll(pollfd *files, nfds_t count, int wait) {
+  int longer = wait > 0 ? wait * (int)SLOWER : wait;
+  return real<int (*)(pollfd *, nfds_t, int)>("poll")(files, count, longer);
+}
+
+extern "C" int select(int count, fd_set *in, fd_set *out, fd_set *others, timeval *time) {
+  auto select = real<int (*)(int, fd_set *, fd_set *, fd_set *, timeval *)>("select");
+  if (!time) return select(count, in, out, others, time);
+  long long wait = (time->tv_sec * 1000000LL + time->tv_usec) * SLOWER;
+  timeval longer = {wait / 1000000, wait % 1000000};
+  return select(count, in, out, others, &longer);
+}
+
 extern "C" int ioctl(int file, unsigned long request, ...) noexcept {
   va_list rest;
   va_start(rest, request);
   void *argument = va_arg(rest, void *);
   va_end(rest);
-  using Real = int (*)(int, unsigned long, ...);
-  int answer = ((Real)dlsym(RTLD_NEXT, "ioctl"))(file, request, argument);
+  int answer = real<int (*)(int, unsigned long, ...)>("ioctl")(file, request, argument);
   if (answer == 0) return 0;
   if (request == TIOCMGET) *(int *)argument = 0;
   bool modem = request == TIOCMGET || request == TIOCMSET || request == TIOCMBIS || request == TIOCMBIC;
@@ -56,11 +107,10 @@ extern "C" int ioctl(int file, unsigned long request, ...) noexcept {
 }
 "#;
 
-/// The lines of [`MODEM_LINES`], to be loaded into a program.
-fn modem_lines(folder: &TempDir) -> PathBuf {
-    let [source, library] =
-        ["modem_lines.cpp", "modem_lines.so"].map(|name| folder.path().join(name));
-    crate::support::command::put(&source, MODEM_LINES);
+/// [`STAND_IN`], to be loaded into a program.
+fn stand_in(folder: &TempDir) -> PathBuf {
+    let [source, library] = ["stand_in.cpp", "stand_in.so"].map(|name| folder.path().join(name));
+    crate::support::command::put(&source, STAND_IN);
     let mut compile = Command::new("g++");
     compile.args(["-shared", "-fPIC", "-D_GNU_SOURCE", "-o"]).arg(&library).arg(&source);
     assert!(compile.status().expect("g++, a Debian package, starts").success());
@@ -81,7 +131,7 @@ fn sigrok(folder: &TempDir, port: &SerialPort) -> Child {
     Command::new("sigrok-cli")
         .args(["--driver", &driver, "--config", "samplerate=500k:captureratio=25"])
         .args(["--triggers", "2=1,1=0", "--samples", &samples, "--output-format", "binary"])
-        .env("LD_PRELOAD", modem_lines(folder))
+        .env("LD_PRELOAD", stand_in(folder))
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
@@ -91,9 +141,15 @@ fn sigrok(folder: &TempDir, port: &SerialPort) -> Child {
 /// Lines and fringes at times of no regularity.
 struct Wheel {
     state: u32,
+    grating: bool,
+    laser: bool,
 }
 
 impl Wheel {
+    const fn new() -> Self {
+        Self { state: 7, grating: false, laser: false }
+    }
+
     fn draw(&mut self) -> u32 {
         self.state = self.state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         self.state >> 16
@@ -102,10 +158,12 @@ impl Wheel {
     /// Runs for that many clocks, and turns.
     fn run(&mut self, gates: &mut Gates<'_>, speaker: &mut Speaker, clocks: u64) {
         speaker.run(gates, clocks);
-        match self.draw() % 4 {
-            0 => gates.set("grating", self.draw().is_multiple_of(2)),
-            1 | 2 => gates.set("laser", self.draw().is_multiple_of(2)),
-            _ => {}
+        if self.draw().is_multiple_of(2) {
+            self.grating = !self.grating;
+            gates.set("grating", self.grating);
+        } else {
+            self.laser = !self.laser;
+            gates.set("laser", self.laser);
         }
     }
 }
@@ -113,8 +171,7 @@ impl Wheel {
 /// The gates talk with sigrok-cli until it ends, or for as long as a test may take.
 fn converse(gates: &mut Gates<'_>, mut port: SerialPort, child: Child) -> Output {
     port.set_read_timeout(Duration::from_millis(1)).expect("it can be set");
-    let (mut line, mut speaker, mut wheel) =
-        (Line::default(), Speaker::default(), Wheel { state: 7 });
+    let (mut line, mut speaker, mut wheel) = (Line::default(), Speaker::default(), Wheel::new());
     let mut child = child;
     let mut bytes = [0; 64];
     let begin = std::time::Instant::now();
@@ -122,12 +179,13 @@ fn converse(gates: &mut Gates<'_>, mut port: SerialPort, child: Child) -> Output
         if let Ok(got) = port.read(&mut bytes) {
             speaker.say(&bytes[..got]);
         }
-        for _ in 0..60 {
-            let clocks = 30 + u64::from(wheel.draw() % 100);
+        // Longer than the glitch filter, and several comparisons in what is captured.
+        for _ in 0..200 {
+            let clocks = 12 + u64::from(wheel.draw() % 24);
             wheel.run(gates, &mut speaker, clocks);
         }
         port.write_all(&line.bytes(&gates.log, gates.clock())).expect("the other side reads");
-        if begin.elapsed() > Duration::from_secs(30) {
+        if begin.elapsed() > Duration::from_secs(120) {
             child.kill().expect("it can be ended");
         }
     }
