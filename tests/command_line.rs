@@ -8,8 +8,8 @@ use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
 use expect_test::expect_file;
+use helixlock_evidence::same_output::STORIES;
 use proptest::prelude::*;
-use xtask::same_output::STORIES;
 
 /// Runs `helixlock` with these words in a folder.
 fn helixlock(folder: &Path, words: &[&str]) -> Output {
@@ -254,7 +254,7 @@ fn every_command_has_a_story_to_compare() {
     for command in subcommands() {
         let begin = format!("{command} ");
         let told = STORIES.lines().any(|line| line == command || line.starts_with(&begin));
-        assert!(told, "`{command}` has no line in xtask/src/same_output/stories.txt");
+        assert!(told, "`{command}` has no line in evidence/src/same_output/stories.txt");
     }
 }
 

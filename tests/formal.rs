@@ -3,15 +3,15 @@
 //! `cargo xtask prove` does the same with every mutant, and with a waveform for every state that
 //! the properties call interesting.
 
+use helixlock_evidence::prove::exhaustive::{Outcome, exhaustively};
+use helixlock_evidence::prove::lockstep::History;
+use helixlock_evidence::prove::mutants::{Fate, of_module, try_mutant};
+use helixlock_evidence::prove::properties::{Verdict, prove};
+use helixlock_evidence::prove::synthesis::{self, recorded, synthesised};
+use helixlock_evidence::prove::vacuity::idle;
+use helixlock_evidence::prove::{Sources, document, forgets};
 use helixlock_gen::Family;
 use tempfile::TempDir;
-use xtask::prove::exhaustive::{Outcome, exhaustively};
-use xtask::prove::lockstep::History;
-use xtask::prove::mutants::{Fate, of_module, try_mutant};
-use xtask::prove::properties::{Verdict, prove};
-use xtask::prove::synthesis::{self, recorded, synthesised};
-use xtask::prove::vacuity::idle;
-use xtask::prove::{Sources, document, forgets};
 
 use crate::support::command::{put, repository};
 
@@ -76,7 +76,7 @@ fn mistakes_are_noticed() {
 #[test]
 fn the_printed_table_is_fresh() {
     let stale = document::stale(repository(), &sources()).expect("the document is there");
-    let how = "cargo run --release -p xtask -- prove --write, with --block for one";
+    let how = "cargo xtask prove --write, with --block for one";
     assert!(stale.is_empty(), "docs/verification.md is stale of {stale:?}: {how}");
 }
 

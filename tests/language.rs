@@ -226,8 +226,9 @@ fn frames_are_closed(story: &str, shown: &str) {
 fn every_command_is_told_in_chinese() {
     let said: BTreeSet<_> = STORIES.lines().filter_map(|line| line.split(' ').next()).collect();
     let silent = ["completions", "man", "serve"]; // what programs read, and what only an error ends
-    for line in
-        xtask::same_output::STORIES.lines().filter(|line| !line.starts_with(['#', '[', ' ']))
+    for line in helixlock_evidence::same_output::STORIES
+        .lines()
+        .filter(|line| !line.starts_with(['#', '[', ' ']))
     {
         let command = line.split(' ').next().unwrap_or_default();
         assert!(said.contains(command) || silent.contains(&command), "{command}");

@@ -24,6 +24,7 @@ const ROOTS: &[(&str, &str)] = &[
     ("lab", "lab/src/lib.rs"),
     ("cli", "cli/lib.rs"),
     ("python", "python/src/lib.rs"),
+    ("evidence", "evidence/src/lib.rs"),
     ("xtask", "xtask/src/lib.rs"),
 ];
 

@@ -4,10 +4,10 @@
 
 use std::path::Path;
 
+use helixlock_evidence::prove::alike::{Likeness, alike};
 use helixlock_netlist::{Library, elaborate};
 use helixlock_rtl::{APART, BLOCKS, BlockCard};
 use rust_hdl::core::module_defines::ModuleDefines;
-use xtask::prove::alike::{Likeness, alike};
 
 use crate::golden_verilog::design_of;
 

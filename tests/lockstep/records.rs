@@ -1,8 +1,8 @@
 //! Values packed into bytes, lowest bit first, as every simulator writes them.
 
+use helixlock_evidence::prove::consequence::worth;
 use helixlock_netlist::{Netlist, SignalId};
 use helixlock_sim::Engine;
-use xtask::prove::consequence::worth;
 
 /// Where each value lies in a record.
 pub(crate) struct Layout {

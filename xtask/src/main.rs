@@ -6,16 +6,12 @@ use std::process::{Command, ExitCode};
 
 use anyhow::Context;
 use clap::Parser;
-use xtask::prove::rows::{self, Extent};
-use xtask::prove::table::markdown;
-use xtask::prove::{Sources, document};
 use xtask::python;
-use xtask::same_output::SameOutput;
-use xtask::sbom::sbom;
 use xtask::setup::Tools;
 
 /// Work on the project itself
 #[derive(Debug, Parser)]
+#[command(after_help = "Compiled when asked for, each with --help: prove, same-output, sbom")]
 enum Task {
     /// Install what is missing of tools; then format, lints, documentation, all tests and the Python package
     Check {
@@ -23,29 +19,15 @@ enum Task {
         #[arg(long)]
         no_install: bool,
     },
-    /// Proofs of the emitted Verilog, and mutants of it: prints what docs/verification.md holds
-    Prove {
-        /// One mutant in twenty instead of all
-        #[arg(long)]
-        short: bool,
-        /// Only this block
-        #[arg(long, value_name = "BLOCK")]
-        block: Option<String>,
-        /// Put the table into docs/verification.md; with a block, what is said of it and the totals
-        #[arg(long, conflicts_with = "short")]
-        write: bool,
-    },
-    /// Print what the command is made of, as SPDX
-    Sbom,
-    /// Hold everything the command writes and says against what it did at a commit
-    SameOutput(SameOutput),
+    /// Of the crate `evidence`, which stands on most of the project.
+    #[command(external_subcommand)]
+    Evidence(Vec<String>),
 }
 
 /// Exit status: 0 good, 1 not good, 2 it cannot be told.
 fn main() -> ExitCode {
     match run(Task::parse(), &mut std::io::stdout().lock()) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::from(1),
+        Ok(status) => ExitCode::from(status),
         Err(error) => {
             // Nothing is left to tell the user if this fails too.
             let _ = writeln!(std::io::stderr(), "xtask: {error:#}");
@@ -54,21 +36,21 @@ fn main() -> ExitCode {
     }
 }
 
-/// Whether all is good.
-fn run(task: Task, out: &mut impl Write) -> anyhow::Result<bool> {
+fn run(task: Task, out: &mut impl Write) -> anyhow::Result<u8> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().context("the repository")?;
     match task {
-        Task::Check { no_install } => check(root, no_install, out),
-        Task::Prove { short, block, write } => {
-            let one_in = if short { 20 } else { 1 };
-            prove(root, &Extent { one_in, block }, write, out)
-        }
-        Task::Sbom => {
-            write!(out, "{}", sbom(root)?)?;
-            Ok(true)
-        }
-        Task::SameOutput(task) => task.run(root, out),
+        Task::Check { no_install } => Ok(u8::from(!check(root, no_install, out)?)),
+        Task::Evidence(words) => evidence(root, &words),
     }
+}
+
+/// Its exit status.
+fn evidence(root: &Path, words: &[String]) -> anyhow::Result<u8> {
+    let mut cargo = Command::new("cargo");
+    cargo.args(["run", "--quiet", "--package", "helixlock-evidence", "--"]).args(words);
+    let path = Tools::of(root).path()?;
+    let status = cargo.env("PATH", path).status().context("`cargo` cannot be started")?;
+    Ok(status.code().and_then(|code| u8::try_from(code).ok()).unwrap_or(2))
 }
 
 /// What has to pass, cheapest first: words of cargo.
@@ -106,21 +88,4 @@ fn deny(path: &std::ffi::OsStr, out: &mut impl Write) -> anyhow::Result<bool> {
     let mut cargo = Command::new("cargo");
     cargo.args(["deny", "check", "bans", "licenses", "sources"]).env("PATH", path);
     Ok(cargo.status().context("`cargo` cannot be started")?.success())
-}
-
-/// Everything that can be said of the emitted Verilog, as a table.
-fn prove(root: &Path, extent: &Extent, write: bool, out: &mut impl Write) -> anyhow::Result<bool> {
-    let sources = Sources::of(root);
-    let witness_folder = root.join("target/witnesses");
-    std::fs::create_dir_all(&witness_folder)?;
-    let shares = rows::all(&sources, &witness_folder, extent)?;
-    writeln!(out, "{}", markdown(&shares))?;
-    let good = rows::good(&shares);
-    if write {
-        document::write(root, &sources, shares)?;
-        for stale in document::stale(root, &sources)? {
-            writeln!(out, "still stale: {stale}")?;
-        }
-    }
-    Ok(good)
 }

@@ -26,7 +26,7 @@ pub fn sbom(root: &Path) -> anyhow::Result<String> {
         "SPDXVersion: SPDX-2.3\nDataLicense: CC0-1.0\nSPDXID: SPDXRef-DOCUMENT\n\
          DocumentName: helixlock\n\
          DocumentNamespace: https://spdx.org/spdxdocs/helixlock-{hash}\n\
-         Creator: Tool: helixlock-xtask\nCreated: {date}\n"
+         Creator: Tool: helixlock-evidence\nCreated: {date}\n"
     );
     for package in linked(&metadata)? {
         describe(&mut text, package, &lock);
@@ -113,7 +113,7 @@ mod tests {
         let text = sbom(root).unwrap();
         let has = |name: &str| text.contains(&format!("\nPackageName: {name}\n"));
         assert!(has("helixlock") && has("clap") && has("parquet"), "{text}");
-        assert!(!has("expect-test") && !has("xtask"), "{text}");
+        assert!(!has("expect-test") && !has("helixlock-evidence"), "{text}");
         let packages = text.matches("\nPackageName: ").count();
         let licences = text.matches("\nPackageLicenseDeclared: ").count();
         assert_eq!(packages, licences);
