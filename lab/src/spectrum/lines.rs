@@ -9,7 +9,8 @@ use crate::noise::Whitener;
 use crate::numerics::{median, spread};
 use crate::policy::chance::{LISTED_LINE, NAME_CELL, NAME_STANDARD_ERRORS, NEARLY_WHOLE};
 use crate::policy::extent::{
-    HIGHEST_MULTIPLE, LISTED_LINES, NAMED_HARMONICS, NAMED_SPINDLE_HARMONICS, SLOWEST_WAVES,
+    COMPARED_ROWS, HIGHEST_MULTIPLE, LISTED_LINES, NAMED_HARMONICS, NAMED_SPINDLE_HARMONICS,
+    SLOWEST_WAVES,
 };
 
 /// A line with what is known of it.
@@ -84,11 +85,14 @@ impl LineSearch<'_> {
     }
 }
 
-/// Every line over the spindle angle that the machine file leaves, strongest first.
+/// Every line over the spindle angle that the machine file leaves, strongest first; looked for in
+/// means of neighbours where there are very many samples, as a comparison does.
 #[must_use]
 pub fn lines_left(problem: &Problem) -> Vec<NamedLine> {
-    let bare = State::bare(problem);
-    lines(problem, &bare.columns, &bare.fit)
+    let thinned = problem.thinned(COMPARED_ROWS);
+    let small = thinned.as_ref().unwrap_or(problem);
+    let bare = State::bare(small);
+    lines(small, &bare.columns, &bare.fit)
 }
 
 /// Every line over the spindle angle that a fit leaves, strongest first.
