@@ -9,7 +9,7 @@ use std::sync::LazyLock;
 use helixlock_plant::CATALOGUE;
 use regex::{Captures, Regex};
 
-use crate::support::command::{helixlock, repository, scratch};
+use crate::support::command::{helixlock, put, repository, scratch};
 
 /// A line each: what is run, in order, with `OUT` for a folder. Every command and every verdict.
 const STORIES: &str = r#"
@@ -233,6 +233,24 @@ fn every_command_is_told_in_chinese() {
         let command = line.split(' ').next().unwrap_or_default();
         assert!(said.contains(command) || silent.contains(&command), "{command}");
     }
+}
+
+/// `explained` is a phrase of the table.
+#[test]
+fn a_title_stays_as_its_owner_wrote_it() {
+    let (folder, title) = (scratch(), "Grinder in hall 3, explained");
+    let machine = std::fs::read_to_string(repository().join("examples/sg7430-6mm/machine.toml"));
+    let own = |line: &str| match line.starts_with("title = ") {
+        true => format!("title = \"{title}\"\n"),
+        false => format!("{line}\n"),
+    };
+    let path = folder.path().join("machine.toml");
+    put(&path, &machine.expect("an example").lines().map(own).collect::<String>());
+    let [path, out] = [path, folder.path().join("out")].map(|path| path.display().to_string());
+    let run = helixlock(&["sim", &path, "--length", "5", "-o", &out, "--language", "zh"]);
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    let page = std::fs::read_to_string(folder.path().join("out/report.html")).expect("a page");
+    assert!(run.stdout.contains(title) && page.contains(&format!("<h1>{title}")), "{}", run.stdout);
 }
 
 #[test]

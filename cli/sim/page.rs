@@ -43,7 +43,7 @@ pub(crate) fn page(
             caption: CALIBRATION_CAPTION.into(),
         },
     ]);
-    Ok(Page { title: summary.title.clone(), summary: sentence(summary), parts })
+    Ok(Page { title: summary.heading(), summary: sentence(summary), parts })
 }
 
 const LEAD_CAPTION: &str = "Lead error of the finished thread, positive when it is longer than \

@@ -79,10 +79,15 @@ keys! {
 type Quantity = fn(&PassSummary) -> f64;
 
 impl Summary {
+    /// What the run is, beside the machine's own title, which has no language.
+    pub(crate) fn heading(&self) -> String {
+        format!("{}: without and with the correction", self.title)
+    }
+
     /// For people.
     pub(crate) fn print(&self, out: &mut impl Write) -> io::Result<()> {
         let run = &self.run;
-        writeln!(out, "{}", self.title)?;
+        writeln!(out, "{}", self.heading())?;
         writeln!(
             out,
             "{:.0} mm in {:.1} s, {} comparisons, {} clocks at {} Hz\n",
