@@ -7,7 +7,7 @@ use helixlock_lab::fingerprint;
 use helixlock_plant::MachineFile;
 use helixlock_workbench::{Answer, Ask, Kind};
 use serde::Deserialize;
-use serde::de::DeserializeOwned;
+use serde::de::{DeserializeOwned, IgnoredAny};
 
 use super::edit::{self, Setting, Text};
 use super::folder::Folder;
@@ -19,7 +19,7 @@ use super::orders::{Subject, line, words};
 use super::refusal::{Answered, Refusal, json};
 use super::state::state;
 use super::trial::{Moved, trial};
-use super::{axes, spectrum, waves};
+use super::{axes, said, spectrum, waves};
 
 /// Everything the pages work on.
 #[derive(Debug)]
@@ -67,11 +67,14 @@ impl Workbench {
                 axes::curve(&*self.opened(ask)?, word(ask, "key")?, sensor(ask), &without(ask))
             }
             "spectrum" => spectrum::spectrum(&*self.opened(ask)?, sensor(ask)),
+            "faster" => spectrum::faster(&self.opened(ask)?.problem),
             "templates" => edit::templates(),
+            "catalogue" => said::catalogue(said::language(ask)),
             "trace" => waves::trace(&self.folder),
+            "drafted" => waves::drafted(&self.done(ask)?.0),
             "waves" => waves::waves(&self.folder),
             "job" => self.job(ask).and_then(|(number, job)| json(&job.json(number))),
-            "result" => self.done(ask).map(|(_, done)| said(done)),
+            "result" => self.done(ask).and_then(|(_, done)| printed(done)),
             other => Err(Refusal::Unknown(other.to_owned())),
         }
     }
@@ -84,6 +87,7 @@ impl Workbench {
                 json(&job.json(number))
             }),
             "trial" => self.trial(ask),
+            "said" => said::said(said::language(ask), &body(ask)?),
             "check" => edit::check(&self.folder, word(ask, "machine")?, &body::<Text>(ask)?.text),
             "dividers" => {
                 edit::dividers(&self.folder, word(ask, "machine")?, &body::<Text>(ask)?.text)
@@ -149,7 +153,8 @@ impl Workbench {
     fn begin(&self, ask: &Ask) -> Answered {
         let (command, machine) = (word(ask, "command")?, word(ask, "machine")?);
         let pair = Pair::read(&self.folder, machine)?;
-        let data = if command == "sim" { "" } else { word(ask, "data")? };
+        let simulates = matches!(command, "sim" | "draft");
+        let data = if simulates { "" } else { word(ask, "data")? };
         if !data.is_empty() {
             self.folder.path(data)?;
         }
@@ -160,9 +165,11 @@ impl Workbench {
         let (window, language) = (["from", "to"].map(told), told("language"));
         let subject = Subject { machine, data, effect, keep, window, language };
         let words = words(command, &subject)?;
+        let draft = (command == "draft").then(|| body::<Text>(ask)).transpose()?;
         let line = line(&words, machine);
         let effect = Some(effect).filter(|effect| !effect.is_empty()).map(str::to_owned);
-        let order = Order { words, line, effect, revision: pair.revision() };
+        let draft = draft.map(|draft| draft.text);
+        let order = Order { words, line, effect, revision: pair.revision(), draft };
         json(&self.jobs.begin(self.folder.root(), order)?)
     }
 
@@ -235,9 +242,12 @@ impl Workbench {
     }
 }
 
-/// A result as the command printed it.
-fn said(done: Done) -> Answer {
-    Answer { status: 200, kind: Kind::Json, body: done.said }
+/// A result as the command printed it; one that only says why there is none is a refusal.
+fn printed(done: Done) -> Answered {
+    if serde_json::from_slice::<IgnoredAny>(&done.said).is_err() {
+        return Err(anyhow!("{}", String::from_utf8_lossy(&done.said).trim()).into());
+    }
+    Ok(Answer { status: 200, kind: Kind::Json, body: done.said })
 }
 
 fn word<'a>(ask: &'a Ask, name: &str) -> Result<&'a str, Refusal> {

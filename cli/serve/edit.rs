@@ -47,6 +47,7 @@ struct SolvedJson {
 
 #[derive(Serialize)]
 struct CheckJson {
+    /// A line each.
     errors: Vec<String>,
     title: Option<String>,
     lead_mm: Option<f64>,
@@ -89,7 +90,9 @@ pub(crate) fn check(folder: &Folder, name: &str, text: &str) -> Answered {
             .map(helixlock_plant::rationalisation_um_per_m),
         screw_order: machine.and_then(screw_order),
         gears: gears.iter().map(gear).collect(),
-        errors: parsed.err().map(|e| without_folder(folder, &e.to_string())).into_iter().collect(),
+        errors: parsed.err().map_or_else(Vec::new, |error| {
+            without_folder(folder, &error.to_string()).lines().map(str::to_owned).collect()
+        }),
     })
 }
 

@@ -14,7 +14,8 @@ use anyhow::Context;
 use serde::Serialize;
 use tempfile::TempDir;
 
-use super::orders::SCRATCH;
+use super::orders::{DRAFT, SCRATCH};
+use crate::shared::output::write_content;
 
 /// All work that was begun.
 #[derive(Debug, Default)]
@@ -59,6 +60,8 @@ pub(crate) struct Order {
     pub(crate) effect: Option<String>,
     /// See [`Job`].
     pub(crate) revision: String,
+    /// Text of a machine file that is not saved: `DRAFT` in the folder that is thrown away.
+    pub(crate) draft: Option<String>,
 }
 
 /// How a job stands.
@@ -79,6 +82,9 @@ impl Jobs {
     /// Begins.
     pub(crate) fn begin(&self, root: &Path, order: Order) -> anyhow::Result<JobJson> {
         let scratch = tempfile::tempdir().context("no folder for temporary files")?;
+        if let Some(draft) = &order.draft {
+            write_content(&scratch.path().join(DRAFT), [], draft)?;
+        }
         let place = scratch.path().display().to_string();
         let words = order.words.iter().map(|word| word.replace(SCRATCH, &place));
         let mut child = Command::new(std::env::current_exe()?)

@@ -12,6 +12,7 @@ mod opened;
 mod orders;
 mod refusal;
 mod rounds;
+mod said;
 mod spectrum;
 mod state;
 mod trial;

@@ -8,6 +8,10 @@ use super::waves::SIMULATION;
 /// Folder for what a command writes before it is taken.
 pub(crate) const SCRATCH: &str = "SCRATCH";
 
+/// In that folder, a machine file that is not saved, and what its simulation writes.
+pub(crate) const DRAFT: &str = "draft.toml";
+pub(crate) const DRAFTED: &str = "drafted";
+
 /// What a command works on.
 #[derive(Debug)]
 pub(crate) struct Subject<'a> {
@@ -34,6 +38,10 @@ pub(crate) fn words(command: &str, subject: &Subject<'_>) -> anyhow::Result<Vec<
         "compare" | "diagnose" => [command, machine, data, "--json"].map(str::to_owned).into(),
         "learn" => ["learn", machine, data, "-o", SCRATCH, "--json"].map(str::to_owned).into(),
         "sim" => simulated(subject)?,
+        "draft" => {
+            let (draft, drafted) = (format!("{SCRATCH}/{DRAFT}"), format!("{SCRATCH}/{DRAFTED}"));
+            ["sim", &draft, "-o", &drafted, "--json"].map(str::to_owned).into()
+        }
         "add" => {
             let known = CATALOGUE.iter().any(|card| card.kind == effect);
             known.then_some(()).with_context(|| format!("`{effect}` is no effect we know"))?;
@@ -71,6 +79,7 @@ pub(crate) fn line(words: &[String], machine: &str) -> String {
     let shown = words.iter().filter(|word| !(writes && *word == "--json"));
     let typed = shown.map(|word| match word.strip_prefix(SCRATCH) {
         Some("") => ".",
+        Some(rest) if rest.strip_prefix('/') == Some(DRAFTED) => SIMULATION,
         Some(_) => machine,
         None => word,
     });
@@ -110,6 +119,7 @@ mod tests {
             "helixlock add m.toml abbe --fit data.csv --refit --keep 2 -o m.toml"
         );
         assert_eq!(typed("sim", "my m.toml", 0), "helixlock sim 'my m.toml' -o simulation");
+        assert_eq!(typed("draft", "m.toml", 0), "helixlock sim m.toml -o simulation");
     }
 
     #[test]

@@ -26,6 +26,29 @@ pub(crate) struct PeakJson {
     name: Option<String>,
 }
 
+/// What turns faster than the samples resolve.
+#[derive(Serialize)]
+struct FastJson {
+    /// Cycles a spindle turn up to which waves are resolved.
+    highest_order: f64,
+    /// Shafts and meshes beyond, with their orders.
+    faster: Vec<(String, f64)>,
+}
+
+/// What the machine file names and the samples stand too far apart for.
+pub(crate) fn faster(problem: &Problem) -> Answered {
+    let machine = &problem.model;
+    let shafts = machine.gears.iter().flat_map(|gear| {
+        let mesh = gear.mesh_order().map(|order| (format!("mesh of {}", gear.name), order));
+        std::iter::once((gear.name.clone(), gear.order)).chain(mesh)
+    });
+    let highest_order = problem.highest_order;
+    json(&FastJson {
+        highest_order,
+        faster: shafts.filter(|(_, order)| highest_order < *order).collect(),
+    })
+}
+
 /// Order spectrum of one sensor's residual, up to the highest order its sampling resolves.
 pub(crate) fn spectrum(opened: &Opened, sensor: usize) -> Answered {
     let Opened { problem, residual, .. } = opened;

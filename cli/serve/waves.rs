@@ -1,6 +1,7 @@
 //! What a simulated run has left in the folder: its trace, and its bits and micrometres.
 
 use std::io::BufReader;
+use std::path::Path;
 
 use anyhow::Context;
 use helixlock_traces::vcd::{Bit, Value, VcdReader};
@@ -9,6 +10,8 @@ use serde::Serialize;
 
 use super::folder::Folder;
 use super::frame::Frame;
+use super::jobs::Job;
+use super::orders::DRAFTED;
 use super::refusal::{Answered, json};
 
 /// Where `helixlock sim` writes.
@@ -43,7 +46,16 @@ struct SignalJson {
 
 /// Columns of the trace, one row a comparison.
 pub(crate) fn trace(folder: &Folder) -> Answered {
-    let table = read_table(&folder.path(&format!("{SIMULATION}/trace.csv"))?)?;
+    columns(&folder.path(SIMULATION)?)
+}
+
+/// The same of a machine file that is not saved.
+pub(crate) fn drafted(job: &Job) -> Answered {
+    columns(&job.scratch.path().join(DRAFTED))
+}
+
+fn columns(run: &Path) -> Answered {
+    let table = read_table(&run.join("trace.csv"))?;
     let mut frame = Frame::default();
     for column in &table.columns {
         if matches!(column.name.as_str(), "time_s" | "position_mm") {

@@ -2,14 +2,16 @@
 
 import { readFileSync } from "node:fs";
 
-import { axeSource, hold, idle, opened, picture, screen } from "./browser.mjs";
+import { axeSource, hold, idle, opened, picture, processorSeconds, screen } from "./browser.mjs";
 
 // Everything with the mouse: data dropped, read, saved; what is missing found and added.
 async function learns(url, data) {
+  const begun = Date.now();
   const { browser, page, faults } = await opened(url);
   await page.setInputFiles("#file", data);
   await page.click("#save");
   await page.waitForSelector("#sound");
+  hold((await page.textContent("#spacing")).includes("change gear 1"), "the samples do not follow that gear");
   await screen(page, "fails");
   await page.waitForSelector("#sentence");
   await screen(page, "effects");
@@ -20,6 +22,7 @@ async function learns(url, data) {
   const { rms, noise } = await page.$eval("#left", (left) => left.dataset);
   await picture(page, "fall");
   hold(Number(rms) <= 1.1 * Number(noise), `left ${rms}, noise ${noise}`);
+  hold(Date.now() - begun < 60000, `${Date.now() - begun} ms`);
   hold(faults.length === 0, faults.join("\n"));
   await browser.close();
 }
@@ -29,7 +32,10 @@ async function tries(url, effect) {
   const { browser, page, faults } = await opened(url);
   await screen(page, "effects");
   await page.click("#find");
-  const card = `[data-effect="${effect}"]`;
+  const card = `li[data-effect="${effect}"]`;
+  await page.waitForSelector(`${card} .sketch svg`);
+  const falls = await page.$$eval(`${card} .sketch [data-sensor]`, (all) => all.map((one) => one.textContent.match(/[0-9.]+/g).map(Number)));
+  hold(falls.length > 0 && falls.every(([before, after]) => after < before), `the error of every sensor: ${JSON.stringify(falls)}`);
   await page.click(`${card} .try`);
   await page.waitForSelector("#trial table");
   const sizes = () => page.textContent("#trial table");
@@ -41,6 +47,9 @@ async function tries(url, effect) {
   await page.waitForFunction((before) => document.querySelector("#trial table").textContent !== before, fitted);
   await page.click("#take");
   await page.waitForSelector("#fall #left");
+  const { rms, noise } = await page.$eval("#left", (left) => left.dataset);
+  hold(Number(noise) < Number(rms), `half way, ${rms} is left and ${noise} is noise`);
+  await keeps(page);
   const standing = () => page.$$eval("#standing li", (rounds) => rounds.length);
   hold((await standing()) === 2, `${await standing()} rounds`);
   await page.click("#undo");
@@ -51,6 +60,18 @@ async function tries(url, effect) {
   hold((await standing()) === 2, "the round is done again");
   hold(faults.length === 0, faults.join("\n"));
   await browser.close();
+}
+
+// One page that needs nothing else, with a bar for every round.
+async function keeps(page) {
+  const [download] = await Promise.all([page.waitForEvent("download"), page.click("#export")]);
+  const file = await download.path();
+  const text = readFileSync(file, "utf8");
+  hold(!/<script|src=|href=|url\(|@import/.test(text), "the page asks for nothing");
+  const kept = await page.context().newPage();
+  await kept.setContent(text);
+  hold((await kept.$$eval(".falls li .bar .now", (bars) => bars.filter((bar) => bar.clientWidth > 0).length)) === 2, "a bar for both rounds");
+  await kept.close();
 }
 
 // A doubt is shown before any verdict; its one button leads to sound data.
@@ -77,18 +98,186 @@ async function leaves(url) {
 // The numbers on the screen are those that the page was given, and these the command's own.
 async function shows(url) {
   const { browser, page, faults } = await opened(url);
-  const said = {};
-  page.on("response", async (answer) => {
-    if (answer.url().includes("/api/result?")) Object.assign(said, { text: await answer.text() });
-  });
+  const said = results(page);
   await screen(page, "fails");
   await page.waitForSelector("#sentence");
   await idle(page);
-  const shown = await page.$$eval("#compared dd[data-key=rms_um]", (all) => all.map((one) => one.dataset.value));
-  const sensors = JSON.parse(said.text).sensors.map((one) => String(one.rms_um));
-  hold(shown.join() === sensors.join(), `${shown} on the screen, ${sensors} said`);
+  const compared = await said.last;
+  const values = (where) => page.$$eval(where, (all) => all.map((one) => one.dataset.value).join());
+  const own = JSON.parse(compared, sameKey).sensors.map((one) => one.rms_um).join();
+  hold((await values("#compared dd[data-key=rms_um]")) === own, `${own} said`);
+  await screen(page, "effects");
+  await page.click("#find");
+  await page.waitForSelector("#verdict");
+  const diagnosed = await said.last;
+  const found = JSON.parse(diagnosed, sameKey);
+  hold((await page.getAttribute("#verdict", "data-verdict")) === found.verdict, found.verdict);
+  if (found.doubts.length === 0) {
+    hold((await values("#diagnosis dd[data-value]")) === [found.rounds[0].rms_um, found.noise_um].join(), "now and then");
+    const cards = await page.$$eval("#diagnosis li.card", (all) => all.map((one) => one.dataset.effect).sort().join());
+    hold(cards === found.candidates.map((one) => one.effect).sort().join(), cards);
+  }
   hold(faults.length === 0, faults.join("\n"));
-  process.stdout.write(said.text);
+  process.stdout.write(JSON.stringify({ compare: compared, diagnose: diagnosed }));
+  await browser.close();
+}
+
+// The last of what the page is given, as it stands.
+function results(page) {
+  const said = {};
+  page.on("response", (answer) => {
+    if (answer.url().includes("/api/result?")) said.last = answer.text();
+  });
+  return said;
+}
+
+// Angles have their own keys.
+function sameKey(_, value) {
+  if (value === null || typeof value !== "object" || Array.isArray(value)) return value;
+  return Object.fromEntries(Object.entries(value).map(([key, inner]) => [key.replace(/_arcsec$/, "_um"), inner]));
+}
+
+// The device as simulated: before and after are those of the command.
+async function simulates(url) {
+  const { browser, page, faults } = await opened(url);
+  const said = results(page);
+  await screen(page, "device");
+  await page.waitForSelector("#before-after canvas");
+  const shown = await page.$$eval("#simulated [data-key]", (all) => all.map((one) => [one.dataset.key, one.dataset.value]));
+  const text = await said.last;
+  const found = JSON.parse(text);
+  const wrong = shown.filter(([key, value]) => String(key.split(".").reduce((part, name) => part[name], found)) !== value);
+  hold(shown.length === 8 && wrong.length === 0, `${wrong}`);
+  hold(faults.length === 0, faults.join("\n"));
+  process.stdout.write(text);
+  await browser.close();
+}
+
+// A value changed in the form runs the device again; the file changes when it is saved.
+async function lives(url, speed) {
+  const { browser, page, faults } = await opened(url);
+  await screen(page, "device");
+  await page.waitForSelector("#before-after canvas");
+  const clocks = () => page.textContent("#simulated").then((text) => Number(text.match(/([0-9,]+) clocks/)[1].replaceAll(",", "")));
+  const before = await clocks();
+  const field = '#device input[data-key="spindle.speed"]';
+  await page.fill(field, speed);
+  await page.press(field, "Tab");
+  await page.waitForFunction((clocks) => !document.getElementById("simulated").textContent.includes(clocks), before.toLocaleString("en"));
+  hold(Math.abs((await clocks()) / before - 0.5) < 0.05, "twice as fast takes half as many clocks");
+  await page.click("#save-device");
+  await page.waitForSelector("#save-device[disabled]");
+  hold(faults.length === 0, faults.join("\n"));
+  await browser.close();
+}
+
+// A click on the residual shows the flip-flops at that place, with their values.
+async function flips(url, mm_a_second) {
+  const { browser, page, faults } = await opened(url);
+  await screen(page, "waves");
+  await page.click("#run");
+  await page.waitForSelector("#bits svg");
+  await page.click("#waves-residual .u-over", { position: { x: 200, y: 40 } });
+  await page.waitForSelector("#bits svg .value");
+  const asked = Number(await page.inputValue("#instant"));
+  const rows = await page.$$eval("#bits svg", ([picture]) => {
+    const texts = (name) => [...picture.querySelectorAll(name)].map((text) => text.textContent);
+    const names = texts(".name");
+    return Object.fromEntries(texts(".value").map((value, row) => [names[row], value]));
+  });
+  hold(Math.abs(Number(rows.position_mm) - mm_a_second * asked) < 0.5, `${rows.position_mm} mm at ${asked} s`);
+  hold(["0", "1"].includes(rows.q) && ["0", "1"].includes(rows.t1), `q ${rows.q}, t1 ${rows.t1}`);
+  hold(faults.length === 0, faults.join("\n"));
+  await browser.close();
+}
+
+// Two tabs: the second is told, and neither the file nor what it had typed is lost.
+async function tabs(url) {
+  const { browser, context, page, faults } = await opened(url);
+  const other = await context.newPage();
+  await other.goto(url);
+  await other.waitForSelector("html[data-ready=yes]");
+  for (const tab of [page, other]) await screen(tab, "machine");
+  const type = async (tab, from, to) => {
+    await tab.fill("#toml", (await tab.inputValue("#toml")).replace(from, to));
+    await tab.waitForSelector("#save-machine:not([disabled])");
+    await tab.click("#save-machine");
+  };
+  await type(page, "6 rpm", "7 rpm");
+  await page.waitForSelector("#save-machine[disabled]");
+  await type(other, "600 mm", "500 mm");
+  await other.waitForSelector("#message.bad");
+  hold((await other.inputValue("#toml")).includes("500 mm"), "what was typed stands there");
+  await other.click("#back");
+  const saved = await other.inputValue("#toml");
+  hold(saved.includes("7 rpm") && saved.includes("600 mm"), "what the first has saved is a click away");
+  hold(faults.every((fault) => fault.includes("409")), faults.join("\n"));
+  await browser.close();
+}
+
+// Very many samples: the processor's time for a frame while panning and zooming, of all processes
+// of the browser together, and no extreme lost by what is left out.
+async function pans(url) {
+  const { browser, page, faults } = await opened(url);
+  await screen(page, "fails");
+  await page.waitForSelector("#sentence");
+  await idle(page);
+  const begun = processorSeconds([process.pid]);
+  const frames = await page.evaluate(panned);
+  const each = (1000 * (processorSeconds([process.pid]) - begun)) / frames.length;
+  const usual = frames.sort((one, other) => one - other)[frames.length >> 1];
+  hold(each < 50, `a frame takes ${each} ms of the processor`);
+  const lost = await page.evaluate(extremes);
+  hold(lost === "", lost);
+  process.stdout.write(`${each.toFixed(1)} ms of the processor a frame, ${usual.toFixed(1)} ms from frame to frame`);
+  hold(faults.length === 0, faults.join("\n"));
+  await browser.close();
+}
+
+// Milliseconds from frame to frame while keys pan and zoom both charts.
+async function panned() {
+  const chart = document.querySelector("#residual .canvas");
+  const frame = () => new Promise((done) => requestAnimationFrame(done));
+  const keys = ["+", "ArrowRight", "ArrowRight", "ArrowLeft", "-", "ArrowLeft"];
+  const frames = [];
+  let last = await frame();
+  for (let step = 0; step < 90; step++) {
+    chart.dispatchEvent(new KeyboardEvent("keydown", { key: keys[step % keys.length] }));
+    const now = await frame();
+    frames.push(now - last);
+    last = now;
+  }
+  return frames;
+}
+
+// The drawn columns of a long curve against all of its samples.
+async function extremes() {
+  const { Curve } = await import("./thin.js");
+  const [count, columns] = [300000, 1000];
+  const x = Float64Array.from({ length: count }, (_, row) => row);
+  const y = Float32Array.from(x, (row) => Math.sin(row / 9000) + 0.3 * Math.sin(7.7 * row * row));
+  for (const [row, value] of [[123456, 50], [222222, -50]]) y[row] = value;
+  const curve = new Curve(x, y, 0, count);
+  for (const [low, high] of [[0, count - 1], [100000, 250000], [123000, 124000]]) {
+    const { least, most } = curve.thinned(low, high, columns);
+    if (columns < least.length || columns < most.length) return "more columns than asked for";
+    const column = Math.floor(((123456 - low) * columns) / (high - low));
+    const near = most.slice(Math.max(0, column - 1), column + 2);
+    if (!near.includes(50)) return `a needle of one sample is not drawn between ${low} and ${high}`;
+    if (low <= 222222 && 222222 <= high && Math.min(...least.filter((value) => value !== undefined)) !== -50) return "nor one downwards";
+  }
+  return "";
+}
+
+// Measured against model of very many samples; processor time of browser and server until it is drawn.
+async function opens(url, server) {
+  const { browser, page, faults } = await opened(url, { ready: false });
+  await page.waitForSelector("#residual canvas");
+  const seconds = processorSeconds([process.pid, Number(server)]);
+  const size = await page.$eval("#residual canvas", (canvas) => canvas.width * canvas.height);
+  hold(size > 0, "the residual is drawn");
+  hold(faults.length === 0, faults.join("\n"));
+  process.stdout.write(String(seconds));
   await browser.close();
 }
 
@@ -108,11 +297,10 @@ async function full(page, name) {
   if (name === "waves") {
     await page.click("#run");
     await page.waitForSelector("#bits svg");
+    await page.click("#look");
+    await page.waitForSelector("#bits svg .value");
   }
-  if (name === "device") {
-    await page.click("#simulate");
-    await page.waitForSelector("#simulated table");
-  }
+  if (name === "device") await page.waitForSelector("#before-after canvas");
   await idle(page);
 }
 
@@ -253,6 +441,10 @@ async function describes(url, lead, a, b) {
   hold((await page.inputValue(field("dividers.b"))) === b, "B as the command says");
   hold((await page.textContent("#solved")).startsWith("helixlock dividers --lead"), "the command is shown");
   const solved = await page.inputValue("#toml");
+  await page.fill("#toml", solved.replace(lead, "x").replace("6 rpm", "6 miles"));
+  await page.waitForFunction(() => document.querySelectorAll("#errors p").length === 2);
+  await page.fill("#toml", solved);
+  await page.waitForSelector("#errors:empty", { state: "attached" });
   await page.click("#back");
   hold((await page.inputValue("#toml")).includes(lead), "the lead stays when dividers are taken back");
   hold((await page.inputValue("#toml")) !== solved && before !== solved, "the dividers are taken back");
@@ -264,7 +456,23 @@ async function describes(url, lead, a, b) {
   await browser.close();
 }
 
-const stories = { describes, learns, tries, mends, leaves, shows, reads, labels, types };
+// What is said of files of every kind when they are dropped, in Chinese.
+async function drops(url, ...files) {
+  const { browser, page, faults } = await opened(url, { language: "zh-CN" });
+  await screen(page, "measurement");
+  const found = [];
+  for (const file of files) {
+    const name = file.split("/").pop();
+    await page.setInputFiles("#file", file);
+    await page.waitForFunction((name) => document.querySelector("#reading h2")?.textContent.includes(name), name);
+    found.push(...(await page.evaluate(unreadable, true)).map((one) => `${name}: ${one}`));
+  }
+  hold(found.length === 0, found.join("\n"));
+  hold(faults.length === 0, faults.join("\n"));
+  await browser.close();
+}
+
+const stories = { describes, drops, flips, labels, learns, leaves, lives, mends, opens, pans, reads, shows, simulates, tabs, tries, types };
 const [story, ...words] = process.argv.slice(2);
 await stories[story](...words).catch((error) => {
   process.stderr.write(`${story}: ${error.message}\n`);

@@ -1,5 +1,7 @@
 // What is asked of the workbench, and the files that this tab looks at.
 
+import { currentLanguage } from "./words.js";
+
 export const app = { machine: "", data: "", revision: "", state: null };
 
 // Refused by the workbench; `status` 409 when another tab or program changed the files meanwhile.
@@ -11,7 +13,7 @@ export class Refused extends Error {
 }
 
 async function ask(method, what, words, body) {
-  const chosen = { machine: app.machine, data: app.data, revision: app.revision, ...words };
+  const chosen = { machine: app.machine, data: app.data, revision: app.revision, language: currentLanguage(), ...words };
   const query = new URLSearchParams(chosen);
   const answer = await fetch(`api/${what}?${query}`, { method, body });
   if (answer.ok) return answer;

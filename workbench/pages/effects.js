@@ -1,15 +1,22 @@
 // Screen "Which effect": a card a candidate; try it over the data, take it, or refuse it.
 
-import { app, getFrame, post, postFrame } from "./api.js";
+import { app, get, getFrame, post, postFrame } from "./api.js";
 import { run, showMessage } from "./jobs.js";
 import { doubtCards } from "./doubts.js";
-import { centre } from "./fails.js";
+import { blocksOf, centre, unitOf } from "./fails.js";
 import { button, chance, make, number, table } from "./make.js";
 import { Chart, curvesOf } from "./plot.js";
+import { sketches } from "./sketch.js";
 import { named, say, t } from "./words.js";
 
 // The last diagnosis, for the machine file and data it was made of.
 let last = null;
+
+// What the last diagnosis of these data takes for noise; nothing where it did not come to an end.
+export function noiseOf(data) {
+  const told = last?.data === data && ["explained", "ambiguous", "nothing-missing"].includes(last.result.verdict);
+  return told ? last.result.noise_um : null;
+}
 
 export async function show(root, page) {
   const place = make("div", { id: "diagnosis" });
@@ -45,17 +52,30 @@ async function render(root, page) {
   root.append(unexplained(result, unit));
   const trial = make("div", { id: "trial" });
   root.append(trial);
+  const catalogue = new Map((await get("catalogue")).map((about) => [about.effect, about]));
   const isSuggested = (one) => suggested.some((effect) => effect.effect === one.effect);
   const refused = new Map((app.state.ledger?.rounds ?? []).flatMap((round) => round.refused ?? []).map((one) => [one.effect, one.reason]));
-  const cards = result.candidates.map((one) => card(one, { result, unit, trial, page, refused, suggested: isSuggested(one) }));
+  const cards = result.candidates.map((one) => card(one, { result, unit, trial, page, refused, suggested: isSuggested(one), about: catalogue.get(one.effect) }));
   const top = cards.filter((_, index) => isSuggested(result.candidates[index]));
   const rest = cards.filter((_, index) => !isSuggested(result.candidates[index]));
   root.append(make("ul", { class: "cards" }, top));
-  if (rest.length) root.append(make("details", { open: !top.length }, make("summary", {}, t("effects.others", { n: rest.length })), make("ul", { class: "cards" }, rest)));
+  const others = make("details", { open: !top.length }, make("summary", {}, t("effects.others", { n: rest.length })), make("ul", { class: "cards" }, rest));
+  if (rest.length) root.append(others);
+  draw(top, others, page);
   if (result.experiments.length) {
     const rows = result.experiments.map((one) => [say(one.action), one.between.map((name) => named("effect", name)).join(" / "), number(one.separation_um, 3)]);
     root.append(table(t("effects.experiments"), [t("effects.experiment"), t("effects.between"), t("effects.apart", { unit })], rows, [2]));
   }
+}
+
+// Fills the cards in with shapes; those that are folded away once they are opened.
+async function draw(top, others, page) {
+  const places = (cards) => [...cards].map((one) => one.querySelector(".sketch")).filter(Boolean);
+  const fill = (cards) => page.attempt(() => sketches(places(cards)));
+  await fill(top);
+  const rest = others.querySelectorAll("li");
+  if (others.open) await fill(rest);
+  else others.addEventListener("toggle", () => fill(rest), { once: true });
 }
 
 // Everything that is suggested at once: what `helixlock learn` does.
@@ -82,9 +102,9 @@ function unexplained(result, unit) {
   return table(t("effects.left"), [t("fails.along"), t("fails.shape"), t("fails.size", { unit }), t("fails.chance")], rows, [2, 3]);
 }
 
-function card(one, { result, unit, trial, page, refused, suggested }) {
+function card(one, { result, unit, trial, page, refused, suggested, about }) {
   const first = result.rounds[0];
-  const isCatalogue = !one.effect.includes(" ");
+  const names = (all) => all.map((name) => named("effect", name)).join(", ");
   const against = result.rounds.flatMap((round) => round.rejected).find((rejected) => rejected.effect === one.effect);
   const place = make("div", {});
   const fact = (word, text) => (text ? make("p", {}, make("span", { class: "dim" }, `${word} `), text) : null);
@@ -96,16 +116,19 @@ function card(one, { result, unit, trial, page, refused, suggested }) {
   return make("li", { class: suggested ? "card suggested" : "card", "data-effect": one.effect },
     suggested ? make("span", { class: "badge" }, t("effects.badge")) : null,
     make("h3", {}, named("effect", one.effect)),
-    make("p", { class: "dim" }, make("code", {}, one.effect)),
+    make("p", { class: "dim" }, make("code", {}, one.effect), about ? ` · ${t(`entry.${about.entry}`)}` : ""),
+    about ? make("p", {}, about.summary) : null,
+    about ? make("div", { class: "sketch", "data-effect": one.effect }) : null,
     fact(suggested ? t("effects.in_model") : t("effects.alone"), `${number(first.rms_um)} → ${number(one.rms_um)} ${unit}`),
     fact(t("effects.held_out"), `${number(one.holdout_rms_um)} ${unit}`),
     fact(t("effects.chance"), chance(one.p_value)),
     fact(t("effects.behind"), one.evidence_behind > 0 ? number(one.evidence_behind, 3) : null),
     fact(t("effects.against"), against && !suggested ? say(against.reason) : null),
-    fact(t("effects.confused"), one.confounded_with.map((name) => named("effect", name)).join(", ")),
-    fact(t("effects.separate"), one.separate_by ? say(one.separate_by) : null),
+    fact(t("effects.confused"), names(one.confounded_with)),
+    one.confounded_with.length ? null : fact(t("effects.alike"), names(about?.confused_with ?? [])),
+    fact(t("effects.separate"), one.separate_by ? say(one.separate_by) : about?.separated_by),
     refused.has(one.effect) ? fact(t("effects.refused"), refused.get(one.effect)) : null,
-    isCatalogue ? make("div", { class: "row" },
+    about ? make("div", { class: "row" },
       button(t("effects.try"), tried, { class: "try" }),
       button(t("effects.add"), add, { class: "add" }),
       button(t("effects.refuse"), () => refuse(one.effect, place, page), { class: "refuse" })) : null,
@@ -139,7 +162,7 @@ async function tryEffect(effect, root, page) {
   const found = await run("add", { effect });
   if (!found) return;
   const series = await getFrame("series");
-  const unit = t(`unit.${series.unit === "arcsec" ? "arcsec" : "um"}`);
+  const unit = unitOf(series);
   const sensors = [...new Set(series.blocks.map((block) => block.sensor))];
   const fitted = found.result.effects[found.result.effects.length - 1];
   const moved = {};

@@ -50,10 +50,10 @@ async function draw(root, page, series, sensors) {
     root.replaceChildren();
     await draw(root, page, series, sensors);
   });
-  const blocks = series.blocks.filter((block) => block.sensor === look.sensor && !look.without.has(block.pass));
+  const blocks = blocksOf(series, look.sensor).filter((block) => !look.without.has(block.pass));
   root.append(choices(series, sensors, again));
   const x = series[look.x];
-  const unit = t(`unit.${series.unit === "arcsec" ? "arcsec" : "um"}`);
+  const unit = unitOf(series);
   const model = series.measured.map((value, row) => value - series.residual[row]);
   const group = newGroup();
   const across = t(`axis_label.${look.x}`);
@@ -77,8 +77,7 @@ async function draw(root, page, series, sensors) {
 function leadToWaves(chart, series, x, page) {
   const place = make("div", { class: "row" });
   chart.box.append(place);
-  chart.canvas.addEventListener("click", (event) => {
-    const value = chart.plot.posToVal(event.clientX - chart.plot.over.getBoundingClientRect().left, "x");
+  chart.pick((value) => {
     let row = 0;
     for (let other = 1; other < series.rows; other++) if (Math.abs(x[other] - value) < Math.abs(x[row] - value)) row = other;
     const at = series.position_mm[row];
@@ -87,6 +86,15 @@ function leadToWaves(chart, series, x, page) {
       page.show("waves");
     }, { id: "to-waves" }));
   });
+}
+
+export function unitOf(series) {
+  return t(`unit.${series.unit === "arcsec" ? "arcsec" : "um"}`);
+}
+
+// The passes of one sensor.
+export function blocksOf(series, sensor) {
+  return series.blocks.filter((block) => block.sensor === sensor);
 }
 
 // Every block about its mean, as sizes are counted.

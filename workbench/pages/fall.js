@@ -1,6 +1,7 @@
 // Screen "The error falls": a step an effect, from the first residual to the noise.
 
 import { app, post } from "./api.js";
+import { noiseOf } from "./effects.js";
 import { run, showMessage } from "./jobs.js";
 import { button, make, number, table } from "./make.js";
 import { named, t } from "./words.js";
@@ -25,14 +26,14 @@ export async function show(root, page) {
       button(t("fall.undo"), turn("undo"), { id: "undo", disabled: !app.state.can_undo }),
       button(t("fall.redo"), turn("redo"), { id: "redo", disabled: !app.state.can_redo }),
       button(t("fall.print"), () => window.print()),
-      button(t("fall.export"), () => keep(root))),
+      button(t("fall.export"), () => keep(root), { id: "export" })),
     list);
   draw(list, ledger, unit, null);
   root.append(parameters(ledger), refusals(ledger));
   if (app.data) noise(list, ledger, unit, page);
 }
 
-// What is noise after the last round: what `helixlock compare` finds now.
+// What is left after the last round, and what of it is noise: what `helixlock compare` finds now.
 async function noise(list, ledger, unit, page) {
   const found = await page.attempt(() => run("compare"));
   if (!found) return;
@@ -41,7 +42,9 @@ async function noise(list, ledger, unit, page) {
   const slow = (one) => one.noise.slow.reduce((sum, part) => sum + part.rms_um ** 2, 0);
   const square = own.reduce((sum, one) => sum + one.samples * (one.noise.white_um ** 2 + slow(one)), 0);
   const rms = Math.sqrt(own.reduce((sum, one) => sum + one.samples * one.rms_um ** 2, 0) / samples);
-  draw(list, ledger, unit, { noise: Math.sqrt(square / samples), rms, only: found.result.noise_only });
+  const only = found.result.noise_only;
+  // Beside structure the noise would hold that, too: there it is known from a diagnosis or not at all.
+  draw(list, ledger, unit, { noise: only ? Math.sqrt(square / samples) : noiseOf(app.data), rms, only });
 }
 
 // Rounds that stand, each from where the one before has left the error.
@@ -57,17 +60,22 @@ function draw(root, ledger, unit, now) {
     const bar = make("span", { class: "bar", "aria-hidden": "true" },
       make("i", { class: "now", style: `width:${share(after)}` }),
       after < before ? make("i", { class: "gone", style: `left:${share(after)};width:${share(before - after)}` }) : null,
-      now ? make("i", { class: "noise", style: `width:${share(now.noise)}` }) : null);
+      now?.noise ? make("i", { class: "noise", style: `width:${share(now.noise)}` }) : null);
     return make("li", { class: round.taken_back ? "back" : null, "data-rms": round.rms_um }, make("span", {}, name), bar, make("span", { class: "n" }, round.rms_um == null ? "–" : `${number(round.rms_um)} ${unit}`));
   };
-  const sizes = now ? { rms: number(now.rms), noise: number(now.noise), unit } : {};
-  const last = now ? make("p", { id: "left", "data-rms": now.rms, "data-noise": now.noise }, (now.only ? t("fall.only_noise", sizes) : t("fall.more", sizes))) : null;
+  const last = now ? make("p", { id: "left", "data-rms": now.rms, "data-noise": now.noise ?? null }, left(now, unit)) : null;
   root.replaceChildren(...[
     make("ol", { class: "falls", id: "standing" }, standing.map(row)),
     back.length ? make("h3", {}, t("fall.back")) : null,
     back.length ? make("ol", { class: "falls" }, back.map(row)) : null,
     last,
   ].filter(Boolean));
+}
+
+function left({ rms, noise, only }, unit) {
+  const sizes = { rms: number(rms), noise: number(noise), unit };
+  if (only) return t("fall.only_noise", sizes);
+  return noise ? t("fall.more", sizes) : t("fall.more_than_noise", sizes);
 }
 
 function parameters(ledger) {

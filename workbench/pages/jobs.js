@@ -1,7 +1,7 @@
 // Long work: begun, watched, stopped; its command line is shown and can be copied.
 
 import { get, post, sameKeys } from "./api.js";
-import { currentLanguage, t } from "./words.js";
+import { t } from "./words.js";
 
 const element = (id) => document.getElementById(id);
 let current = null;
@@ -31,9 +31,9 @@ export function wireJobs() {
 const pause = (ms) => new Promise((done) => setTimeout(done, ms));
 
 // Runs a command of the workbench; gives its number and what it printed, or nothing when stopped.
-export async function run(command, words = {}) {
+export async function run(command, words = {}, body = {}) {
   if (current) await post("stop", { job: current }).catch(() => {});
-  let job = await post("begin", { command, language: currentLanguage(), ...words });
+  let job = await post("begin", { command, ...words }, body);
   const number = job.job;
   current = number;
   showLine(job.line);
@@ -59,4 +59,15 @@ export async function run(command, words = {}) {
   }
   if (job.error) throw new Error(job.error);
   return { job: number, seconds: job.seconds, result: sameKeys(await get("result", { job: number })) };
+}
+
+// Runs a command beside what is shown, and says nothing of it; gives its number, or nothing where
+// it has no answer.
+export async function aside(command, words = {}) {
+  let job = await post("begin", { command, ...words });
+  while (job.running) {
+    await pause(100);
+    job = await get("job", { job: job.job });
+  }
+  return job.status === 0 ? job.job : null;
 }

@@ -1,26 +1,12 @@
 // Screen "Machine": a form beside the machine file, both live.
 
 import { app, get, post } from "./api.js";
+import { form } from "./form.js";
 import { showMessage } from "./jobs.js";
 import { button, make, number, table } from "./make.js";
+import { sayer } from "./said.js";
 import { train } from "./train.js";
 import { t } from "./words.js";
-
-// Fields of the form: key of the machine file, and its text.
-const FIELDS = () => [
-  ["workpiece.lead", t("machine.lead")],
-  ["workpiece.length", t("machine.length")],
-  ["spindle.speed", t("machine.speed")],
-  ["lead_screw.lead", t("machine.screw")],
-  ["grating.lines", t("machine.lines")],
-  ["grating.diameter", t("machine.diameter")],
-  ["dividers.a", t("machine.a")],
-  ["dividers.b", t("machine.b")],
-  ["dividers.range", t("machine.range")],
-  ["drive.step", t("machine.step")],
-  ["drive.frequency", t("machine.frequency")],
-  ["filter.cutoff", t("machine.cutoff")],
-];
 
 const START = `title = "My machine"
 
@@ -54,13 +40,8 @@ frequency = "160 Hz"
 closed = false
 `;
 
-// The value of a key as the text has it; nothing where it has none.
-export function valueOf(text, key) {
-  const [section, name] = key.split(".");
-  const body = text.split(new RegExp(`^\\[${section}\\].*$`, "m"))[1]?.split(/^\[/m)[0] ?? "";
-  const found = body.match(new RegExp(`^${name}\\s*=\\s*(.+?)\\s*(#.*)?$`, "m"));
-  return found ? found[1].replace(/^"(.*)"$/, "$1") : null;
-}
+// What could not be saved, because another tab had saved something meanwhile.
+let unsaved = null;
 
 export async function show(root, page) {
   const name = app.machine || "machine.toml";
@@ -69,7 +50,11 @@ export async function show(root, page) {
   const facts = make("div", { id: "facts" });
   const fields = make("div", {});
   const save = button(t("machine.save"), () => page.attempt(async () => {
-    const state = await post("machine", { machine: name, revision: app.state.machine ? app.revision : "" }, { text: text.value });
+    const revision = app.state.machine ? app.revision : "";
+    const state = await post("machine", { machine: name, revision }, { text: text.value }).catch((error) => {
+      if (error.status === 409) unsaved = text.value;
+      throw error;
+    });
     await page.refresh({ machine: state.machine?.name ?? name });
     save.disabled = true;
     showMessage(t("page.saved"));
@@ -77,7 +62,8 @@ export async function show(root, page) {
   save.disabled = !!app.state.machine;
   const check = () => page.attempt(async () => {
     const found = await post("check", { machine: name }, { text: text.value });
-    errors.replaceChildren(...found.errors.map((error) => make("p", { class: "bad", lang: "en" }, error)));
+    const said = await sayer(found.errors);
+    errors.replaceChildren(...found.errors.map((error) => make("p", { class: "bad" }, said(error))));
     facts.replaceChildren(...(found.errors.length ? [] : told(found)));
     save.disabled = found.errors.length > 0 || text.value === app.state.machine?.text;
     return found.errors.length === 0;
@@ -115,28 +101,9 @@ export async function show(root, page) {
   root.append(make("h2", {}, t("machine.title", { name })), errors,
     make("div", { class: "row" }, save, make("label", {}, make("span", {}, t("machine.template")), begin), back),
     make("div", { class: "two" }, make("div", {}, fields, make("div", { class: "row" }, solve, solved), facts), make("div", {}, text)));
-  await changed();
-}
-
-// The form as the text has it; a change of a field is a change of the text.
-function form(root, text, changed, page) {
-  const field = ([key, label]) => {
-    const value = valueOf(text.value, key);
-    const set = (event) => page.attempt(async () => {
-      const plain = /^[0-9]+$/.test(event.target.value);
-      const value = plain ? event.target.value : JSON.stringify(event.target.value);
-      text.value = (await post("setting", { machine: app.machine || "machine.toml" }, { text: text.value, key, value })).text;
-      await changed();
-    });
-    return make("label", { class: "field" }, make("span", {}, label), make("input", { value: value ?? "", change: set, "data-key": key }));
-  };
-  if (root.contains(document.activeElement)) {
-    for (const input of root.querySelectorAll("input")) {
-      if (input !== document.activeElement) input.value = valueOf(text.value, input.dataset.key) ?? "";
-    }
-    return;
-  }
-  root.replaceChildren(make("h3", {}, t("machine.form")), ...FIELDS().map(field));
+  const mine = unsaved;
+  unsaved = null;
+  await (mine === null ? changed() : replace(mine));
 }
 
 function told(found) {

@@ -2,6 +2,7 @@
 
 import { app, get, Refused, sameKeys } from "./api.js";
 import { showMessage, wireJobs } from "./jobs.js";
+import { sayer } from "./said.js";
 import { applyWords, currentLanguage, loadWords, setLanguage, t } from "./words.js";
 import * as device from "./device.js";
 import * as effects from "./effects.js";
@@ -54,7 +55,8 @@ const page = {
         await show(shown);
         showMessage(t("page.changed"), true);
       } else {
-        showMessage(error.message, true);
+        const say = await sayer([error.message]).catch(() => (text) => text);
+        showMessage(say(error.message), true);
       }
       return undefined;
     }

@@ -1,9 +1,10 @@
 // Screen "Measurement": a dropped file, how it is read, and what looks mistaken in it.
 
-import { app, post } from "./api.js";
+import { app, get, post } from "./api.js";
 import { run, showLine, showMessage } from "./jobs.js";
 import { doubtCards } from "./doubts.js";
 import { button, make, number, table } from "./make.js";
+import { sayer } from "./said.js";
 import { t } from "./words.js";
 
 // What the user said otherwise, piece by piece, until the file is saved.
@@ -18,7 +19,7 @@ export async function show(root, page) {
 function dropZone(page, reading) {
   const take = (file) => file && page.attempt(async () => {
     said = [];
-    render(reading, page, await post("drop", { name: file.name }, await file.arrayBuffer()));
+    render(reading, page, await told(await post("drop", { name: file.name }, await file.arrayBuffer())));
   });
   const input = make("input", { type: "file", id: "file", change: (event) => take(event.target.files[0]) });
   const zone = make("label", { class: "drop", for: "file" }, make("span", {}, t("measurement.drop")), input);
@@ -35,11 +36,27 @@ function dropZone(page, reading) {
   return zone;
 }
 
+// A reading with all that it says in the reader's language.
+async function told(reading) {
+  const { notes, questions, columns, settings } = reading;
+  const asked = questions.flatMap(({ text, answers }) => [text, ...answers.map(({ label }) => label)]);
+  const say = await sayer([...notes, ...asked, ...[...columns, ...settings].map(({ reason }) => reason)]);
+  const because = (all) => all.map((one) => ({ ...one, reason: say(one.reason) }));
+  const answered = (answers) => answers.map((answer) => ({ ...answer, label: say(answer.label) }));
+  return {
+    ...reading,
+    notes: notes.map(say),
+    questions: questions.map(({ text, answers }) => ({ text: say(text), answers: answered(answers) })),
+    columns: because(columns),
+    settings: because(settings),
+  };
+}
+
 function render(root, page, reading) {
   const otherwise = (recipe) => page.attempt(async () => {
     said.push(recipe);
     try {
-      render(root, page, await post("reread", {}, { recipes: said }));
+      render(root, page, await told(await post("reread", {}, { recipes: said })));
     } catch (error) {
       said.pop();
       throw error;
@@ -59,7 +76,7 @@ function render(root, page, reading) {
     make("div", { class: "row" }, button(t("measurement.save"), save, { class: "first", id: "save", disabled: open })),
     columns(reading, otherwise),
     settings(reading.settings, otherwise),
-    reading.notes.length ? make("ul", {}, reading.notes.map((note) => make("li", { lang: "en" }, note))) : null,
+    reading.notes.length ? make("ul", {}, reading.notes.map((note) => make("li", {}, note))) : null,
     make("h3", {}, t("measurement.lines")),
     make("pre", { tabindex: 0 }, reading.lines.join("\n")),
     table(t("measurement.table"), reading.names.map((name) => make("code", {}, name)), reading.first.map((row) => row.map((value) => number(value, 7))), reading.names.map((_, index) => index)),
@@ -68,8 +85,8 @@ function render(root, page, reading) {
 }
 
 function questions(all, otherwise) {
-  const card = (question) => make("li", { class: "card doubt" }, make("h3", {}, t("measurement.question")), make("p", { lang: "en" }, question.text),
-    make("div", { class: "row" }, question.answers.map((answer) => button(answer.label, () => otherwise(answer.recipe), { lang: "en" }))));
+  const card = (question) => make("li", { class: "card doubt" }, make("h3", {}, t("measurement.question")), make("p", {}, question.text),
+    make("div", { class: "row" }, question.answers.map((answer) => button(answer.label, () => otherwise(answer.recipe)))));
   return make("ul", { class: "cards" }, all.map(card));
 }
 
@@ -84,7 +101,7 @@ function columns(reading, otherwise) {
       targets.map((name) => new Option(name === "none" ? t("measurement.none") : name, name, false, name === (column.to ?? "none"))));
     const unit = make("input", { size: 6, value: column.unit ?? "", "aria-label": t("measurement.unit_of", { name: column.from }), change: (event) => rule(column, `unit = ${quoted(event.target.value)}`) });
     const sign = button(column.sign < 0 ? "−" : "+", () => rule(column, `sign = ${-column.sign}`), { "aria-label": t("measurement.sign_of", { name: column.from }) });
-    return [make("code", {}, column.from), choose, unit, sign, make("span", { lang: "en", class: "dim" }, column.reason)];
+    return [make("code", {}, column.from), choose, unit, sign, make("span", { class: "dim" }, column.reason)];
   };
   const heads = [t("measurement.in_file"), t("measurement.becomes_head"), t("measurement.unit"), t("measurement.sign"), t("measurement.why")];
   return table(t("measurement.columns"), heads, reading.columns.map(row));
@@ -98,9 +115,22 @@ function settings(all, otherwise) {
     const field = setting.choices.length
       ? make("select", about, setting.choices.map((word) => new Option(word, word, false, word === setting.value)))
       : make("input", { ...about, value: setting.value });
-    return [make("code", {}, `${setting.section}.${setting.name}`), field, make("span", { lang: "en", class: "dim" }, setting.reason)];
+    return [make("code", {}, `${setting.section}.${setting.name}`), field, make("span", { class: "dim" }, setting.reason)];
   };
   return table(t("measurement.settings"), [t("measurement.setting"), t("measurement.value"), t("measurement.why")], all.map(row));
+}
+
+// A card where something turns faster than the samples can follow.
+async function spacing() {
+  const { highest_order, faster } = await get("faster");
+  if (!faster.length) return [];
+  const fastest = Math.max(...faster.map(([, order]) => order));
+  const say = await sayer(faster.map(([name]) => name));
+  const rows = faster.map(([name, order]) => [make("bdi", {}, say(name)), number(order)]);
+  return [make("ul", { class: "cards" }, make("li", { class: "card doubt", id: "spacing" },
+    make("h3", {}, t("measurement.spacing")),
+    make("p", {}, t("measurement.too_wide", { n: number(highest_order, 3), times: number(fastest / highest_order, 2) })),
+    table(t("measurement.faster"), [t("machine.shaft"), t("machine.order")], rows, [1])))];
 }
 
 // What looks mistaken in the chosen data, before anything is named.
@@ -112,6 +142,7 @@ async function checkOf(page) {
     if (!found) return;
     const { doubts } = found.result;
     place.replaceChildren(doubts.length ? doubtCards(doubts, page, check) : make("p", { id: "sound" }, t("measurement.sound", { data: app.data })));
+    place.append(...(await spacing()));
     if (!doubts.length) place.append(button(t("measurement.on"), () => page.show("fails"), { class: "first" }));
   };
   page.attempt(check);

@@ -144,9 +144,7 @@ export class Chart {
   }
 
   redraw() {
-    const before = performance.now();
     this.plot.setData(this.data());
-    this.canvas.dataset.frame = (performance.now() - before).toFixed(1);
   }
 
   // Other values in the place of all lines'.
@@ -173,6 +171,17 @@ export class Chart {
     const [low, high] = this.view;
     const way = share * (high - low);
     this.look(low + way, high + way);
+  }
+
+  // Calls `act` with the x of a click; a drag zooms instead.
+  pick(act) {
+    let down = 0;
+    this.canvas.classList.add("picks");
+    this.canvas.addEventListener("pointerdown", (event) => (down = event.clientX));
+    this.canvas.addEventListener("click", (event) => {
+      const still = Math.abs(event.clientX - down) < 3 && event.target.closest(".u-over");
+      if (still) act(this.plot.posToVal(event.clientX - this.plot.over.getBoundingClientRect().left, "x"));
+    });
   }
 
   wire() {
