@@ -240,9 +240,9 @@ fn every_command_is_told_in_chinese() {
 fn a_title_stays_as_its_owner_wrote_it() {
     let (folder, title) = (scratch(), "Grinder in hall 3, explained");
     let machine = std::fs::read_to_string(repository().join("examples/sg7430-6mm/machine.toml"));
-    let own = |line: &str| match line.starts_with("title = ") {
-        true => format!("title = \"{title}\"\n"),
-        false => format!("{line}\n"),
+    let own = |line: &str| {
+        let is_title = line.starts_with("title = ");
+        if is_title { format!("title = \"{title}\"\n") } else { format!("{line}\n") }
     };
     let path = folder.path().join("machine.toml");
     put(&path, &machine.expect("an example").lines().map(own).collect::<String>());

@@ -286,7 +286,7 @@ fn many(rows: u32) -> TempDir {
 #[test]
 fn three_hundred_thousand_samples_pan_and_zoom_below_fifty_milliseconds_a_frame() {
     let bench = many(300_000);
-    println!("{}", story("pans", &Server::over(bench.path()), &[]));
+    story("pans", &Server::over(bench.path()), &[]);
 }
 
 /// Processor time of server and browser together, which is no less than what a user waits for on a
@@ -300,7 +300,6 @@ fn five_million_samples_open_in_ten_seconds() {
     let status = std::fs::read_to_string(format!("/proc/{id}/status")).expect("Linux says");
     let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).expect("a peak");
     let kilobytes: f64 = peak.trim().trim_end_matches(" kB").parse().expect("a number");
-    println!("{seconds} s, {kilobytes} kB");
     assert!(seconds < 10.0, "{seconds} s");
     assert!(kilobytes < 1.2e6, "{kilobytes} kB");
 }
@@ -358,9 +357,7 @@ fn one_click_mends_a_mistake() {
         let mended = ["machine.toml", "data-2.csv"].map(|file| word(&bench, file).1);
         let found = json(&helixlock(&["compare", &mended[0], &mended[1], "--json"]).stdout);
         assert_eq!(found["doubts"], json("[]"), "{what}");
-        if index < 3 {
-            assert_eq!(effects_in(&bench, "data-2.csv"), truths[usize::from(1 < index)], "{what}");
-        }
+        assert_eq!(effects_in(&bench, "data-2.csv"), truths[usize::from(1 < index)], "{what}");
     }
 }
 
@@ -470,8 +467,8 @@ fn a_reading_is_told_in_chinese() {
     let samples = std::fs::read_dir(repository().join("import/tests/samples")).expect("a folder");
     let paths = samples.map(|entry| entry.expect("a file").path());
     let files: Vec<String> = paths
+        .filter(|path| path.extension().is_none_or(|ending| ending != "md"))
         .map(|path| path.display().to_string())
-        .filter(|name| !name.ends_with(".md"))
         .collect();
     let bench = scratch();
     let words: Vec<&str> = files.iter().map(String::as_str).collect();
