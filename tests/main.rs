@@ -33,6 +33,7 @@ mod hazards_in_data;
 mod hidden_effects;
 #[cfg(unix)]
 mod hostile;
+mod icarus;
 mod index_gate;
 mod initial_phase_selector;
 mod input_conditioner;

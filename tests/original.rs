@@ -1,10 +1,14 @@
-//! One coincidence at the phase meter, gate by gate, original above reconstruction.
+//! Gates of 1977 beside the clocked blocks: one coincidence at the phase meter as a picture, and the
+//! reset counter over any history.
 
 use expect_test::expect_file;
-use helixlock_original::figures::phase_meter;
+use helixlock_original::figures::{phase_meter, reset_counter};
 use helixlock_original::{Circuit, Corner, Delays, Simulator, Train};
 use helixlock_report::{Lane, Waveform};
+use proptest::collection::vec;
+use proptest::prelude::*;
 
+use crate::properties::kept_beside_source;
 use crate::support::bench::Bench;
 
 /// Grating and laser rise 40 ns apart; pulses of 120 ns, shorter than the device's, fit the picture.
@@ -105,4 +109,62 @@ fn reconstruction() -> Vec<Lane> {
 #[expect(clippy::cast_precision_loss, reason = "a microsecond in picoseconds")]
 fn nanoseconds(ps: u64) -> f64 {
     ps as f64 / 1e3
+}
+
+/// From step to step, ps.
+const STEP_PS: u64 = 5_000_000;
+
+proptest! {
+    #![proptest_config(kept_beside_source())]
+
+    /// Steps of any direction, by hand or played back, with any delays within the data sheets: gates
+    /// and block show the same count, side and zero after each, and let the same steps through.
+    #[test]
+    fn reset_counter_of_gates_is_the_block(
+        history in vec((any::<bool>(), 0..8, 1_u64..30), 1..20), seed: u64,
+    ) {
+        let circuit = reset_counter::circuit();
+        let delays = Delays::drawn(&circuit, seed);
+        let mut gates = Simulator::new(&circuit, &delays).expect("it rests");
+        let mut block = Bench::new("reset_counter");
+        block.pulse(&["clear"]);
+        let mut at_ps = STEP_PS;
+        for (forward, dice, steps) in history {
+            for _ in 0..steps {
+                let inputs = [("forward", forward), ("playback", dice == 0)];
+                let passed = step(&mut gates, &circuit, at_ps, inputs);
+                at_ps += STEP_PS;
+                block.set(&inputs.map(|(pin, level)| (pin, level.into())));
+                block.set(&[("request", 1)]);
+                prop_assert_eq!(passed, block.high("step"));
+                block.clock();
+                block.set(&[("request", 0)]);
+                let bits = (0..reset_counter::STAGES).rev();
+                let count = bits.fold(0, |count, bit| {
+                    2 * count + u64::from(level(&gates, &circuit, &format!("count{bit}")))
+                });
+                prop_assert_eq!(count, block.get("count"));
+                for pin in ["count_forward", "zero"] {
+                    prop_assert_eq!(level(&gates, &circuit, pin), block.high(pin), "{}", pin);
+                }
+            }
+        }
+    }
+}
+
+/// A request to the gates, and whether it passed.
+fn step(gates: &mut Simulator, circuit: &Circuit, at_ps: u64, inputs: [(&str, bool); 2]) -> bool {
+    let pin = |name: &str| circuit.pin(name).expect("a pin");
+    let request = [("request", at_ps + STEP_PS / 4, true), ("request", at_ps + STEP_PS / 2, false)];
+    let before = inputs.map(|(name, level)| (name, at_ps, level));
+    for (name, time_ps, level) in before.into_iter().chain(request) {
+        gates.drive(time_ps, pin(name), level).expect("in order");
+    }
+    gates.take_edges();
+    gates.run_until(at_ps + STEP_PS - 1);
+    gates.take_edges().iter().any(|edge| edge.net == pin("taken") && edge.level)
+}
+
+fn level(gates: &Simulator, circuit: &Circuit, pin: &str) -> bool {
+    gates.level(circuit.pin(pin).expect("a pin"))
 }

@@ -1,4 +1,4 @@
-//! `cargo xtask prove`, `same-output` and `sbom`.
+//! `cargo xtask prove`, `icarus`, `same-output` and `sbom`.
 
 use std::io::Write;
 use std::path::Path;
@@ -6,6 +6,7 @@ use std::process::ExitCode;
 
 use anyhow::Context;
 use clap::Parser;
+use helixlock_evidence::icarus::Campaign;
 use helixlock_evidence::prove::rows::{self, Extent};
 use helixlock_evidence::prove::table::markdown;
 use helixlock_evidence::prove::{Sources, document};
@@ -27,6 +28,8 @@ enum Task {
         #[arg(long, conflicts_with = "short")]
         write: bool,
     },
+    /// The gates of the original in Icarus against our simulator, edge by edge
+    Icarus(Campaign),
     /// Print what the command is made of, as SPDX
     Sbom,
     /// Hold everything the command writes and says against what it did at a commit
@@ -54,6 +57,7 @@ fn run(task: Task, out: &mut impl Write) -> anyhow::Result<bool> {
             let one_in = if short { 20 } else { 1 };
             prove(root, &Extent { one_in, block }, write, out)
         }
+        Task::Icarus(task) => task.run(root, out),
         Task::Sbom => {
             write!(out, "{}", sbom(root)?)?;
             Ok(true)

@@ -59,7 +59,7 @@ pub fn circuit(wheels: &Wheels) -> Circuit {
     let [laser_start, _] = c.block("laser_range", |c| range_stage::add(c, b, reset_bar));
     let meter = phase_meter::add(&mut c, start, laser_start, open);
     let standard = discriminator::standard(&mut c, start, middle, open);
-    let [q, _] = discriminator::add(&mut c, meter, standard, ClockInputs::InPlace);
+    let [q, _] = discriminator::add(&mut c, meter, standard, ClockInputs::Coupled);
     let counter = c.block("counter", |c| reset_counter::add(c, tick, q, playback, reset_bar));
     let phases = c.block("ring", |c| ring::add(c, counter.step, counter.drive_forward));
     let shown = [("start", start), ("middle", middle), ("laser_start", laser_start)];

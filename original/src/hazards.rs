@@ -3,11 +3,15 @@
 //! Each hazard is a question to the simulation with one number turned until the answer changes; the
 //! number is found to 0.1 ns.
 
+mod waves;
 mod ways;
 
 use crate::circuit::Circuit;
 use crate::delays::{Corner, Delays};
 use crate::error::Error;
+use crate::figures::discriminator::ClockInputs;
+
+pub use self::waves::{Wave, Waves};
 
 /// One of them.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,6 +30,8 @@ pub struct Hazard {
     pub above: bool,
     /// What keeps it away.
     pub kept_away_by: &'static str,
+    /// What happens there, at the number where it begins.
+    pub waves: Waves,
 }
 
 impl Hazard {
@@ -45,8 +51,9 @@ impl Hazard {
 /// [`Error`] when a figure cannot be run, which is a mistake in it.
 pub fn hazards() -> Result<Vec<Hazard>, Error> {
     Ok(vec![
-        ways::slow_nand3(true)?,
-        ways::slow_nand3(false)?,
+        ways::slow_nand3(ClockInputs::Coupled)?,
+        ways::slow_nand3(ClockInputs::OfClockLength)?,
+        ways::slow_nand3(ClockInputs::Missing)?,
         ways::short_clear()?,
         ways::cut_line()?,
         ways::late_direction()?,

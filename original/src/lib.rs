@@ -11,6 +11,7 @@ pub mod figures;
 pub mod hazards;
 pub mod library;
 
+mod bench;
 mod delays;
 mod dump;
 mod error;
@@ -18,11 +19,12 @@ mod pulses;
 mod simulator;
 mod verilog;
 
+pub use bench::{Bench, bench};
 pub use circuit::{Circuit, Element, Function, Net};
 pub use delays::{Corner, Delays};
 pub use dump::dump;
 pub use error::Error;
-pub use hazards::{Hazard, hazards};
+pub use hazards::{Hazard, Wave, Waves, hazards};
 pub use pulses::{Change, Train, at_every_pin};
 pub use simulator::{Check, Edge, Finding, Simulator};
-pub use verilog::{bench, verilog};
+pub use verilog::verilog;

@@ -3,9 +3,15 @@
 //! The report names no part. TTL of the 74 series is taken, which Chinese works made from 1970 on
 //! under their own numbers and to the same limits.
 //!
-//! Typical and maximum delays are those of *The TTL Data Book for Design Engineers* (Texas
-//! Instruments, 2nd edition 1976), switching characteristics at 5 V, 25 °C, 15 pF. The sheets print
-//! **no minimum**; half the typical delay is assumed here, for every part alike.
+//! Typical and maximum delays, and the flip-flops' shortest pulses, are those of *The TTL Data Book
+//! for Design Engineers* (Texas Instruments, 2nd edition 1976), switching characteristics at 5 V,
+//! 25 °C, 15 pF, 400 Ω. Other makers' sheets say the same where they were at hand: ITT's data book of
+//! the time for its 7430 (8 and 15 ns to low, 13 and 22 ns to high), and Fairchild DS006613 of July
+//! 2001 for the DM7400 (at most 22 and 15 ns; it prints nothing else).
+//!
+//! None prints a **minimum**. Half the typical delay is assumed, for every part alike: the limits are
+//! then about as far above the typical delay as below it, by ratio, and nothing here depends on a part
+//! being slower than that. Delays of one package, which resemble each other, are drawn apart.
 
 /// Shortest, typical and longest of a time, ps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

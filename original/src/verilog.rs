@@ -40,68 +40,10 @@ pub fn verilog(circuit: &Circuit, delays: &Delays, levels: &[bool]) -> String {
     text
 }
 
-/// A bench that plays `stimuli.txt` and writes `edges.txt`, in the folder it runs in.
-///
-/// A line of the one is time in ps, number of the net, level; of the other the same. Ends so many
-/// picoseconds after the last stimulus.
-#[must_use]
-pub fn bench(circuit: &Circuit, tail_ps: u64) -> String {
-    let mut text = String::from(BENCH_HEAD);
-    for (net, level) in &circuit.inputs {
-        let name = &circuit.nets[net.0];
-        put(&mut text, format_args!("  reg {name} = 1'b{};\n", u8::from(*level)));
-    }
-    let pins: Vec<_> = circuit.inputs.iter().map(|(net, _)| circuit.nets[net.0].as_str()).collect();
-    let joined: Vec<_> = pins.iter().map(|name| format!(".{name}({name})")).collect();
-    put(&mut text, format_args!("  {} device ({});\n", circuit.name, joined.join(", ")));
-    text.push_str(BENCH_PLAY);
-    for (net, _) in &circuit.inputs {
-        let name = &circuit.nets[net.0];
-        put(&mut text, format_args!("        {}: {name} = value[0];\n", net.0));
-    }
-    put(&mut text, format_args!("{BENCH_END}    #{tail_ps} $finish;\n  end\n"));
-    for (number, name) in circuit.nets.iter().enumerate().skip(2) {
-        let line = format!("$fwrite(edges, \"%0d {number} %b\\n\", $time, device.{name});");
-        put(&mut text, format_args!("  always @(device.{name}) {line}\n"));
-    }
-    text.push_str("endmodule\n");
-    text
-}
-
-const BENCH_HEAD: &str = "\
-`timescale 1ps/100fs
-module bench;
-  integer stimuli, edges, got, pin, value;
-  reg [63:0] at, now;
-";
-
-const BENCH_PLAY: &str = "  \
-  initial begin
-    now = 0;
-    stimuli = $fopen(\"stimuli.txt\", \"r\");
-    edges = $fopen(\"edges.txt\", \"w\");
-    got = $fscanf(stimuli, \"%d %d %d\", at, pin, value);
-    while (got == 3) begin
-      if (at != now) #(at - now);
-      now = at;
-      case (pin)
-";
-
-const BENCH_END: &str = "      \
-      endcase
-      got = $fscanf(stimuli, \"%d %d %d\", at, pin, value);
-    end
-";
-
 fn instance(circuit: &Circuit, element: &Element, edges: &[[u64; 2]], levels: &[bool]) -> String {
     let name = |net: &Net| circuit.nets[net.0].as_str();
     let joined = |nets: &[Net]| nets.iter().map(name).collect::<Vec<_>>().join(", ");
-    let first = format!(
-        ".RISE({}), .FALL({}), .INIT(1'b{})",
-        edges[0][0],
-        edges[0][1],
-        u8::from(levels[element.outputs[0].0])
-    );
+    let first = format!(".RISE({}), .FALL({})", edges[0][0], edges[0][1]);
     let (label, inputs) = (&element.name, &element.inputs);
     let output = name(&element.outputs[0]);
     if let Function::FlipFlop { j } = element.function {
@@ -109,13 +51,14 @@ fn instance(circuit: &Circuit, element: &Element, edges: &[[u64; 2]], levels: &[
         let [clock, preset, clear] = [0, 1, 2].map(|place| name(&inputs[place]));
         return format!(
             "  // {}\n  original_jk #(.J({}), .K({}), {first}, .RISE_BAR({}), .FALL_BAR({}), \
-             .CLOCK(1'b{})) part_{label} (\n    .q({output}), .q_bar({}), .clock({clock}), \
+             .INIT(1'b{}), .CLOCK(1'b{})) part_{label} (\n    .q({output}), .q_bar({}), .clock({clock}), \
              .preset({preset}), .clear({clear}), .j({{{}}}), .k({{{}}}));\n",
             element.part,
             j.len(),
             k.len(),
             edges[1][0],
             edges[1][1],
+            u8::from(levels[element.outputs[0].0]),
             u8::from(levels[inputs[0].0]),
             name(&element.outputs[1]),
             joined(j),
@@ -142,6 +85,6 @@ fn is_pin(circuit: &Circuit, net: Net) -> bool {
     circuit.outputs.iter().any(|(name, pin)| *pin == net && *name == circuit.nets[net.0])
 }
 
-fn put(text: &mut String, words: std::fmt::Arguments) {
+pub(crate) fn put(text: &mut String, words: std::fmt::Arguments) {
     text.write_fmt(words).expect("text takes text");
 }

@@ -11,7 +11,9 @@ use xtask::setup::Tools;
 
 /// Work on the project itself
 #[derive(Debug, Parser)]
-#[command(after_help = "Compiled when asked for, each with --help: prove, same-output, sbom")]
+#[command(
+    after_help = "Compiled when asked for, each with --help: prove, icarus, same-output, sbom"
+)]
 enum Task {
     /// Install what is missing of tools; then format, lints, documentation, all tests and the Python package
     Check {

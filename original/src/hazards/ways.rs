@@ -10,12 +10,12 @@ use crate::library::{FLIP_FLOP_PULSES, SN7400, SN7476, rc_limits};
 use crate::pulses::{Change, Train};
 use crate::simulator::{Check, Simulator};
 
-use super::{Hazard, begins, typical};
+use super::{Hazard, Waves, begins, typical};
 
 /// Time for everything to rest, ps.
 const REST_PS: u64 = 20_000_000;
 
-fn run<'a>(
+pub(super) fn run<'a>(
     circuit: &'a Circuit,
     delays: &Delays,
     changes: &[Change],
@@ -28,6 +28,14 @@ fn run<'a>(
     Ok(simulator)
 }
 
+/// The waves at the number where it begins; none when it does not.
+fn shown(
+    begins_ps: Option<u64>,
+    waves: impl FnOnce(u64) -> Result<Waves, Error>,
+) -> Result<Waves, Error> {
+    begins_ps.map_or_else(|| Ok(Waves::default()), waves)
+}
+
 fn rises(simulator: &mut Simulator, circuit: &Circuit, pin: &str) -> Result<usize, Error> {
     let net = circuit.pin(pin)?;
     let edges = simulator.take_edges();
@@ -36,8 +44,7 @@ fn rises(simulator: &mut Simulator, circuit: &Circuit, pin: &str) -> Result<usiz
 
 /// A slow NAND3 lets a clock pulse through NAND1 where a comparison begins: the laser leads in
 /// every one, Q is low, and rises nevertheless.
-pub(super) fn slow_nand3(clock_inputs: bool) -> Result<Hazard, Error> {
-    let inputs = if clock_inputs { ClockInputs::InPlace } else { ClockInputs::Missing };
+pub(super) fn slow_nand3(inputs: ClockInputs) -> Result<Hazard, Error> {
     let circuit = discriminator::with(inputs);
     let [start, middle, laser] = ["start", "middle", "laser"].map(|pin| circuit.pin(pin));
     let (start, middle, laser) = (start?, middle?, laser?);
@@ -48,22 +55,28 @@ pub(super) fn slow_nand3(clock_inputs: bool) -> Result<Hazard, Error> {
         train.pulse(number * 100_000_000 + 50_000_000, middle, 500_000);
     }
     let changes = train.changes();
+    let slow = |nand3_ps| typical(&circuit).with(&circuit, "nand3", [nand3_ps, nand3_ps]);
     let begins_ps = begins(1_000, 100_000, &mut |nand3_ps| {
-        let delays = typical(&circuit).with(&circuit, "nand3", [nand3_ps, nand3_ps])?;
-        Ok(0 < rises(&mut run(&circuit, &delays, &changes)?, &circuit, "q")?)
+        Ok(0 < rises(&mut run(&circuit, &slow(nand3_ps)?, &changes)?, &circuit, "q")?)
+    })?;
+    let wires = ["start", "meter", "standard", "nand3", "nand1", "q"];
+    let waves = shown(begins_ps, |nand3_ps| {
+        let window_ps = [199_980_000, 200_280_000];
+        Waves::of(&circuit, &slow(nand3_ps)?, &changes, &wires, window_ps)
     })?;
     Ok(Hazard {
         figure: "15, 16",
-        what: if clock_inputs {
-            "a direction is lost where a comparison begins"
-        } else {
-            "the same, the clock inputs taken out"
+        what: match inputs {
+            ClockInputs::Coupled => "a direction is lost where a comparison begins",
+            ClockInputs::OfClockLength => "the same with clock inputs of 14 ns, as of a 7472",
+            ClockInputs::Missing => "the same, the clock inputs taken out",
         },
         turned: "delay of NAND3, all else typical",
         begins_ps,
         given_ps: SN7400.limits.fall.longest_ps,
         above: true,
-        kept_away_by: "clock inputs that want a pulse of clock length",
+        kept_away_by: "clocks coupled in by an RC network",
+        waves,
     })
 }
 
@@ -76,11 +89,19 @@ pub(super) fn short_clear() -> Result<Hazard, Error> {
         train.pulse(number * REST_PS, pulse, REST_PS / 2);
     }
     let changes = train.changes();
-    let begins_ps = begins(40_000, 1, &mut |flip_flop_ps| {
+    let quick = |flip_flop_ps| {
         let delays = Delays::corner(&circuit, Corner::Shortest);
-        let delays = delays.with(&circuit, "units_c", [flip_flop_ps, flip_flop_ps])?;
-        let findings = run(&circuit, &delays, &changes)?.findings();
+        delays.with(&circuit, "units_c", [flip_flop_ps, flip_flop_ps])
+    };
+    let begins_ps = begins(40_000, 1, &mut |flip_flop_ps| {
+        let findings = run(&circuit, &quick(flip_flop_ps)?, &changes)?.findings();
         Ok(findings.iter().any(|finding| finding.check == Check::PresetClear))
+    })?;
+    let wires = ["pulse", "units_c", "coincidence", "clear_bar"];
+    let waves = shown(begins_ps, |flip_flop_ps| {
+        let fall_ps = 4 * REST_PS + REST_PS / 2;
+        let window_ps = [fall_ps - 20_000, fall_ps + 120_000];
+        Waves::of(&circuit, &quick(flip_flop_ps)?, &changes, &wires, window_ps)
     })?;
     Ok(Hazard {
         figure: "7",
@@ -90,6 +111,7 @@ pub(super) fn short_clear() -> Result<Hazard, Error> {
         given_ps: SN7476.limits.fall.shortest_ps,
         above: false,
         kept_away_by: "the delay before the clear",
+        waves,
     })
 }
 
@@ -101,15 +123,23 @@ pub(super) fn cut_line() -> Result<Hazard, Error> {
     let falls_ps = 2 * REST_PS;
     let delays = typical(&circuit);
     let line = circuit.pin("line")?;
-    let begins_ps = begins(2_000_000, 0, &mut |behind_ps| {
+    let lines = |behind_ps| {
         let mut train = Train::new();
         train.level(1_000_000, reset, false);
         train.pulse(falls_ps - REST_PS / 2, laser, REST_PS / 2);
         train.pulse(falls_ps - REST_PS / 4, grating, REST_PS / 4 + behind_ps);
-        let edges = run(&circuit, &delays, &train.changes())?.take_edges();
+        train.changes()
+    };
+    let begins_ps = begins(2_000_000, 0, &mut |behind_ps| {
+        let edges = run(&circuit, &delays, &lines(behind_ps))?.take_edges();
         let edges: Vec<_> = edges.iter().filter(|edge| edge.net == line).collect();
         let shortest_ps = FLIP_FLOP_PULSES.clock_high_ps;
         Ok(edges.windows(2).all(|pair| pair[1].time_ps - pair[0].time_ps < shortest_ps))
+    })?;
+    let waves = shown(begins_ps, |behind_ps| {
+        let window_ps = [falls_ps - 20_000, falls_ps + 180_000];
+        let wires = ["laser", "open", "grating", "line"];
+        Waves::of(&circuit, &delays, &lines(behind_ps), &wires, window_ps)
     })?;
     Ok(Hazard {
         figure: "8",
@@ -119,6 +149,7 @@ pub(super) fn cut_line() -> Result<Hazard, Error> {
         given_ps: 0,
         above: false,
         kept_away_by: "nothing: once in a pass, within this window, a line more or less",
+        waves,
     })
 }
 
@@ -128,17 +159,25 @@ pub(super) fn late_direction() -> Result<Hazard, Error> {
     let [request, forward] = ["request", "forward"].map(|pin| circuit.pin(pin));
     let (request, forward) = (request?, forward?);
     let delays = Delays::corner(&circuit, Corner::Longest);
-    let begins_ps = begins(2_000_000, 0, &mut |before_ps| {
+    let last_ps = 2049 * REST_PS;
+    let turned = |before_ps| {
         let mut train = Train::new();
         // To 2048 and one back: the whole chain has to follow.
         for number in 1..=2048 {
             train.pulse(number * REST_PS, request, REST_PS / 2);
         }
-        let last_ps = 2049 * REST_PS;
         train.level(last_ps - before_ps, forward, false);
         train.pulse(last_ps, request, REST_PS / 2);
-        let findings = run(&circuit, &delays, &train.changes())?.findings();
+        train.changes()
+    };
+    let begins_ps = begins(2_000_000, 0, &mut |before_ps| {
+        let findings = run(&circuit, &delays, &turned(before_ps))?.findings();
         Ok(findings.iter().any(|finding| finding.check == Check::Data))
+    })?;
+    let waves = shown(begins_ps, |before_ps| {
+        let window_ps = [last_ps - before_ps - 20_000, last_ps + 120_000];
+        let wires = ["forward", "up", "down", "toggle6", "toggle11", "taken"];
+        Waves::of(&circuit, &delays, &turned(before_ps), &wires, window_ps)
     })?;
     Ok(Hazard {
         figure: "17",
@@ -148,6 +187,7 @@ pub(super) fn late_direction() -> Result<Hazard, Error> {
         given_ps: 0,
         above: false,
         kept_away_by: "nothing in the text: the discriminator does not wait for the step oscillator",
+        waves,
     })
 }
 
@@ -156,12 +196,20 @@ pub(super) fn lost_pulse() -> Result<Hazard, Error> {
     let circuit = divider::circuit(4, Clear::Delayed);
     let pulse = circuit.pin("pulse")?;
     let delays = Delays::corner(&circuit, Corner::Longest);
-    let begins_ps = begins(10_000_000, 200_000, &mut |period_ps| {
+    let pulses = |period_ps| {
         let mut train = Train::new();
         for number in 1..=40 {
             train.pulse(number * period_ps, pulse, period_ps / 2);
         }
-        Ok(rises(&mut run(&circuit, &delays, &train.changes())?, &circuit, "divided")? != 10)
+        train.changes()
+    };
+    let begins_ps = begins(10_000_000, 200_000, &mut |period_ps| {
+        Ok(rises(&mut run(&circuit, &delays, &pulses(period_ps))?, &circuit, "divided")? != 10)
+    })?;
+    let waves = shown(begins_ps, |period_ps| {
+        let window_ps = [4 * period_ps, 6 * period_ps + 200_000];
+        let wires = ["pulse", "coincidence", "clear_bar", "units_a"];
+        Waves::of(&circuit, &delays, &pulses(period_ps), &wires, window_ps)
     })?;
     Ok(Hazard {
         figure: "7",
@@ -171,6 +219,7 @@ pub(super) fn lost_pulse() -> Result<Hazard, Error> {
         given_ps: 200_000_000,
         above: false,
         kept_away_by: "5000 fringes a second at 1.5 mm/s",
+        waves,
     })
 }
 
@@ -186,11 +235,16 @@ pub(super) fn added_pulse_too_close() -> Result<Hazard, Error> {
     let mut simulator = Simulator::new(&circuit, &shortest)?;
     let pulse = circuit.pin("pulse")?;
     simulator.watch(&[pulse]);
-    for (time_ps, pin, level) in train.changes() {
-        simulator.drive(time_ps, pin, level)?;
+    let changes = train.changes();
+    for (time_ps, pin, level) in &changes {
+        simulator.drive(*time_ps, *pin, *level)?;
     }
     simulator.run_until(1002 * REST_PS);
     let edges = simulator.take_edges();
+    let fall_ps = 1000 * REST_PS + REST_PS / 2;
+    let window_ps = [fall_ps - 100_000, fall_ps + 1_200_000];
+    let wires = ["laser", "due", "clear_bar", "pulse"];
+    let waves = Waves::of(&circuit, &shortest, &changes, &wires, window_ps)?;
     let pause_ps = edges.windows(2).map(|pair| pair[1].time_ps - pair[0].time_ps).min();
     Ok(Hazard {
         figure: "9",
@@ -200,6 +254,7 @@ pub(super) fn added_pulse_too_close() -> Result<Hazard, Error> {
         given_ps: pause_ps.unwrap_or(0),
         above: false,
         kept_away_by: "the carry through the decades, which the added pulse waits for",
+        waves,
     })
 }
 
@@ -217,9 +272,15 @@ pub(super) fn added_pulse_lost() -> Result<Hazard, Error> {
         train.pulse(number * REST_PS, laser, REST_PS / 2);
     }
     let changes = train.changes();
+    let late = |delay_ps| typical(&circuit).with(&circuit, "b_late", [delay_ps, delay_ps]);
     let begins_ps = begins(100_000, divider::DELAY_PS, &mut |delay_ps| {
-        let delays = typical(&circuit).with(&circuit, "b_late", [delay_ps, delay_ps])?;
-        Ok(rises(&mut run(&circuit, &delays, &changes)?, &circuit, "divided")? != 3)
+        Ok(rises(&mut run(&circuit, &late(delay_ps)?, &changes)?, &circuit, "divided")? != 3)
+    })?;
+    let waves = shown(begins_ps, |delay_ps| {
+        let fall_ps = 1000 * REST_PS + REST_PS / 2;
+        let window_ps = [fall_ps - 100_000, fall_ps + 1_400_000];
+        let wires = ["laser", "compensator_added", "divided", "b_clear_bar", "b_units_a"];
+        Waves::of(&circuit, &late(delay_ps)?, &changes, &wires, window_ps)
     })?;
     Ok(Hazard {
         figure: "9 and 7",
@@ -229,5 +290,6 @@ pub(super) fn added_pulse_lost() -> Result<Hazard, Error> {
         given_ps: rc_limits(divider::DELAY_PS).rise.longest_ps,
         above: true,
         kept_away_by: "an added pulse that waits for the clear; the text has no word of it",
+        waves,
     })
 }

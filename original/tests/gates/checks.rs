@@ -115,11 +115,8 @@ fn without_the_strobe_the_ripple_is_decoded() {
     }
 }
 
-/// Edges of Q in twelve comparisons of 1 ms whose meter is always wider than the standard.
-fn edges_of_q(inputs: ClockInputs, nand3_ps: u64) -> usize {
-    let circuit = with(inputs);
-    let typical = Delays::corner(&circuit, Corner::Typical);
-    let delays = typical.with(&circuit, "nand3", [nand3_ps, nand3_ps]).expect("a figure of ours");
+/// Twelve comparisons of 1 ms in each of which the laser leads.
+fn leading(circuit: &Circuit) -> Vec<helixlock_original::Change> {
     let [start, middle, laser] =
         ["start", "middle", "laser"].map(|pin| circuit.pin(pin).expect("a pin"));
     let mut train = Train::new();
@@ -129,7 +126,15 @@ fn edges_of_q(inputs: ClockInputs, nand3_ps: u64) -> usize {
         train.pulse(begin_ps + 400_000_000, laser, 500_000);
         train.pulse(begin_ps + 500_000_000, middle, 500_000);
     }
-    let mut simulator = after(&circuit, &delays, &train.changes());
+    train.changes()
+}
+
+/// Edges of Q in them, with a NAND3 of this delay.
+fn edges_of_q(inputs: ClockInputs, nand3_ps: u64) -> usize {
+    let circuit = with(inputs);
+    let typical = Delays::corner(&circuit, Corner::Typical);
+    let delays = typical.with(&circuit, "nand3", [nand3_ps, nand3_ps]).expect("a figure of ours");
+    let mut simulator = after(&circuit, &delays, &leading(&circuit));
     let q = circuit.pin("q").expect("a figure of ours");
     simulator.take_edges().iter().filter(|edge| edge.net == q).count()
 }
@@ -139,8 +144,38 @@ fn edges_of_q(inputs: ClockInputs, nand3_ps: u64) -> usize {
 /// itself.
 #[test]
 fn the_clock_inputs_keep_runts_from_the_direction() {
-    assert!(edges_of_q(ClockInputs::InPlace, 7_000) <= 1);
-    assert!(edges_of_q(ClockInputs::InPlace, 9_000) <= 1);
-    assert!(11 < edges_of_q(ClockInputs::InPlace, 40_000), "a NAND3 of 40 ns is no NAND3");
-    assert!(11 < edges_of_q(ClockInputs::Missing, 15_000), "within the data sheet");
+    assert!(edges_of_q(ClockInputs::Coupled, 15_000) <= 1, "the slowest of the data sheet");
+    assert!(11 < edges_of_q(ClockInputs::Coupled, 120_000), "a NAND3 of 120 ns is no NAND3");
+    assert!(edges_of_q(ClockInputs::OfClockLength, 9_000) <= 1);
+    assert!(11 < edges_of_q(ClockInputs::OfClockLength, 15_000), "within the data sheet");
+    assert!(11 < edges_of_q(ClockInputs::Missing, 8_000), "within the data sheet");
+}
+
+/// Every gate that makes the runt longer at its longest, every one that makes it shorter at its
+/// shortest, and the coupling as short as it may be: by hand, 11.5 + 16.5 + 15 + 18.5 = 61.5 ns.
+#[test]
+fn the_coupling_keeps_out_the_longest_runt_of_the_data_sheets() {
+    let delays = [
+        ("set", [5_500, 3_500]),
+        ("meter", [5_500, 3_500]),
+        ("standard_set", [22_000, 15_000]),
+        ("standard", [22_000, 15_000]),
+        ("nand3", [22_000, 15_000]),
+        ("nand1", [22_000, 3_500]),
+        ("cp1", [80_000; 2]),
+    ];
+    for (inputs, edges) in [(ClockInputs::Coupled, 1), (ClockInputs::OfClockLength, 23)] {
+        let circuit = with(inputs);
+        let mut worst = Delays::corner(&circuit, Corner::Typical);
+        for (element, edges) in &delays[..delays.len() - usize::from(edges > 1)] {
+            worst = worst.with(&circuit, element, *edges).expect("a figure of ours");
+        }
+        let mut simulator = after(&circuit, &worst, &leading(&circuit));
+        let all = simulator.take_edges();
+        let net = |pin: &str| circuit.pin(pin).expect("a figure of ours");
+        let runt = all.iter().filter(|edge| edge.net == net("nand1"));
+        let times: Vec<_> = runt.map(|edge| edge.time_ps).collect();
+        assert_eq!(times[1] - times[0], 61_500, "{inputs:?}");
+        assert_eq!(all.iter().filter(|edge| edge.net == net("q")).count(), edges, "{inputs:?}");
+    }
 }

@@ -1,10 +1,10 @@
-//! The figures do what their pages say, whatever the delays, and Icarus agrees on every edge.
+//! The figures do what their pages say, whatever the delays.
 
 mod checks;
 mod figures;
 mod hazards;
-mod icarus;
 mod properties;
+mod reaches;
 
 use helixlock_original::{Change, Circuit, Delays, Simulator};
 

@@ -1,7 +1,7 @@
 //! What holds for any delays within the limits of the data sheets.
 
 use bitvec::vec::BitVec;
-use helixlock_original::figures::{Clear, decade, divider, reset_counter, ring};
+use helixlock_original::figures::{Clear, decade, discriminator, divider, reset_counter, ring};
 use helixlock_original::{Circuit, Delays, Simulator, Train};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -84,6 +84,36 @@ proptest! {
             prop_assert_eq!(digit, (u64::from(state) + pulses) % 10);
         } else if 6 < pulses {
             prop_assert!(digit < 10);
+        }
+    }
+
+    /// Q is low after each comparison in which the laser led, high after each in which it lagged, and
+    /// changes where it decides alone: at the laser's edge or at the middle, not where both begin.
+    #[test]
+    fn discriminator_decides_where_it_should(
+        history in vec((any::<bool>(), 1_u64..20), 1..20), seed: u64,
+    ) {
+        let circuit = discriminator::circuit();
+        let mut simulator = Simulator::new(&circuit, &Delays::drawn(&circuit, seed)).unwrap();
+        let [start, middle, laser, q] =
+            ["start", "middle", "laser", "q"].map(|pin| circuit.pin(pin).unwrap());
+        for (number, (lags, by)) in (1..).zip(history) {
+            let (begin_ps, middle_ps) = (number * 100_000_000, number * 100_000_000 + 50_000_000);
+            let by_ps = by * 1_000_000;
+            let laser_ps = if lags { middle_ps + by_ps } else { middle_ps - by_ps };
+            let mut train = Train::new();
+            for (time_ps, pin) in [(begin_ps, start), (middle_ps, middle), (laser_ps, laser)] {
+                train.pulse(time_ps, pin, 500_000);
+            }
+            for (time_ps, pin, level) in train.changes() {
+                simulator.drive(time_ps, pin, level).unwrap();
+            }
+            simulator.run_until(begin_ps + 99_999_999);
+            prop_assert_eq!(simulator.level(q), lags);
+            let decides_ps = middle_ps.min(laser_ps);
+            for edge in simulator.take_edges().into_iter().filter(|edge| edge.net == q) {
+                prop_assert!(decides_ps < edge.time_ps, "{} of {}", edge.time_ps, decides_ps);
+            }
         }
     }
 
