@@ -15,7 +15,7 @@ use crate::support::command::{helixlock, put, repository, scratch};
 const STORIES: &str = r#"
 sim examples/sg7430-6mm/machine.toml --length 10 -o OUT/sim
 sim examples/sg7430-6mm/too-slow.toml --length 20 -o OUT/slow
-certify examples/sg7430-6mm/machine.toml --length 10 --gates=2 --pulses 100 --page OUT/certify.html
+certify examples/sg7430-6mm/machine.toml --length 10 --gates=2 --gates-spread 1 --wave OUT/gates.vcd --trace OUT/gates.csv --pulses 100 --page OUT/certify.html
 faults examples/sg7430-6mm/machine.toml --instants 1 --page OUT/faults.html
 sweep examples/sg7430-6mm/machine.toml --set "drive.frequency=80,160 Hz" --length 5 --shard 1/2 -o OUT/parts
 sweep examples/sg7430-6mm/machine.toml --set "drive.frequency=80,160 Hz" --length 5 --shard 2/2 -o OUT/parts
@@ -84,6 +84,7 @@ const WITH_PAGES: [&str; 12] = [
 const NAMES: &str = "
 alarm calibrator clock compensator correct device direction discriminator fault grating laser
 measuring playback ring selector start step zero
+coincidence divided down due forward line meter open pulse standard taken toggle6 toggle11 up
 fourier least-squares analog digital subdivided counting subdivided-counting
 height pitch order harmonic lines rack size offset amplitude phase
 lead-screw-grinder screw-axis laser-axis rotary-table telescope robot-joint gear-tester

@@ -1,8 +1,8 @@
 //! The keys of `certify --json`; they do not change.
 
-use helixlock_original::Hazard;
+use helixlock_original::{Corner, Hazard};
 use helixlock_sim::blocks::BlockCheck;
-use helixlock_sim::{Certificate, FlipFlop, WholeGates};
+use helixlock_sim::{Certificate, DelaySet, FlipFlop, WholeGates};
 use serde::Serialize;
 
 use crate::shared::keys::keys;
@@ -16,6 +16,30 @@ pub(crate) struct WholeJson {
     pub(crate) hazards: Vec<HazardJson>,
     /// `None` unless asked for.
     pub(crate) whole_original: Option<GatesJson>,
+    /// The same with other delays, those that were asked for.
+    pub(crate) whole_original_sets: Vec<SetJson>,
+}
+
+/// The whole original with one set of delays.
+#[derive(Serialize)]
+pub(crate) struct SetJson {
+    /// `shortest`, `longest` or `drawn`.
+    delays: &'static str,
+    seed: Option<u64>,
+    #[serde(flatten)]
+    gates: GatesJson,
+}
+
+impl SetJson {
+    pub(crate) fn new((set, gates): &(DelaySet, WholeGates)) -> Self {
+        let (delays, seed) = match set {
+            DelaySet::Corner(Corner::Shortest) => ("shortest", None),
+            DelaySet::Corner(Corner::Typical) => ("typical", None),
+            DelaySet::Corner(Corner::Longest) => ("longest", None),
+            DelaySet::Drawn(seed) => ("drawn", Some(*seed)),
+        };
+        Self { delays, seed, gates: GatesJson::new(gates) }
+    }
 }
 
 keys! {

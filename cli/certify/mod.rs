@@ -4,21 +4,23 @@ mod gates;
 mod json;
 mod page;
 mod sets;
+mod spread;
 mod text;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use helixlock_original::hazards;
+use helixlock_original::{Corner, Hazard, dump, hazards};
 use helixlock_plant::Model;
 use helixlock_sim::blocks::{BlockCheck, Blocks, Spread};
 use helixlock_sim::{
-    Course, FLIP_FLOP, FlipFlop, Options, certify, certify_gates, mtbf_log10_years, parallel,
+    Certificate, Course, DelaySet, FLIP_FLOP, FlipFlop, GateWaves, Options, WholeGates, certify,
+    certify_gates, gate_waves, mtbf_log10_years, parallel,
 };
 use helixlock_traces::csv::write_csv;
 
-use self::json::{BlockJson, CertificateJson, GatesJson, HazardJson, WholeJson};
+use self::json::{BlockJson, CertificateJson, GatesJson, HazardJson, SetJson, WholeJson};
 use crate::shared::cases::{Campaign, Cases, Row, Shard, Worked, apart_from_cases, write_numbers};
 use crate::shared::input::machine_files;
 use crate::shared::language::Reporter;
@@ -84,9 +86,18 @@ pub(crate) struct Certify {
     #[arg(long, value_name = "SEED", num_args = 0..=1, require_equals = true)]
     #[expect(clippy::option_option, reason = "the flag may come with a seed or without")]
     gates: Option<Option<u64>>,
+    /// The whole original also with all delays at either limit, and with so many drawn sets, which
+    /// begin at `--seed`
+    #[arg(long, value_name = "N", requires = "gates",
+          value_parser = clap::value_parser!(u64).range(0..=100_000))]
+    gates_spread: Option<u64>,
     /// What a recorder at the gates' meter draws, loop open, as a table that `diagnose` reads
     #[arg(long, value_name = "FILE.csv", requires = "gates")]
     trace: Option<PathBuf>,
+    /// Waveform of every gate of the whole original, loop closed: with `--length`, as a millimetre is
+    /// about a megabyte
+    #[arg(long, value_name = "FILE.vcd", requires = "gates", conflicts_with = "shard")]
+    wave: Option<PathBuf>,
     /// The same as a page
     #[arg(long, value_name = "FILE.html", conflicts_with = "shard")]
     page: Option<PathBuf>,
@@ -106,7 +117,8 @@ fn positive_ns(word: &str) -> Result<f64, String> {
 impl Certify {
     /// Runs the pass through both and prints what differs.
     pub(crate) fn run(self, out: &mut impl Reporter) -> anyhow::Result<ExitCode> {
-        let others = [("`--page`", &self.page), ("`--trace`", &self.trace)];
+        let others =
+            [("`--page`", &self.page), ("`--trace`", &self.trace), ("`--wave`", &self.wave)];
         let others = others.map(|(name, path)| (name, path.as_deref()));
         apart_from_cases(self.output.as_deref(), others)?;
         let machine = Model::read(&self.machine)?;
@@ -114,50 +126,92 @@ impl Certify {
             self.delay_sets(&machine)?.print(&CAMPAIGN, out)?;
             return Ok(ExitCode::SUCCESS);
         }
+        let answer = self.answer(&machine)?;
+        self.write_files(&machine, &answer, out)?;
+        if self.json { self.print_json(&answer, out) } else { self.print(&answer, out) }
+    }
+
+    /// Everything that is worked out.
+    fn answer(&self, machine: &Model) -> anyhow::Result<Answer> {
         let options = Options { length_mm: self.length };
-        let bar = progress::bar(Course::new(&machine, &options)?.clocks(), "clocks");
-        let certificate = certify(&machine, self.length, &mut |clocks| bar.set_position(clocks))?;
+        let bar = progress::bar(Course::new(machine, &options)?.clocks(), "clocks");
+        let certificate = certify(machine, self.length, &mut |clocks| bar.set_position(clocks))?;
         bar.finish_and_clear();
-        let sets = self.delay_sets(&machine)?;
+        let sets = self.delay_sets(machine)?;
         let checks = sets::checks_of(&sets.table, &self.spread())?;
-        let hazards = hazards()?;
-        let whole =
-            self.gates.map(|seed| certify_gates(&machine, self.length, seed)).transpose()?;
-        let (clock_hz, fringe_hz) = (certificate.clock_hz, certificate.fringe_hz);
-        let mtbf = mtbf_log10_years(self.flip_flop(), clock_hz, fringe_hz);
-        if let Some((path, whole)) = self.trace.as_ref().zip(whole.as_ref()) {
+        let delays = self.sets_of_gates();
+        let originals = match delays.as_slice() {
+            [] => vec![],
+            delays => certify_gates(machine, self.length, delays)?,
+        };
+        let originals = delays.into_iter().zip(originals).collect();
+        Ok(Answer { certificate, sets, checks, hazards: hazards()?, originals })
+    }
+
+    fn write_files(
+        &self,
+        machine: &Model,
+        answer: &Answer,
+        out: &mut impl Reporter,
+    ) -> anyhow::Result<()> {
+        let inputs = || machine_files(&self.machine, machine);
+        let first = answer.originals.first();
+        if let Some((path, (_, whole))) = self.trace.as_ref().zip(first) {
             let trace = gates::trace(&whole.drawn);
-            let inputs = machine_files(&self.machine, &machine);
-            write_whole(path, inputs, |mut file| Ok(write_csv(&trace, &mut file)?))?;
+            write_whole(path, inputs(), |mut file| Ok(write_csv(&trace, &mut file)?))?;
+        }
+        if let Some((path, (delays, _))) = self.wave.as_ref().zip(first) {
+            let GateWaves { circuit, initial, edges } = gate_waves(machine, self.length, *delays)?;
+            write_whole(path, inputs(), |file| Ok(dump(file, &circuit, &initial, &edges)?))?;
         }
         if let Some(path) = &self.page {
-            let page = page::page(&machine.title, &certificate, &checks, &hazards);
-            write_page(path, machine_files(&self.machine, &machine), &page, out.language())?;
+            let Answer { certificate, checks, hazards, .. } = answer;
+            let page = page::page(&machine.title, certificate, checks, hazards);
+            write_page(path, inputs(), &page, out.language())?;
         }
-        if self.json {
-            let words = CertificateJson::new(&certificate, self.flip_flop(), mtbf);
-            let blocks = checks.iter().map(BlockJson::new).collect();
-            let hazards = hazards.iter().map(HazardJson::new).collect();
-            let whole_original = whole.as_ref().map(GatesJson::new);
-            print_json(out, &WholeJson { certificate: words, blocks, hazards, whole_original })?;
-        } else {
-            text::print(&certificate, out)?;
-            let given = [self.settling, self.window, self.lost];
-            text::print_metastability(mtbf, given, out)?;
-            gates::print(&checks, out)?;
-            gates::print_hazards(&hazards, out)?;
-            whole.iter().try_for_each(|whole| gates::print_whole(whole, out))?;
-            if let Some(path) = &self.trace {
-                writeln!(out, "{}: what a recorder at the gates draws", path.display())?;
+        Ok(())
+    }
+
+    fn print_json(&self, answer: &Answer, out: &mut impl Reporter) -> anyhow::Result<ExitCode> {
+        let mut originals = answer.originals.iter();
+        let mtbf = self.mtbf_log10_years(&answer.certificate);
+        let all = WholeJson {
+            certificate: CertificateJson::new(&answer.certificate, self.flip_flop(), mtbf),
+            blocks: answer.checks.iter().map(BlockJson::new).collect(),
+            hazards: answer.hazards.iter().map(HazardJson::new).collect(),
+            whole_original: originals.next().map(|(_, whole)| GatesJson::new(whole)),
+            whole_original_sets: originals.map(SetJson::new).collect(),
+        };
+        print_json(out, &all)?;
+        Ok(status(answer.holds()))
+    }
+
+    fn print(&self, answer: &Answer, out: &mut impl Reporter) -> anyhow::Result<ExitCode> {
+        text::print(&answer.certificate, out)?;
+        let given = [self.settling, self.window, self.lost];
+        text::print_metastability(self.mtbf_log10_years(&answer.certificate), given, out)?;
+        gates::print(&answer.checks, out)?;
+        gates::print_hazards(&answer.hazards, out)?;
+        if let Some(((_, whole), others)) = answer.originals.split_first() {
+            gates::print_whole(whole, out)?;
+            if self.gates_spread.is_some() {
+                spread::print(others, out)?;
             }
-            sets.print(&CAMPAIGN, out)?;
-            print_page(out, self.page.as_deref())?;
-            Next::command("faults").words([&self.machine]).print(out)?;
         }
-        let holds = certificate.holds()
-            && checks.iter().all(BlockCheck::is_alike)
-            && whole.is_none_or(|whole| whole.holds());
-        Ok(status(holds))
+        if let Some(path) = &self.trace {
+            writeln!(out, "{}: what a recorder at the gates draws", path.display())?;
+        }
+        if let Some(path) = &self.wave {
+            writeln!(out, "{}: every gate, loop closed", path.display())?;
+        }
+        answer.sets.print(&CAMPAIGN, out)?;
+        print_page(out, self.page.as_deref())?;
+        Next::command("faults").words([&self.machine]).print(out)?;
+        Ok(status(answer.holds()))
+    }
+
+    fn mtbf_log10_years(&self, certificate: &Certificate) -> f64 {
+        mtbf_log10_years(self.flip_flop(), certificate.clock_hz, certificate.fringe_hz)
     }
 
     /// The figures with typical delays and with drawn ones, or a part of the sets.
@@ -179,6 +233,18 @@ impl Certify {
         })
     }
 
+    /// Delays of the whole original: what was asked for, then those of `--gates-spread`.
+    fn sets_of_gates(&self) -> Vec<DelaySet> {
+        let typical = DelaySet::Corner(Corner::Typical);
+        let first = self.gates.map(|seed| seed.map_or(typical, DelaySet::Drawn));
+        let limits = [Corner::Shortest, Corner::Longest].map(DelaySet::Corner);
+        let spread = self.gates_spread.into_iter().flat_map(|sets| {
+            let drawn = (0..sets).map(|set| DelaySet::Drawn(self.seed.wrapping_add(set)));
+            limits.into_iter().chain(drawn)
+        });
+        first.into_iter().chain(spread).collect()
+    }
+
     /// How much the figures are given.
     fn spread(&self) -> Spread {
         let Self { pulses, spread: drawn, seed, .. } = *self;
@@ -193,6 +259,24 @@ impl Certify {
             window_s: given_s(self.window, FLIP_FLOP.window_s),
             overhead_s: given_s(self.lost, FLIP_FLOP.overhead_s),
         }
+    }
+}
+
+/// What the command found.
+struct Answer {
+    certificate: Certificate,
+    sets: Worked,
+    checks: Vec<BlockCheck>,
+    hazards: Vec<Hazard>,
+    /// The whole original, with each set of delays that was asked for.
+    originals: Vec<(DelaySet, WholeGates)>,
+}
+
+impl Answer {
+    fn holds(&self) -> bool {
+        self.certificate.holds()
+            && self.checks.iter().all(BlockCheck::is_alike)
+            && self.originals.iter().all(|(_, whole)| whole.holds())
     }
 }
 

@@ -1,7 +1,9 @@
 //! Page of `helixlock certify`: the runs against their bounds, the figures gate by gate, the hazards.
 
-use helixlock_original::Hazard;
-use helixlock_report::{Axis, Colour, Label, Page, Panel, Part, Series, Style, Table};
+use helixlock_original::{Hazard, Wave};
+use helixlock_report::{
+    Axis, Colour, Label, Lane, Page, Panel, Part, Series, Style, Table, Waveform,
+};
 use helixlock_sim::blocks::BlockCheck;
 use helixlock_sim::{Certificate, OpenLoop};
 
@@ -23,7 +25,7 @@ pub(crate) fn page(
     Page {
         title: format!("{title}: the clocked logic against the original"),
         summary: holds.into(),
-        parts: vec![
+        parts: [
             Part::Numbers(numbers(all)),
             Part::Heading("Runs with the loop open".into()),
             Part::Table(runs(all)),
@@ -36,7 +38,10 @@ pub(crate) fn page(
                  never happened, cannot be drawn.",
             ),
             Part::Table(hazards_table(hazards)),
-        ],
+        ]
+        .into_iter()
+        .chain(hazards.iter().map(waveform))
+        .collect(),
     }
 }
 
@@ -126,6 +131,27 @@ fn margins(hazards: &[Hazard]) -> Panel {
     };
     panel.labels = numbered().filter_map(label).collect();
     panel
+}
+
+/// What wires do where a hazard begins.
+fn waveform(hazard: &Hazard) -> Part {
+    let lane = |wave: &Wave| {
+        let changes = wave.changes.iter().map(|(ps, level)| (nanoseconds(*ps), Some(*level)));
+        Lane::Bit {
+            name: wave.wire.to_owned(),
+            changes: [(0.0, Some(wave.level))].into_iter().chain(changes).collect(),
+        }
+    };
+    let waveform = Waveform {
+        width_px: 960,
+        time_label: "time in ns".into(),
+        range: [0.0, nanoseconds(hazard.waves.lasts_ps)],
+        lanes: hazard.waves.wires.iter().map(lane).collect(),
+        arrows: vec![],
+        marks: vec![],
+    };
+    let caption = format!("fig. {}: {}", hazard.figure, hazard.what);
+    Part::Picture { svg: waveform.svg(), caption }
 }
 
 fn hazards_table(hazards: &[Hazard]) -> Table {

@@ -8,7 +8,7 @@ mod parallel;
 pub mod sweep;
 
 pub use certify::{
-    BothClosed, Certificate, Drawn, FLIP_FLOP, FlipFlop, OpenLoop, WholeGates, blocks, certify,
-    certify_gates, mtbf_log10_years,
+    BothClosed, Certificate, DelaySet, Drawn, FLIP_FLOP, FlipFlop, GateWaves, OpenLoop, WholeGates,
+    blocks, certify, certify_gates, gate_waves, mtbf_log10_years,
 };
 pub use parallel::parallel;

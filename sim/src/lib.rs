@@ -8,8 +8,8 @@ mod error;
 mod historic;
 
 pub use campaigns::{
-    BothClosed, Certificate, Drawn, FLIP_FLOP, FlipFlop, OpenLoop, WholeGates, blocks, certify,
-    certify_gates, faults, mtbf_log10_years, parallel, sweep,
+    BothClosed, Certificate, DelaySet, Drawn, FLIP_FLOP, FlipFlop, GateWaves, OpenLoop, WholeGates,
+    blocks, certify, certify_gates, faults, gate_waves, mtbf_log10_years, parallel, sweep,
 };
 pub use closed_loop::{
     ANALOGUE, Analogue, Change, ClosedLoop, Comparison, Course, Findings, Grinder, Hunting,

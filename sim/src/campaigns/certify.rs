@@ -41,7 +41,7 @@ use crate::historic::TTL;
 pub use closed::BothClosed;
 pub use metastability::{FLIP_FLOP, FlipFlop, mtbf_log10_years};
 pub use open::OpenLoop;
-pub use whole::{Drawn, WholeGates, certify_gates};
+pub use whole::{DelaySet, Drawn, GateWaves, WholeGates, certify_gates, gate_waves};
 
 use coincidence::{Beat, Meeting};
 

@@ -34,6 +34,8 @@ pub(crate) struct GateRun {
     pub(crate) events: u64,
     /// What the data sheets do not allow, and what was swallowed.
     pub(crate) findings: Vec<Finding>,
+    /// Edges of every wire since power-up, where they are recorded.
+    pub(crate) edges: Vec<Edge>,
 }
 
 /// The circuit with its machine.
@@ -51,6 +53,8 @@ pub(crate) struct GateLoop<'a, P> {
     decided: bool,
     steps: i64,
     steps_at_ends: Vec<i64>,
+    /// Every edge, when it is recorded.
+    recorded: Option<Vec<Edge>>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -115,7 +119,16 @@ impl<'a, P: Process> GateLoop<'a, P> {
             decided: false,
             steps: 0,
             steps_at_ends: Vec::new(),
+            recorded: None,
         })
+    }
+
+    /// The same, and every edge of every wire is kept.
+    pub(crate) fn recorded(mut self) -> Self {
+        let all: Vec<Net> = (0..self.circuit.nets.len()).map(Net).collect();
+        self.gates.watch(&all);
+        self.recorded = Some(Vec::new());
+        self
     }
 
     /// Runs to an instant, s.
@@ -162,6 +175,7 @@ impl<'a, P: Process> GateLoop<'a, P> {
             counted,
             events: self.gates.events(),
             findings: self.gates.findings(),
+            edges: self.recorded.unwrap_or_default(),
         })
     }
 
@@ -174,8 +188,12 @@ impl<'a, P: Process> GateLoop<'a, P> {
             self.gates.drive(fall_ps, pin, false)?;
         }
         self.gates.run_until(to_ps.max(self.gates.now_ps()));
-        for edge in self.gates.take_edges() {
-            self.read(edge);
+        let edges = self.gates.take_edges();
+        for edge in &edges {
+            self.read(*edge);
+        }
+        if let Some(recorded) = &mut self.recorded {
+            recorded.extend(edges);
         }
         self.steps_at_ends.resize(self.reading.comparisons.len(), self.steps);
         Ok(())

@@ -10,12 +10,14 @@
 
 use helixlock_original::device::{Wheels, circuit};
 use helixlock_original::figures::compensator::Correction;
-use helixlock_original::{Check, Corner, Delays};
+use helixlock_original::{Check, Circuit, Corner, Delays, Edge, Simulator};
 use helixlock_plant::Model;
 use helixlock_rtl::settings::{Range, Settings};
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 use super::closed::{self, BothClosed, Synchronous};
 use super::open::{self, Difference, OpenLoop};
+use super::seen::Seen;
 use crate::Error;
 use crate::closed_loop::{Course, Grinder, Options, Process, reading_um, unwrap_um};
 use crate::historic::{GateLoop, GateRun, HistoricComparison};
@@ -90,7 +92,25 @@ impl WholeGates {
     }
 }
 
-/// Runs a pass through both; delays are typical, or drawn by a seed.
+/// Delays of one original.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DelaySet {
+    /// All parts alike.
+    Corner(Corner),
+    /// Each edge of each part between the limits of the data sheets, by a seed.
+    Drawn(u64),
+}
+
+impl DelaySet {
+    fn of(self, circuit: &Circuit) -> Delays {
+        match self {
+            Self::Corner(corner) => Delays::corner(circuit, corner),
+            Self::Drawn(seed) => Delays::drawn(circuit, seed),
+        }
+    }
+}
+
+/// Runs a pass through both, with each set of delays.
 ///
 /// # Errors
 ///
@@ -98,46 +118,96 @@ impl WholeGates {
 pub fn certify_gates(
     model: &Model,
     length_mm: Option<f64>,
-    seed: Option<u64>,
-) -> Result<WholeGates, Error> {
+    sets: &[DelaySet],
+) -> Result<Vec<WholeGates>, Error> {
     let course = Course::new(model, &Options { length_mm })?;
-    let (settings, clock_hz) = (course.dialled.settings, course.clock_hz());
+    let settings = course.dialled.settings;
     let circuit = circuit(&wheels(&settings)?);
-    let delays = match seed {
-        Some(seed) => Delays::drawn(&circuit, seed),
-        None => Delays::corner(&circuit, Corner::Typical),
-    };
-    let grinder = || Grinder::new(model, course.length_mm);
-    let ends_s = 1.0 / clock_hz + RIPPLE_S + PULSE_S;
+    let grinder = Grinder::new(model, course.length_mm)?;
+    let (clock_hz, duration_s) = (course.clock_hz(), course.duration_s);
+    let open = open::run_synchronous(&settings, grinder, clock_hz, duration_s, &mut |_| {})?;
+    let closed = closed::run_synchronous(model, &course, &mut |_| {})?;
+    let synchronous = Reference { model, course, settings, open, closed };
+    sets.par_iter().map(|set| synchronous.against(&circuit, &set.of(&circuit))).collect()
+}
 
-    let new =
-        open::run_synchronous(&settings, grinder()?, clock_hz, course.duration_s, &mut |_| {})?;
-    let first = GateLoop::new(&circuit, &delays, None, grinder()?)?.run(course.duration_s)?;
-    let pairs = new.iter().zip(&first.comparisons);
-    let differences: Vec<_> =
-        pairs.map(|(new, (old, _))| Difference::of(*new, old, clock_hz, ends_s)).collect();
-    let open = open::summary(&differences, 1.0 / clock_hz);
+/// Every wire of the whole original over a pass.
+#[derive(Clone, Debug)]
+pub struct GateWaves {
+    /// What is joined to what.
+    pub circuit: Circuit,
+    /// Levels at power-up, in the order of its wires.
+    pub initial: Vec<bool>,
+    /// All edges since, in the order of time.
+    pub edges: Vec<Edge>,
+}
 
-    let new: Synchronous = closed::run_synchronous(model, &course, &mut |_| {})?;
-    let ticks = Some(new.ticks(&settings, clock_hz));
-    let second = GateLoop::new(&circuit, &delays, ticks, grinder()?)?.run(course.duration_s)?;
-    let closed = closed::compared(model, &course, &new, &second.comparisons, ends_s);
-    if open.comparisons == 0 || closed.comparisons == 0 {
-        return Err(Error::NoComparison { length_mm: course.length_mm });
+/// Runs a pass with the loop closed and keeps every edge, some sixty thousand a millimetre.
+///
+/// # Errors
+///
+/// As [`certify_gates`].
+pub fn gate_waves(
+    model: &Model,
+    length_mm: Option<f64>,
+    set: DelaySet,
+) -> Result<GateWaves, Error> {
+    let course = Course::new(model, &Options { length_mm })?;
+    let settings = course.dialled.settings;
+    let circuit = circuit(&wheels(&settings)?);
+    let delays = set.of(&circuit);
+    let initial = Simulator::new(&circuit, &delays)?.levels().to_vec();
+    let synchronous = closed::run_synchronous(model, &course, &mut |_| {})?;
+    let ticks = Some(synchronous.ticks(&settings, course.clock_hz()));
+    let grinder = Grinder::new(model, course.length_mm)?;
+    let gates = GateLoop::new(&circuit, &delays, ticks, grinder)?.recorded();
+    let edges = gates.run(course.duration_s)?.edges;
+    Ok(GateWaves { circuit, initial, edges })
+}
+
+/// What the synchronous device made of the pass.
+struct Reference<'a> {
+    model: &'a Model,
+    course: Course,
+    settings: Settings,
+    open: Vec<Seen>,
+    closed: Synchronous,
+}
+
+impl Reference<'_> {
+    /// The original of these delays beside it.
+    fn against(&self, circuit: &Circuit, delays: &Delays) -> Result<WholeGates, Error> {
+        let Self { model, course, .. } = self;
+        let clock_hz = course.clock_hz();
+        let grinder = || Grinder::new(model, course.length_mm);
+        let ends_s = 1.0 / clock_hz + RIPPLE_S + PULSE_S;
+
+        let first = GateLoop::new(circuit, delays, None, grinder()?)?.run(course.duration_s)?;
+        let pairs = self.open.iter().zip(&first.comparisons);
+        let differences: Vec<_> =
+            pairs.map(|(new, (old, _))| Difference::of(*new, old, clock_hz, ends_s)).collect();
+        let open = open::summary(&differences, 1.0 / clock_hz);
+
+        let ticks = Some(self.closed.ticks(&self.settings, clock_hz));
+        let second = GateLoop::new(circuit, delays, ticks, grinder()?)?.run(course.duration_s)?;
+        let closed = closed::compared(model, course, &self.closed, &second.comparisons, ends_s);
+        if open.comparisons == 0 || closed.comparisons == 0 {
+            return Err(Error::NoComparison { length_mm: course.length_mm });
+        }
+        let [violations, swallowed] = found(&[&first, &second]);
+        Ok(WholeGates {
+            parts: circuit.elements.len(),
+            events: first.events + second.events,
+            open,
+            closed,
+            bound_s: 1.0 / clock_hz + RIPPLE_S,
+            bound_at_ends_s: ends_s,
+            violations,
+            swallowed,
+            drawn: Drawn::of(&first, grinder()?, course.full_scale_um),
+            miscounted: (second.steps.abs() % 4096).abs_diff(second.counted),
+        })
     }
-    let [violations, swallowed] = found(&[&first, &second]);
-    Ok(WholeGates {
-        parts: circuit.elements.len(),
-        events: first.events + second.events,
-        open,
-        closed,
-        bound_s: 1.0 / clock_hz + RIPPLE_S,
-        bound_at_ends_s: ends_s,
-        violations,
-        swallowed,
-        drawn: Drawn::of(&first, grinder()?, course.full_scale_um),
-        miscounted: (second.steps.abs() % 4096).abs_diff(second.counted),
-    })
 }
 
 fn wheels(settings: &Settings) -> Result<Wheels, Error> {
