@@ -206,7 +206,8 @@ impl Understood<'_> {
         };
         let kind = if rule.to.as_deref() == Some("error_arcsec") { "angle" } else { "length" };
         let scale = |unit: Option<String>| {
-            unit.and_then(|unit| data::unit(&unit, kind)).map_or(1.0, |unit| unit.scale)
+            let unit = unit.and_then(|unit| data::unit_with_factor(&unit, kind));
+            unit.map_or(1.0, |unit| unit.scale)
         };
         scale(unit(from)) / scale(rule.unit.clone().or(unit(to)))
     }
@@ -218,7 +219,7 @@ impl Understood<'_> {
         kind: &str,
         ours: &str,
     ) -> Result<(f64, f64), ImportError> {
-        let known = |spelling: &str| data::unit(spelling, kind);
+        let known = |spelling: &str| data::unit_with_factor(spelling, kind);
         let (Some(from), Some(to)) = (known(unit), known(ours)) else {
             let place =
                 self.grid.place(self.outline.header.last().copied().unwrap_or(0), Some(index));

@@ -2,6 +2,8 @@
 
 use std::sync::LazyLock;
 
+use crate::number::number;
+
 /// A unit: `value · scale + offset` is the value in the base unit of its kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Unit {
@@ -51,6 +53,23 @@ static TARGETS: LazyLock<Vec<Target>> = LazyLock::new(|| {
         .map(|[meaning, column, kind, unit]| Target { meaning, column, kind, unit })
         .collect()
 });
+
+/// The unit that a recipe names, which may have a factor: `0.1 mm`, `1/4096 rev` for the counts of an encoder.
+pub(crate) fn unit_with_factor(spelling: &str, kind: &str) -> Option<Unit> {
+    if let Some(unit) = unit(spelling, kind) {
+        return Some(unit);
+    }
+    let (factor, rest) = spelling.trim().split_once(' ')?;
+    let (above, below) = factor.split_once('/').unwrap_or((factor, "1"));
+    let factor = number(above, '.')? / number(below, '.')?;
+    let unit = unit(rest, kind).filter(|_| factor.is_finite() && 0.0 < factor)?;
+    Some(Unit { scale: factor * unit.scale, ..unit })
+}
+
+/// True for a kind of unit that a column of ours may have; a current has none.
+pub(crate) fn is_ours(kind: &str) -> bool {
+    targets().iter().any(|target| target.kind == kind)
+}
 
 /// The unit of a spelling, among those of a kind; of any kind when `kind` is empty.
 pub(crate) fn unit(spelling: &str, kind: &str) -> Option<Unit> {
@@ -114,5 +133,16 @@ mod tests {
         assert!((base(1.0, "°", "angle") - 3600.0).abs() < 1e-12);
         assert!((base(1.0, "\"", "angle") - 1.0).abs() < 1e-12);
         assert!((base(1.0, "inch", "length") - 25_400.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_unit_of_a_recipe_may_have_a_factor() {
+        let scale = |spelling, kind| unit_with_factor(spelling, kind).map(|unit| unit.scale);
+        assert_eq!(scale("0.5 mm", "length"), Some(500.0));
+        assert_eq!(scale("1/4096 rev", "angle"), Some(1_296_000.0 / 4096.0));
+        assert_eq!(scale("mm", "length"), Some(1000.0));
+        for wrong in ["0 mm", "-1 mm", "1/0 mm", "x mm", "2", "1/4096rev"] {
+            assert_eq!(scale(wrong, "length"), None, "{wrong}");
+        }
     }
 }

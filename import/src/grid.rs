@@ -207,6 +207,20 @@ impl Grid {
         self.push(cell.trim(), begun)
     }
 
+    /// This grid with other texts in some of its cells, which stay where they are.
+    pub(crate) fn replaced(&self, new: impl Fn(usize, &str) -> Option<String>) -> Self {
+        let mut grid = self.clone();
+        for row in 0..self.rows() {
+            for cell in self.range(row) {
+                let Some(text) = new(row, self.cell_text(cell)) else { continue };
+                let start = grid.text.len();
+                grid.text.push_str(&text);
+                (grid.cells[cell].0, grid.cells[cell].1) = (start, grid.text.len());
+            }
+        }
+        grid
+    }
+
     /// True for a sheet, where notes may stand beside a table.
     pub(crate) fn is_sheet(&self) -> bool {
         matches!(self.origin, Origin::Sheet(_))

@@ -91,7 +91,9 @@ pub(crate) fn read_name(name: &str) -> Header {
     };
     let split = |mark: &str| {
         let (bare, unit) = plain.rsplit_once(mark)?;
-        data::unit(unit, "").filter(|_| !bare.trim().is_empty())?;
+        // `phase_a` is in no ampere: what is not ours stands in brackets.
+        let ours = data::unit(unit, "").filter(|unit| data::is_ours(unit.kind));
+        ours.filter(|_| !bare.trim().is_empty())?;
         Some((bare.to_owned(), unit.trim().to_owned()))
     };
     let found = cut('[', ']')
@@ -110,14 +112,15 @@ pub(crate) fn read_name(name: &str) -> Header {
     Header { name: name.to_owned(), run: runs::run_of(&bare), bare, unit }
 }
 
-/// What a name means: the longest known word in it.
+/// What a name means: the longest known word in it; `Error Position` is an error, whatever is longer.
 pub(crate) fn meaning(bare: &str) -> Option<Word> {
     let plain = spaced(bare);
     let whole = data::words().iter().find(|word| word.spelling == plain);
     whole
         .or_else(|| {
             let within = data::words().iter().filter(|word| contains(&plain, word.spelling));
-            within.max_by_key(|word| word.spelling.chars().count())
+            let is_error = |word: &Word| word.meaning.ends_with("error");
+            within.max_by_key(|word| (is_error(word), word.spelling.chars().count()))
         })
         .copied()
 }
@@ -187,6 +190,8 @@ mod tests {
             ("pos (1)", "pos (1)", None),
             ("Time in s", "Time", Some("s")),
             ("x(i,1) [mm]", "x(i,1)", Some("mm")),
+            ("Measured Current [Amps]", "Measured Current", Some("Amps")),
+            ("phase_a", "phase_a", None),
         ] {
             let found = read_name(name);
             assert_eq!((found.bare.as_str(), found.unit.as_deref()), (bare, unit), "{name}");
@@ -201,10 +206,13 @@ mod tests {
             ("Lufttemperatur 1", "air temperature"),
             ("Axis-PosSet", "target"),
             ("Positioning Error", "error"),
+            ("Error Position", "error"),
             ("定位误差", "error"),
             ("偏差", "error"),
             ("target pos", "target"),
             ("时间", "time"),
+            ("Goal Position", "target"),
+            ("Present Position", "actual"),
         ] {
             assert_eq!(meaning(bare).map(|word| word.meaning), Some(expected), "{bare}");
         }

@@ -1,4 +1,4 @@
-//! Numbers that stand for no reading, as loggers and instruments write them.
+//! Numbers that stand for no reading, as loggers and instruments write them, and numbers in parentheses.
 //!
 //! A logger writes nines where it has nothing: `-999`, `9999.0`. They are asked about where no other
 //! value of their column comes near them.
@@ -6,15 +6,50 @@
 use toml_edit::{Array, Value};
 
 use crate::decide::Decisions;
+use crate::error::quoted;
 use crate::grid::Grid;
 use crate::header::Header;
 use crate::number::number;
 use crate::outline::Outline;
 use crate::question::Answer;
+use crate::recipe::Value as Word;
 use crate::samples::{Holds, Samples, rows};
 
 /// A mark is as far from all others as these are from each other, times this.
 const APART: f64 = 10.0;
+
+/// A grid without the parentheses around numbers: accountants write negative ones so, others what does not count.
+///
+/// `None` where none stands among numbers: a header may count its columns so.
+pub(crate) fn without_parentheses(
+    grid: &Grid,
+    decimal: char,
+    decisions: &mut Decisions<'_>,
+) -> Option<Grid> {
+    let inside = |cell: &str| {
+        let inside = cell.strip_prefix('(')?.strip_suffix(')')?.trim();
+        let unsigned = inside.starts_with(|c: char| c.is_ascii_digit());
+        number(inside, decimal).filter(|_| unsigned).map(|_| inside.to_owned())
+    };
+    let among_numbers = |row: &usize| {
+        let all = || grid.cells_of(*row).filter(|cell| !cell.is_empty());
+        all().any(|cell| inside(cell).is_some())
+            && all().any(|cell| number(cell, decimal).is_some())
+    };
+    let rows: Vec<usize> = (0..grid.rows()).filter(among_numbers).collect();
+    let first =
+        rows.iter().find_map(|row| grid.cells_of(*row).find(|cell| inside(cell).is_some()))?;
+    let text = format!("{} stands in parentheses", quoted(first));
+    if decisions.given("table", "parentheses").is_none() {
+        let words = [("negative", "such numbers are negative"), ("missing", "they do not count")];
+        decisions.ask("table", "parentheses", &text, &words);
+    }
+    let missing = decisions.given("table", "parentheses") == Some(&Word::Text("missing".into()));
+    Some(grid.replaced(|row, cell| {
+        let inside = inside(cell).filter(|_| rows.binary_search(&row).is_ok())?;
+        Some(if missing { String::new() } else { format!("-{inside}") })
+    }))
+}
 
 /// Asks about every such number.
 pub(crate) fn ask(

@@ -118,9 +118,18 @@ impl Looks<'_> {
             })
         };
         let first = wide.iter().copied().find(|row| fits(*row))?;
-        let header = self.header_above(first, width, &kinds);
+        let header = self.header_above(first, (width, self.filled(&wide)), &kinds);
         let top = header.first().copied().unwrap_or_else(|| wide[0].min(first));
         Some(Found { first: top, header: header.len(), width })
+    }
+
+    /// Cells up to the last that is filled, in most rows: spreadsheets write empty ones behind them.
+    fn filled(&self, rows: &[usize]) -> usize {
+        let mut widths = std::collections::BTreeMap::<usize, usize>::new();
+        for row in rows {
+            *widths.entry(self.grid.used_width(*row)).or_default() += 1;
+        }
+        widths.into_iter().max_by_key(|(_, rows)| *rows).map_or(0, |(width, _)| width)
     }
 
     /// What prevails in each column.
@@ -140,24 +149,27 @@ impl Looks<'_> {
     }
 
     /// Rows of names, units and groups right above the data, from the top.
-    fn header_above(&self, first: usize, width: usize, kinds: &[Look]) -> Vec<usize> {
+    ///
+    /// `widths` are the cells of a row, and those up to the last that most rows fill.
+    fn header_above(&self, first: usize, widths: (usize, usize), kinds: &[Look]) -> Vec<usize> {
         const MOST: usize = 3;
         let mut header = Vec::new();
         for row in (0..first).rev() {
             if self.grid.is_blank(row) && header.is_empty() || self.is_rule(row) {
                 continue;
             }
-            let names = self.is_names(row, width, kinds);
+            let names = self.is_names(row, widths, kinds);
             if header.len() == MOST || !names || self.is_repeated(row, &header) {
                 // A broken row of data right under the header is data.
-                if header.is_empty() && self.grid.used_width(row) == width && self.has_digit(row) {
+                if header.is_empty() && self.grid.used_width(row) == widths.0 && self.has_digit(row)
+                {
                     continue;
                 }
                 break;
             }
             header.insert(0, row);
             let units = self.is_units(row);
-            if !units && !self.group_above(row, width) {
+            if !units && !self.group_above(row, widths.0) {
                 break;
             }
         }
@@ -173,7 +185,7 @@ impl Looks<'_> {
     }
 
     /// Words in place of numbers, over about the width of the table.
-    fn is_names(&self, row: usize, width: usize, kinds: &[Look]) -> bool {
+    fn is_names(&self, row: usize, (width, filled): (usize, usize), kinds: &[Look]) -> bool {
         let used = self.grid.used_width(row);
         let words = self.count(row, Look::Words);
         let numbers: Vec<f64> = self
@@ -183,7 +195,7 @@ impl Looks<'_> {
             .collect();
         let counting = numbers.windows(2).all(|pair| (0.0..=1.0).contains(&(pair[1] - pair[0])));
         let counted = numbers.iter().all(|number| number.fract() <= 0.0 && *number < 1000.0);
-        let wide = used <= width + 1 && width <= used.max(1) * 2 && (1 < used || width == 1);
+        let wide = used <= width + 1 && filled <= used.max(1) * 2 && (1 < used || filled == 1);
         let differs = (0..width).any(|at| {
             kinds[at] == Look::Number && self.look(self.grid.cell(row, at)) == Look::Words
         });
@@ -213,10 +225,11 @@ impl Looks<'_> {
     }
 
     fn preamble_reason(&self, rows: usize) -> String {
-        match rows {
-            0 => "the header comes first".to_owned(),
-            _ => format!("{} lines above the table, from {}", rows, quoted(self.grid.cell(0, 0))),
+        if rows == 0 {
+            return "the header comes first".to_owned();
         }
+        let first = (0..rows).find(|row| !self.grid.is_blank(*row)).unwrap_or(0);
+        format!("{rows} lines above the table, from {}", quoted(self.grid.cell(first, 0)))
     }
 
     /// Rows of data, and what interrupts them.

@@ -1,6 +1,6 @@
 //! A recipe for a file, and a table by a recipe.
 
-use helixlock_traces::Table;
+use helixlock_traces::{Column, Table};
 
 use crate::build::{self, Built, Understood};
 use crate::data;
@@ -16,7 +16,7 @@ use crate::limits;
 use crate::marks;
 use crate::outline::{Outline, outline};
 use crate::question::Question;
-use crate::recipe::{ColumnRule, Recipe};
+use crate::recipe::{ColumnRule, Recipe, Value};
 use crate::rules;
 use crate::samples::samples;
 use crate::text;
@@ -141,6 +141,7 @@ fn read(source: Source<'_>, decisions: &mut Decisions<'_>) -> Result<Built, Impo
         "halsampler" => sampled(&lines, decisions),
         "camonitor" => understand(&formats::camonitor::grid(&lines, decisions)?, '.', decisions),
         "twincat" => understand(&formats::twincat::grid(&lines, decisions)?, '.', decisions),
+        "markdown" => table(&formats::markdown::chosen(&lines, decisions)?, decisions),
         "table" => table(&lines, decisions),
         other => {
             let found = format!("text, while the recipe says `format = \"{other}\"`");
@@ -173,6 +174,8 @@ pub(crate) fn understand(
     decimal: char,
     decisions: &mut Decisions<'_>,
 ) -> Result<Built, ImportError> {
+    let plain = marks::without_parentheses(grid, decimal, decisions);
+    let grid = plain.as_ref().unwrap_or(grid);
     let outline = outline(grid, decimal, decisions)?;
     if limits::COLUMNS < outline.width {
         let place = Place::file(decisions.file());
@@ -198,11 +201,31 @@ pub(crate) fn understand(
         rules: &rules,
         missing: &missing,
     };
-    let built = understood.build(decisions)?;
+    let mut built = understood.build(decisions)?;
+    evenly_timed(&mut built, decisions)?;
     if !fringes::are_in(&built.columns) || !decisions.questions.is_empty() {
         return Ok(built);
     }
     Ok(Built { columns: fringes::demodulated(&built.columns, decisions)?, ..built })
+}
+
+/// Counts the time from row to row, where a recipe says how long that takes.
+fn evenly_timed(built: &mut Built, decisions: &Decisions<'_>) -> Result<(), ImportError> {
+    let Some(Value::Number(period_s)) = decisions.given("table", "period_s") else { return Ok(()) };
+    let place = Place::file(decisions.file());
+    if *period_s <= 0.0 {
+        let found = format!("`period_s = {period_s}`");
+        return Err(ImportError::found(place, found, "a time from row to row, in seconds"));
+    }
+    if built.columns.iter().any(|column| column.name == "time_s") {
+        let found = "a column of times, while the recipe says `period_s`";
+        return Err(ImportError::found(place, found, "one of the two"));
+    }
+    let rows = built.columns.first().map_or(0, |column| column.values.len());
+    #[expect(clippy::cast_precision_loss, reason = "rows are far below 2⁵³")]
+    let values = (0..rows).map(|row| build::rounded(row as f64 * period_s)).collect();
+    built.columns.insert(0, Column { name: "time_s".to_owned(), values });
+    Ok(())
 }
 
 /// The unit of `Unit: mm` above the table.

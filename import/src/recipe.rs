@@ -65,6 +65,7 @@ pub(crate) const FORMATS: &[&str] = &[
     "halsampler",
     "camonitor",
     "twincat",
+    "markdown",
 ];
 
 const fn key(section: &'static str, name: &'static str, kind: Kind, meaning: &'static str) -> Key {
@@ -131,6 +132,7 @@ pub const KEYS: &[Key] = &[
     ),
     key("channels", "clock", Kind::Text(&[]), "the channel whose times count"),
     key("channels", "latency_s", Kind::Number, "how much later the other channel comes"),
+    key("markdown", "header", Kind::Text(&[]), "the line of names of the tables that are read"),
     key("halsampler", "period_s", Kind::Number, "from sample to sample: the period of the thread"),
     key("fringes", "wavelength_um", Kind::Number, "wavelength of the light in that air, µm"),
     key("fringes", "second_um", Kind::Number, "wavelength on the second detector, µm"),
@@ -143,6 +145,13 @@ pub const KEYS: &[Key] = &[
     key("table", "preamble", Kind::Whole(0, 1_000_000), "lines above the header that are left out"),
     key("table", "header", Kind::Whole(0, 3), "rows of names and units"),
     key("table", "missing", Kind::List, "words that stand for a missing value"),
+    key(
+        "table",
+        "parentheses",
+        Kind::Text(&["negative", "missing"]),
+        "what a number in parentheses is",
+    ),
+    key("table", "period_s", Kind::Number, "from row to row, where no column tells the time"),
     key("table", "date_order", Kind::Text(&["day", "month", "year"]), "what a date begins with"),
     key("table", "zone", Kind::Text(&[]), "the zone of times that name none, such as `+02:00`"),
     key(

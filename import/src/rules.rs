@@ -70,7 +70,7 @@ pub(crate) fn propose(
         .collect();
     candidates.iter_mut().for_each(by_content);
     let runs = run_columns(&mut candidates);
-    positions(&mut candidates, runs);
+    positions(&mut candidates, runs, decisions);
     candidates.iter_mut().for_each(by_word);
     one_of_each(&mut candidates, decisions);
     covariates(&mut candidates);
@@ -123,7 +123,7 @@ fn by_content(candidate: &mut Candidate<'_>) {
 }
 
 /// Target and actual position: the one is the coordinate, their difference the error.
-fn positions(candidates: &mut [Candidate<'_>], runs: bool) {
+fn positions(candidates: &mut [Candidate<'_>], runs: bool, decisions: &mut Decisions<'_>) {
     let column =
         |candidate: &Candidate<'_>| if candidate.is_angle() { "angle_rev" } else { "position_mm" };
     let open = |candidate: &Candidate<'_>, meaning: &str| {
@@ -145,6 +145,9 @@ fn positions(candidates: &mut [Candidate<'_>], runs: bool) {
     if runs {
         return run_values(candidates);
     }
+    if let Some(target) = target_of(candidates) {
+        given_as_error(candidates, target);
+    }
     let Some(target) = targets.first().filter(|_| targets.len() == 1) else { return };
     let target = candidates[*target].header.name.clone();
     let found = candidates.iter().any(|candidate| {
@@ -160,9 +163,62 @@ fn positions(candidates: &mut [Candidate<'_>], runs: bool) {
         if found {
             candidate
                 .decide(NONE, format!("where it came to; {} is the position", quoted(&target)));
-        } else if place == 0 && found_at.len() == 1 {
+        } else if place == 0 {
             difference(candidate, &target);
+        } else {
+            candidate.word = None; // another one is taken until the question is answered
         }
+    }
+    if !found && 1 < found_at.len() {
+        ask_which(candidates, &found_at, &target, decisions);
+    }
+}
+
+/// Several columns say where the axis came to: asks which of them measured it.
+fn ask_which(
+    candidates: &[Candidate<'_>],
+    found_at: &[usize],
+    target: &str,
+    decisions: &mut Decisions<'_>,
+) {
+    let answer = |at: &usize| {
+        let candidate = &candidates[*at];
+        let error = if candidate.is_angle() { "error_arcsec" } else { "error_um" };
+        error_answer(&candidate.header.name, error, target)
+    };
+    let text = format!("several columns may be where it came to, aimed at {}", quoted(target));
+    decisions.question(&text, found_at.iter().map(answer).collect());
+}
+
+/// Target minus what was found is the error.
+fn error_answer(actual: &str, error: &str, target: &str) -> Answer {
+    Answer {
+        label: format!("{} is where it came to", quoted(actual)),
+        recipe: format!(
+            "[[column]]\nfrom = {}\nto = \"{error}\"\nminus = {}\nsign = -1",
+            toml_edit::Value::from(actual),
+            toml_edit::Value::from(target),
+        ),
+    }
+}
+
+/// The one column that was aimed at, by its name.
+fn target_of(candidates: &[Candidate<'_>]) -> Option<usize> {
+    let mut all = (0..candidates.len()).filter(|at| candidates[*at].meaning() == "target");
+    all.next().filter(|_| all.next().is_none())
+}
+
+/// A position that a recipe calls an error, and that runs along with the target, is what it came to.
+fn given_as_error(candidates: &mut [Candidate<'_>], target: usize) {
+    let (name, values) = (candidates[target].header.name.clone(), candidates[target].samples);
+    let is_position = |candidate: &Candidate<'_>| {
+        matches!(candidate.meaning(), "actual" | "position")
+            && OBSERVED[..3].iter().any(|name| candidate.is(name))
+            && candidate.rule.minus.is_none()
+            && runs::follows(&candidate.samples.values, &values.values)
+    };
+    for candidate in candidates.iter_mut().filter(|candidate| is_position(candidate)) {
+        difference(candidate, &name);
     }
 }
 
@@ -218,6 +274,9 @@ fn one_of_each(candidates: &mut [Candidate<'_>], decisions: &mut Decisions<'_>) 
         }
         let given: Vec<usize> = same.iter().copied().filter(|at| candidates[*at].given).collect();
         let needed = OBSERVED.contains(&target) || COORDINATES.contains(&target);
+        if given.is_empty() && two_positions(candidates, &same, decisions) {
+            continue;
+        }
         if given.is_empty() && needed {
             let names: Vec<_> = same.iter().map(|at| candidates[*at].header.name.clone()).collect();
             let text = format!("`{}` may be `{target}` each", names.join("`, `"));
@@ -233,6 +292,37 @@ fn one_of_each(candidates: &mut [Candidate<'_>], decisions: &mut Decisions<'_>) 
             }
         }
     }
+}
+
+/// Of two positions and no error one is aimed at, and the other one where the axis came to: asks which.
+fn two_positions(
+    candidates: &mut [Candidate<'_>],
+    same: &[usize],
+    decisions: &mut Decisions<'_>,
+) -> bool {
+    let &[one, other] = same else { return false };
+    let place = ["position_mm", "angle_rev"].iter().find(|place| candidates[one].is(place));
+    let found = candidates.iter().any(|candidate| OBSERVED.iter().any(|name| candidate.is(name)));
+    let Some(place) = place.filter(|_| !found && candidates[other].rule.minus.is_none()) else {
+        return false;
+    };
+    let error = if *place == "angle_rev" { "error_arcsec" } else { "error_um" };
+    let names = [one, other].map(|at| candidates[at].header.name.clone());
+    let answer = |[target, actual]: [&String; 2]| {
+        let aimed_at = answers(std::slice::from_ref(target), place).remove(0);
+        let came_to = error_answer(actual, error, target);
+        Answer {
+            label: format!("{} is aimed at, {}", quoted(target), came_to.label),
+            recipe: format!("{}\n\n{}", aimed_at.recipe, came_to.recipe),
+        }
+    };
+    let text = format!("`{}` and `{}` are positions both", names[0], names[1]);
+    let [first, second] = [&names[0], &names[1]];
+    decisions.question(&text, vec![answer([first, second]), answer([second, first])]);
+    candidates[other].rule.to = None;
+    candidates[other].rule.reason.clear();
+    difference(&mut candidates[other], &names[0]);
+    true
 }
 
 /// A date and a time of day side by side make one instant.
@@ -302,7 +392,16 @@ fn observed(candidates: &[Candidate<'_>], decisions: &mut Decisions<'_>) {
         let to = if rotary { "error_arcsec" } else { "error_um" };
         decisions.question("no column is known as the measured error", answers(&free, to));
     }
-    if !has(&COORDINATES) && !has(&[COUNT]) && !free.is_empty() {
-        decisions.question("no column is known as position or time", answers(&free, "position_mm"));
+    let even = decisions.given("table", "period_s").is_some();
+    let numbers = candidates.iter().any(|candidate| candidate.samples.holds == Holds::Numbers);
+    if !has(&COORDINATES) && !has(&[COUNT]) && !even && numbers {
+        // The one column there is holds what was measured.
+        let free = if free.len() == 1 && !has(&OBSERVED) { &[] } else { free.as_slice() };
+        let mut ways = answers(free, "position_mm");
+        ways.push(Answer {
+            label: "a row comes every so many seconds".to_owned(),
+            recipe: "[table]\nperiod_s = 0.001".to_owned(),
+        });
+        decisions.question("no column is known as position or time", ways);
     }
 }

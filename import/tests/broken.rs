@@ -228,6 +228,20 @@ const BINARY: &[Case] = &[
     ("logger.h5", Byte(8, 9), ""),
     ("session.feather", Cut(8), ""),
     ("session.feather", Cut(2000), ""),
+    ("structure.mat", Cut(200), ""),
+    ("structure.mat", Cut(130), ""),
+    ("table.h5", Cut(3000), ""),
+    ("report.md", Replace("| 25.20000 |", "| 25.2OOO0 |"), ""),
+    ("report.md", Replace("2 | 1 | 25.20000 | 25.20070 |", "2 | 1 | 25.20000 |"), ""),
+    ("report.md", Replace("", ""), "[markdown]\nheader = \"From | To\""),
+    ("servo.csv", Replace("38,100,97", "38,1oo,97"), ""),
+    (
+        "servo.csv",
+        Replace("", ""),
+        "[[column]]\nfrom = \"Goal Position\"\nto = \"angle_rev\"\nunit = \"0/4096 rev\"\n[[column]]\nfrom = \"Present Position\"\nunit = \"mm\"",
+    ),
+    ("servo.csv", Replace("", ""), "[table]\nperiod_s = 0.1"),
+    ("servo.csv", Replace("", ""), "[table]\nparentheses = \"positive\""),
 ];
 
 const RECIPES: &[&str] = &[

@@ -186,3 +186,87 @@ fn packed_arrays_are_unpacked_and_the_recipe_says_so() {
         assert!((unpacked - packed / 1000.0).abs() < 1e-12);
     }
 }
+
+/// A number in parentheses is asked about; columns that are counted so in the header are not.
+#[test]
+fn numbers_in_parentheses_are_asked_about() {
+    let text = file("Position [mm];Error [um]", |row| {
+        let error = if row % 4 == 1 { format!("(0,{row})") } else { format!("0,{row}") };
+        format!("{row},5;{error}")
+    });
+    assert_eq!(asked(&text), ["`(0,1)` stands in parentheses"]);
+    let error = |word: &str| {
+        let proposal = proposed(&text, &format!("[table]\nparentheses = \"{word}\""));
+        assert!(proposal.questions.is_empty(), "{:?}", proposal.questions);
+        column(&proposal, "error_um")[5]
+    };
+    assert_eq!(error("negative").to_bits(), (-0.5_f64).to_bits());
+    assert!(error("missing").is_nan());
+    let counted = file("(1);(2)\nPosition [mm];Error [um]", |row| format!("{row},5;0,{row}"));
+    assert_eq!(asked(&counted), [""; 0]);
+}
+
+/// Of two positions one is aimed at: the error is their difference, whichever way the answer goes.
+#[test]
+fn two_positions_are_asked_which_is_aimed_at() {
+    let text = file("time [s],Axis PosAct [mm],Encoder PosAct [mm]", |row| {
+        format!("{row},{}.0,{}.002", 10 * row, 10 * row)
+    });
+    let open = proposed(&text, "");
+    let [question] = open.questions.as_slice() else { panic!("{:?}", open.questions) };
+    assert_eq!(question.text, "`Axis PosAct [mm]` and `Encoder PosAct [mm]` are positions both");
+    for (answer, sign) in question.answers.iter().zip([-1.0, 1.0]) {
+        let proposal = proposed(&text, &answer.recipe);
+        assert!(proposal.questions.is_empty(), "{:?}", proposal.questions);
+        let error = column(&proposal, "error_um")[7];
+        assert!((error - 2.0 * sign).abs() < 1e-9, "{error}");
+    }
+}
+
+/// Where several columns say where the axis came to, each answer takes one of them.
+#[test]
+fn several_readings_of_one_target_are_asked_about() {
+    let text = file("Target [mm],Motor Pos [mm],Scale Pos [mm]", |row| {
+        format!("{row}.0,{row}.001,{row}.002")
+    });
+    let open = proposed(&text, "");
+    let [question] = open.questions.as_slice() else { panic!("{:?}", open.questions) };
+    for (answer, expected) in question.answers.iter().zip([-1.0, -2.0]) {
+        let proposal = proposed(&text, &answer.recipe);
+        assert!(proposal.questions.is_empty(), "{:?}", proposal.questions);
+        assert!((column(&proposal, "error_um")[7] - expected).abs() < 1e-9);
+    }
+}
+
+/// What is measured in ampere is no error, whatever its name begins with.
+#[test]
+fn a_current_is_no_error() {
+    let text = file("Position [mm],Measured Current [A],Error [um]", |row| {
+        format!("{row}.5,0.{row},1.{row}")
+    });
+    let proposal = proposed(&text, "");
+    assert!(proposal.questions.is_empty(), "{:?}", proposal.questions);
+    assert_eq!(column(&proposal, "error_um").len(), 40);
+    assert!(proposal.table.column("measured_current_a").is_some());
+}
+
+/// Rows without a time may come evenly; a time from row to row that is none is refused.
+#[test]
+fn rows_that_come_evenly_have_a_time() {
+    let text = file("Error [um]", |row| format!("0.{row}"));
+    let open = proposed(&text, "");
+    let [question] = open.questions.as_slice() else { panic!("{:?}", open.questions) };
+    assert_eq!(question.text, "no column is known as position or time");
+    let [answer] = question.answers.as_slice() else { panic!("{:?}", question.answers) };
+    let proposal = proposed(&text, &answer.recipe);
+    assert!((column(&proposal, "time_s")[39] - 0.039).abs() < 1e-12);
+    assert_eq!(
+        refused(&text, "[table]\nperiod_s = 0.0"),
+        "data.csv: found `period_s = 0`, expected a time from row to row, in seconds"
+    );
+    let timed = file("time [s],Error [um]", |row| format!("{row},0.{row}"));
+    assert_eq!(
+        refused(&timed, "[table]\nperiod_s = 0.001"),
+        "data.csv: found a column of times, while the recipe says `period_s`, expected one of the two"
+    );
+}

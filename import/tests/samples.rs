@@ -67,6 +67,9 @@ fn samples_that_leave_nothing_open() {
         "session.feather",
         "logger.h5",
         "packed.h5",
+        "structure.mat",
+        "table.h5",
+        "report.md",
     ] {
         check(name, "");
     }
@@ -94,6 +97,10 @@ fn samples_that_need_an_answer_ask_for_it() {
             "[[column]]\nfrom = \"IOC:m1-PosSet\"\nunit = \"mm\"\n[[column]]\nfrom = \"IOC:enc1-PosAct\"\nunit = \"mm\"",
         ),
         (
+            "servo.csv",
+            "[[column]]\nfrom = \"Goal Position\"\nto = \"angle_rev\"\nunit = \"1/4096 rev\"\n[[column]]\nfrom = \"Present Position\"\nto = \"error_arcsec\"\nunit = \"1/4096 rev\"",
+        ),
+        (
             "scope.csv",
             "[[column]]\nfrom = \"SetPos\"\nunit = \"mm\"\n[[column]]\nfrom = \"ActPos\"\nunit = \"mm\"",
         ),
@@ -114,6 +121,26 @@ fn steps_of_a_session_are_counted_with_their_direction() {
     let (time_s, steps) = (column("time_s"), column("steps"));
     assert_eq!((steps.len(), steps[39], steps[64]), (65, 40.0, 15.0));
     assert!((time_s[64] - 0.323).abs() < 1e-12, "{}", time_s[64]);
+}
+
+/// Counts of a servo, 4096 a turn: 3 behind on the way there, 2 ahead on the way back.
+#[test]
+fn a_position_called_an_error_is_held_against_its_target() {
+    let given = "[[column]]\nfrom = \"Goal Position\"\nto = \"angle_rev\"\nunit = \"1/4096 rev\"\n[[column]]\nfrom = \"Present Position\"\nto = \"error_arcsec\"\nunit = \"1/4096 rev\"";
+    let table = check("servo.csv", given);
+    let error = table.column("error_arcsec").expect("the sample is whole");
+    let count = 1_296_000.0 / 4096.0;
+    assert!((error[3] - 3.0 * count).abs() < 1e-9 && (error[20] + 2.0 * count).abs() < 1e-9);
+}
+
+/// Both ways of a report lie under one header; their headings tell which is which.
+#[test]
+fn headings_of_a_report_tell_the_way() {
+    let table = check("report.md", "");
+    let direction = table.column("direction").expect("the headings tell it");
+    assert_eq!(direction.iter().filter(|way| **way < 0.0).count(), 8);
+    let error = table.column("error_um").expect("the sample is whole");
+    assert!((error[0] + 1.3).abs() < 1e-9 && (error[8] - 1.7).abs() < 1e-9);
 }
 
 /// The two encodings of one Chinese table give one table.

@@ -7,6 +7,7 @@ use super::figures::whole;
 use crate::decide::Decisions;
 use crate::error::ImportError;
 use crate::layout::{self, Runs};
+use crate::outline::Block;
 use crate::rules::COORDINATES;
 use crate::runs::run_of;
 use crate::samples::rows;
@@ -36,6 +37,8 @@ impl Understood<'_> {
             let text = |word: &str, reason: String| (word.to_owned(), reason);
             if 0 < held {
                 text("columns", format!("{held} columns hold a run each"))
+            } else if own("pass") && !own("direction") && self.headings_tell_ways() {
+                text("blocks", "a column tells the runs, headings tell the way".into())
             } else if own("pass") {
                 text("one", "a column tells the runs".into())
             } else if self.restart(path.or(clock)) {
@@ -63,6 +66,13 @@ impl Understood<'_> {
             }
         }
         Ok(columns)
+    }
+
+    /// True when the headings of all blocks tell which way they go, and some go back.
+    fn headings_tell_ways(&self) -> bool {
+        let way = |block: &Block| run_of(&block.heading).and_then(|run| run.direction);
+        let ways: Option<Vec<i64>> = self.outline.blocks.iter().map(way).collect();
+        ways.is_some_and(|ways| ways.contains(&1) && ways.contains(&-1))
     }
 
     /// True when blocks begin anew, and a stray blank line is not all there is.

@@ -1,11 +1,12 @@
 //! HDF5, and MATLAB files of version 7.3, which are HDF5: data sets of numbers, in whatever group.
+//! Of a compound set, such as a table of h5py, each member that is a number is an array.
 
 use std::panic::AssertUnwindSafe;
 
 use hdf5_reader::error::Error;
 use hdf5_reader::group::Group;
 use hdf5_reader::messages::datatype::Datatype;
-use hdf5_reader::{Dataset, H5Type, Hdf5File, OpenOptions};
+use hdf5_reader::{Dataset, H5Type, Hdf5File, OpenOptions, dtype_element_size};
 
 use super::arrays::{self, Array};
 use crate::build::rounded;
@@ -19,6 +20,9 @@ const DEPTH: usize = 16;
 
 /// Most data sets.
 const SETS: usize = 10_000;
+
+/// Most numbers in one element of a compound set.
+const MEMBERS: usize = 1_000;
 
 /// Where MATLAB keeps what its cells refer to.
 const REFERENCES: &str = "#refs#";
@@ -126,24 +130,97 @@ impl Walk {
         let Some((rows, columns)) = arrays::upright(&shape).filter(|_| self.sets <= SETS) else {
             return Ok(());
         };
-        self.numbers = self.numbers.saturating_add(rows.saturating_mul(columns));
+        let name = format!("{path}{}", last(set.name()));
+        let mut members = Vec::new();
+        Member { name, offset: 0, kind: set.dtype() }.numbers(&mut members);
+        let cells = rows.saturating_mul(columns).saturating_mul(members.len());
+        self.numbers = self.numbers.saturating_add(cells);
         if limits::CELLS < self.numbers {
             return Err(Error::InvalidData(format!("more than {} numbers", limits::CELLS)));
         }
-        let Some(values) = values(set)? else { return Ok(()) };
-        if values.len() != rows * columns || values.is_empty() {
+        if cells == 0 {
             return Ok(());
         }
-        // HDF5 holds row by row; MATLAB writes its columns as rows.
-        let (rows, values) = match (columns, from_matlab) {
-            (1, _) => (rows, values),
-            (_, true) => (columns, values),
-            (_, false) => (rows, transposed(&values, columns)),
-        };
-        let name = format!("{path}{}", last(set.name()));
-        self.packed.extend(Packing::of(set).map(|packing| (name.clone(), packing)));
-        self.arrays.push(Array { name, rows, values });
+        if let [Member { name, .. }] = members.as_slice() {
+            self.packed.extend(Packing::of(set).map(|packing| (name.clone(), packing)));
+        }
+        let (bytes, element) = (set.read_raw_bytes()?, set.raw_element_size()?.max(1));
+        for member in members {
+            let values: Option<Vec<f64>> =
+                bytes.chunks_exact(element).map(|element| member.value(element)).collect();
+            let Some(values) = values.filter(|values| values.len() == rows * columns) else {
+                continue;
+            };
+            // HDF5 holds row by row; MATLAB writes its columns as rows.
+            let (rows, values) = match (columns, from_matlab) {
+                (1, _) => (rows, values),
+                (_, true) => (columns, values),
+                (_, false) => (rows, transposed(&values, columns)),
+            };
+            self.arrays.push(Array { name: member.name, rows, values });
+        }
         Ok(())
+    }
+}
+
+/// A part of each element of a set: a number, or what holds numbers.
+struct Member<'a> {
+    name: String,
+    offset: usize,
+    kind: &'a Datatype,
+}
+
+impl Member<'_> {
+    /// The numbers in it, one behind the other; texts, references and enumerations are passed over.
+    fn numbers(self, found: &mut Vec<Self>) {
+        match self.kind {
+            Datatype::Compound { fields, .. } => {
+                for field in fields {
+                    let name = format!("{}/{}", self.name, field.name);
+                    let offset = self.offset.saturating_add(field.byte_offset as usize);
+                    Member { name, offset, kind: &field.datatype }.numbers(found);
+                }
+            }
+            Datatype::Array { base, dims } => {
+                let size = dtype_element_size(base).unwrap_or(usize::MAX);
+                let number: u64 = dims.iter().fold(1, |all, one| all.saturating_mul(*one));
+                for index in (0..usize::try_from(number).unwrap_or(MEMBERS)).take(MEMBERS) {
+                    let name = format!("{} {}", self.name, index + 1);
+                    let offset = self.offset.saturating_add(index.saturating_mul(size));
+                    Member { name, offset, kind: base }.numbers(found);
+                }
+            }
+            Datatype::FixedPoint { .. } | Datatype::FloatingPoint { .. }
+                if found.len() < MEMBERS =>
+            {
+                found.push(self);
+            }
+            _ => {}
+        }
+    }
+
+    /// The number in an element; `None` for one of a size that no machine computes with.
+    #[expect(clippy::cast_precision_loss, reason = "counters of 64 bits are read as floats do")]
+    fn value(&self, element: &[u8]) -> Option<f64> {
+        fn read<T: H5Type + Into<f64>>(bytes: &[u8], kind: &Datatype) -> Option<f64> {
+            T::from_bytes(bytes, kind).ok().map(Into::into)
+        }
+        let kind = self.kind;
+        let bytes = element.get(self.offset..)?.get(..dtype_element_size(kind).ok()?)?;
+        match kind {
+            Datatype::FloatingPoint { size: 4, .. } => read::<f32>(bytes, kind),
+            Datatype::FloatingPoint { .. } => read::<f64>(bytes, kind),
+            Datatype::FixedPoint { size: 1, signed: true, .. } => read::<i8>(bytes, kind),
+            Datatype::FixedPoint { size: 1, .. } => read::<u8>(bytes, kind),
+            Datatype::FixedPoint { size: 2, signed: true, .. } => read::<i16>(bytes, kind),
+            Datatype::FixedPoint { size: 2, .. } => read::<u16>(bytes, kind),
+            Datatype::FixedPoint { size: 4, signed: true, .. } => read::<i32>(bytes, kind),
+            Datatype::FixedPoint { size: 4, .. } => read::<u32>(bytes, kind),
+            Datatype::FixedPoint { signed: true, .. } => {
+                i64::from_bytes(bytes, kind).ok().map(|value| value as f64)
+            }
+            _ => u64::from_bytes(bytes, kind).ok().map(|value| value as f64),
+        }
     }
 }
 
@@ -154,30 +231,4 @@ fn last(path: &str) -> &str {
 
 fn transposed(values: &[f64], columns: usize) -> Vec<f64> {
     (0..columns).flat_map(|column| values.iter().skip(column).step_by(columns).copied()).collect()
-}
-
-/// The numbers of a set, row by row; `None` when it holds none.
-#[expect(clippy::cast_precision_loss, reason = "counters of 64 bits are read as floats do")]
-fn values(set: &Dataset) -> Result<Option<Vec<f64>>, Error> {
-    fn floats<T: H5Type + Copy + Into<f64>>(set: &Dataset) -> Result<Vec<f64>, Error> {
-        Ok(set.read_array::<T>()?.iter().map(|value| (*value).into()).collect())
-    }
-    let values = match *set.dtype() {
-        Datatype::FloatingPoint { size: 4, .. } => floats::<f32>(set)?,
-        Datatype::FloatingPoint { size: 8, .. } => floats::<f64>(set)?,
-        Datatype::FixedPoint { size: 1, signed: true, .. } => floats::<i8>(set)?,
-        Datatype::FixedPoint { size: 1, signed: false, .. } => floats::<u8>(set)?,
-        Datatype::FixedPoint { size: 2, signed: true, .. } => floats::<i16>(set)?,
-        Datatype::FixedPoint { size: 2, signed: false, .. } => floats::<u16>(set)?,
-        Datatype::FixedPoint { size: 4, signed: true, .. } => floats::<i32>(set)?,
-        Datatype::FixedPoint { size: 4, signed: false, .. } => floats::<u32>(set)?,
-        Datatype::FixedPoint { size: 8, signed: true, .. } => {
-            set.read_array::<i64>()?.iter().map(|value| *value as f64).collect()
-        }
-        Datatype::FixedPoint { size: 8, signed: false, .. } => {
-            set.read_array::<u64>()?.iter().map(|value| *value as f64).collect()
-        }
-        _ => return Ok(None),
-    };
-    Ok(Some(values))
 }

@@ -1,7 +1,7 @@
-//! MATLAB files up to version 7: arrays of numbers; texts, cells and structures are passed over.
+//! MATLAB files up to version 7: arrays of numbers, in whatever structure or cell; texts are passed over.
 //!
 //! Format: `MathWorks`, "MAT-File Format", version 5: elements of a type and a length, an array being
-//! one that holds four others. Version 7.3 is HDF5. Of the crates for it one prints on its own and
+//! one that holds four others, a structure one that holds arrays. Version 7.3 is HDF5. Of the crates for it one prints on its own and
 //! refuses a file for one array of whole numbers, the other needs a crate that is given up.
 
 use std::io::Read;
@@ -21,6 +21,11 @@ const TAG: usize = 8;
 /// Types of elements: an array, and one that is packed.
 const MATRIX: u32 = 14;
 const PACKED: u32 = 15;
+/// Classes of arrays that hold arrays.
+const CELLS: u32 = 1;
+const STRUCTURE: u32 = 2;
+/// Deepest structures; programs write two or three.
+const DEPTH: usize = 16;
 /// Classes of arrays whose elements are numbers, and the mark of complex ones.
 const NUMBERS: std::ops::RangeInclusive<u32> = 6..=15;
 const COMPLEX: u32 = 0x800;
@@ -36,13 +41,14 @@ pub(crate) fn grid(bytes: &[u8], decisions: &mut Decisions<'_>) -> Result<Grid, 
     if limits::UNPACKED < plain.len() {
         return Err(refused("more than it may unpack to", &format!("{} bytes", limits::UNPACKED)));
     }
-    let elements = Elements { rest: &plain, is_swapped };
-    let matrices = elements.filter(|(kind, _)| *kind == MATRIX);
-    let arrays: Vec<Array> =
-        matrices.filter_map(|(_, body)| array(Elements { rest: body, is_swapped })).collect();
+    let mut arrays = Vec::new();
+    for (kind, body) in (Elements { rest: &plain, is_swapped }) {
+        if kind == MATRIX {
+            walk(Elements { rest: body, is_swapped }, "", 0, &mut arrays);
+        }
+    }
     if arrays.is_empty() {
-        let hint = "`save('x.mat', '-struct', 's')` in MATLAB saves the fields of `s` as arrays";
-        return Err(refused("no array of numbers", "arrays that are columns").hinted(hint));
+        return Err(refused("no array of numbers", "arrays that are columns"));
     }
     arrays::grid("arrays", &arrays, decisions)
 }
@@ -97,21 +103,52 @@ impl<'a> Iterator for Elements<'a> {
     }
 }
 
-/// An array of numbers; `None` for any other, complex numbers, and more than two dimensions.
-fn array(mut parts: Elements<'_>) -> Option<Array> {
+/// The arrays of numbers in an element; `path` is where it stands, for its own name is then empty.
+///
+/// Complex numbers, more than two dimensions, and what contradicts itself are passed over.
+fn walk(mut parts: Elements<'_>, path: &str, depth: usize, found: &mut Vec<Array>) -> Option<()> {
     let is_swapped = parts.is_swapped;
     let flags = word(parts.next()?.1, is_swapped);
-    if !NUMBERS.contains(&(flags & 0xFF)) || flags & COMPLEX != 0 {
-        return None;
-    }
     let shape: Vec<usize> =
         parts.next()?.1.chunks_exact(4).map(|length| word(length, is_swapped) as usize).collect();
-    let name = String::from_utf8_lossy(parts.next()?.1).into_owned();
-    let (kind, body) = parts.next()?;
-    let (rows, columns) = arrays::upright(&shape)?;
-    let values = numbers(kind, body, is_swapped)?;
-    let whole = !values.is_empty() && values.len() == rows.checked_mul(columns)?;
-    whole.then_some(Array { name, rows, values })
+    let name = format!("{path}{}", String::from_utf8_lossy(parts.next()?.1));
+    match flags & 0xFF {
+        CELLS | STRUCTURE if depth == DEPTH => None,
+        CELLS => {
+            for (index, (_, cell)) in parts.enumerate() {
+                let path = format!("{name} {}", index + 1);
+                walk(Elements { rest: cell, is_swapped }, &path, depth + 1, found);
+            }
+            Some(())
+        }
+        STRUCTURE => {
+            let longest = word(parts.next()?.1, is_swapped) as usize;
+            let names: Vec<String> =
+                parts.next()?.1.chunks_exact(longest.max(1)).map(text).collect();
+            let several = 1 < shape.iter().product::<usize>();
+            for (index, (_, field)) in parts.enumerate() {
+                let number = index.checked_div(names.len())? + 1;
+                let number = if several { format!(" {number}") } else { String::new() };
+                let path = format!("{name}{number}/{}", names[index % names.len()]);
+                walk(Elements { rest: field, is_swapped }, &path, depth + 1, found);
+            }
+            Some(())
+        }
+        class if NUMBERS.contains(&class) && flags & COMPLEX == 0 => {
+            let (kind, body) = parts.next()?;
+            let (rows, columns) = arrays::upright(&shape)?;
+            let values = numbers(kind, body, is_swapped)?;
+            let whole = !values.is_empty() && values.len() == rows.checked_mul(columns)?;
+            whole.then(|| found.push(Array { name, rows, values }))
+        }
+        _ => None,
+    }
+}
+
+/// A name of a field, which ends at its first zero.
+fn text(bytes: &[u8]) -> String {
+    let end = bytes.iter().position(|byte| *byte == 0).unwrap_or(bytes.len());
+    String::from_utf8_lossy(&bytes[..end]).into_owned()
 }
 
 /// The numbers of an element; MATLAB stores them as small as they go.

@@ -8,6 +8,7 @@ pub(crate) mod eqmod;
 pub(crate) mod hdf5;
 pub(crate) mod iso230;
 pub(crate) mod linuxcnc;
+pub(crate) mod markdown;
 pub(crate) mod matlab;
 pub(crate) mod npy;
 pub(crate) mod parquet;
@@ -113,6 +114,8 @@ pub(crate) fn textual(name: &str, lines: &[&str]) -> (&'static str, &'static str
         ("camonitor", "a name, a date, a time and a value in each line")
     } else if twincat::fits(lines) {
         ("twincat", "the header of a TwinCAT scope")
+    } else if markdown::fits(lines) {
+        ("markdown", "a line of dashes stands below a line of names")
     } else if ending == "comp" && linuxcnc::is_comp(lines) {
         ("linuxcnc-comp", "the ending `.comp` and three numbers a line")
     } else if linuxcnc::is_sampler(lines) {

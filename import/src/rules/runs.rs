@@ -110,7 +110,7 @@ pub(super) fn run_values(candidates: &mut [Candidate<'_>]) {
 }
 
 /// True when values run along with the targets, and do not just differ from them.
-fn follows(values: &[f64], targets: &[f64]) -> bool {
+pub(super) fn follows(values: &[f64], targets: &[f64]) -> bool {
     let pairs = || values.iter().zip(targets).filter(|(v, t)| v.is_finite() && t.is_finite());
     let spread = |pick: fn((&f64, &f64)) -> f64| {
         let (low, high) =

@@ -81,6 +81,24 @@ fn all_below_one(values: &[f64]) -> bool {
     finite().all(|value| (0.0..=1.0).contains(value)) && finite().any(|value| 0.0 < *value)
 }
 
+/// What moves may turn; whole numbers may be counts of an encoder.
+fn angle_answers(candidate: &Candidate<'_>, target: Target) -> Vec<Answer> {
+    let to = if target.column == "position_mm" { "angle_rev" } else { "error_arcsec" };
+    let mut values = candidate.samples.values.iter().filter(|value| value.is_finite());
+    let counts = values.all(|value| value.fract().abs() <= 0.0);
+    let units = [
+        ("deg", "deg: an angle"),
+        ("rad", "rad: an angle"),
+        ("1/4096 rev", "counts, 4096 of them a turn"),
+    ];
+    let from = toml_edit::Value::from(candidate.header.name.as_str());
+    let answer = |(unit, label): &(&str, &str)| Answer {
+        label: (*label).to_owned(),
+        recipe: format!("[[column]]\nfrom = {from}\nto = \"{to}\"\nunit = \"{unit}\""),
+    };
+    units[..if counts { 3 } else { 2 }].iter().map(answer).collect()
+}
+
 /// A workbook shows 0.45 as 45 % and keeps 0.45.
 fn ask_fraction(candidate: &mut Candidate<'_>, decisions: &mut Decisions<'_>) {
     let name = &candidate.header.name;
@@ -105,6 +123,9 @@ fn ask_unit(candidate: &mut Candidate<'_>, target: Target, decisions: &mut Decis
     let name = &candidate.header.name;
     let text = format!("the unit of column {} is not told", quoted(name));
     let mut answers = unit_answers(name, units);
+    if target.kind == "length" && ["target", "actual", "position"].contains(&candidate.meaning()) {
+        answers.extend(angle_answers(candidate, target));
+    }
     if target.kind == "fraction" {
         answers.push(Answer {
             label: "another quantity: left out".to_owned(),
