@@ -2,6 +2,7 @@
 
 mod bound;
 mod memory;
+mod mistakes;
 mod operators;
 
 use exmex::{Express, FlatEx};
@@ -128,6 +129,9 @@ impl Custom {
         }
         let (text, calls) =
             taken_out(formula).map_err(|usage| refuse(format!("a memory is written `{usage}`")))?;
+        if let Some(mistake) = mistakes::first(&text) {
+            return Err(refuse(mistake));
+        }
         let expression =
             Expression::parse(&text).map_err(|error| refuse(error.msg().to_lowercase()))?;
         let memories: Vec<Memory> = calls

@@ -37,7 +37,7 @@ impl MatchLiteral for Numbers {
     }
 }
 
-type Function = fn(f64) -> f64;
+pub(super) type Function = fn(f64) -> f64;
 
 /// True for a word that is a function or a constant, and so no name of a parameter.
 pub(super) fn is_taken(word: &str) -> bool {
@@ -45,7 +45,7 @@ pub(super) fn is_taken(word: &str) -> bool {
 }
 
 /// Functions of one argument.
-const FUNCTIONS: &[(&str, Function)] = &[
+pub(super) const FUNCTIONS: &[(&str, Function)] = &[
     ("abs", f64::abs),
     ("sign", |a| if a == 0.0 { 0.0 } else { f64::signum(a) }),
     ("sqrt", f64::sqrt),
