@@ -128,9 +128,22 @@ fn is_word(found: &str) -> bool {
     found.chars().next().is_some_and(char::is_alphabetic) && !found.contains(char::is_control)
 }
 
-/// Numbers with blanks between them.
+/// Numbers with blanks between them; a blank that no line breaks at groups the digits of one.
 fn is_row(text: &str) -> bool {
-    text.split_whitespace().all(|word| word.parse::<f64>().is_ok())
+    let mut words = text.split_ascii_whitespace();
+    1 < words.clone().count() && words.all(|word| word.parse::<f64>().is_ok())
+}
+
+/// A number with its thousands in groups: `1 234.5`, `1'234.5`.
+fn is_grouped(text: &str) -> bool {
+    const MARKS: [char; 4] = ['\u{a0}', '\u{202f}', '\'', '\u{2019}'];
+    text.contains(MARKS) && text.replace(MARKS, "").replacen(',', ".", 1).parse::<f64>().is_ok()
+}
+
+/// A number in parentheses, as accountants write a negative one.
+fn is_in_parentheses(text: &str) -> bool {
+    let inside = text.strip_prefix('(').and_then(|text| text.strip_suffix(')'));
+    inside.is_some_and(|inside| inside.trim().replacen(',', ".", 1).parse::<f64>().is_ok())
 }
 
 /// A number beyond the largest that is taken.
@@ -145,8 +158,12 @@ fn hint(found: &str, line: &Line) -> &'static str {
     }
     let word = found.trim_start_matches(['+', '-']).to_ascii_lowercase();
     let decimal_comma = found.contains(',') && found.replacen(',', ".", 1).parse::<f64>().is_ok();
-    if found.split_whitespace().nth(1).is_some() && is_row(found) {
+    if is_row(found) {
         "\n\nhint: put commas between cells"
+    } else if is_grouped(found) {
+        "\n\nhint: write thousands without a mark between them"
+    } else if is_in_parentheses(found) {
+        "\n\nhint: write minus as `-`, and leave the cell empty where a value does not count"
     } else if decimal_comma {
         DECIMAL_COMMA
     } else if matches!(word.as_str(), "nan" | "na" | "n/a" | "null" | "none" | "-" | "") {
