@@ -85,6 +85,8 @@ pub struct Measurement {
     pub off_by: BTreeMap<String, f64>,
     /// True when time was measured, not worked out from travel and speed.
     pub timed: bool,
+    /// True when a column tells the speed, which otherwise follows from travel and time.
+    pub speed_told: bool,
     /// What a user should know about how the file was read.
     pub notes: Vec<String>,
 }
@@ -206,6 +208,15 @@ impl Measurement {
         for (sensor, values) in &mut both.observations {
             values.extend(&more.observations[sensor]);
         }
+        if both.deviations.is_some() || more.deviations.is_some() {
+            // What is not told weighs as is usual.
+            let of = |one: &Self| {
+                one.deviations.clone().unwrap_or_else(|| vec![f64::NAN; one.len()].into())
+            };
+            let mut told = of(self);
+            told.extend(&of(more));
+            both.deviations = Some(told);
+        }
         for (name, values) in &more.covariates {
             // What is set anew was at its zero before.
             let own = both.covariates.entry(name.clone());
@@ -228,7 +239,8 @@ impl Measurement {
             &mut self.direction,
         ];
         coordinates.into_iter().for_each(of);
-        self.observations.values_mut().chain(self.covariates.values_mut()).for_each(of);
+        let logged = self.observations.values_mut().chain(self.covariates.values_mut());
+        logged.chain(&mut self.deviations).for_each(of);
         let mut rows = kept.iter();
         self.pass.retain(|_| rows.next().copied().unwrap_or(true));
     }
@@ -334,6 +346,11 @@ fn assemble(
             deviation_column(nominal)
         ));
     }
+    if spread(&coordinates.angle_rev) <= 0.0 && spread(&coordinates.position_mm) <= 0.0 {
+        notes.push(
+            "the axis stands still: nothing that depends on its travel can be told".to_owned(),
+        );
+    }
     let covariates = covariates(table, nominal, &passes, &mut notes);
     if nominal.closed && covariates.contains_key("steps") {
         notes.push("the steps are known and taken off: the error is that without them".to_owned());
@@ -352,6 +369,7 @@ fn assemble(
         covariates,
         off_by: BTreeMap::new(),
         timed: coordinates.timed,
+        speed_told: table.column("speed_rpm").is_some(),
         notes,
     }
 }
