@@ -1,6 +1,7 @@
 """python3 -m world generate --seed 7 -o DIR
 python3 -m world score --seeds 1..400 --binary ../target/release/helixlock [-j 2] [-o DIR] [--keep DIR]
 python3 -m world formulas --seeds 1..400 --binary ../target/release/helixlock [--keep DIR]
+python3 -m world doubts --seeds 1..600 --challenges 1..300 --binary ../target/release/helixlock [-j 2]
 python3 -m world check --seeds 1..200
 python3 -m world kinds
 """
@@ -12,6 +13,7 @@ from pathlib import Path
 
 from .build import build
 from .check import check
+from .doubts import doubts
 from .formulas import formulas
 from .scenes import KINDS
 from .score import score, table
@@ -35,11 +37,17 @@ def main():
     shapes.add_argument("--seeds", type=seeds, required=True, help="first..last")
     shapes.add_argument("--binary", required=True)
     shapes.add_argument("--kind", default="", help="only kinds whose name holds this")
+    sound = commands.add_parser("doubts", help="how often sound data are doubted, and mistakes are not")
+    sound.add_argument("--seeds", type=seeds, required=True, help="first..last")
+    sound.add_argument("--challenges", type=seeds, default=range(0), help="first..last of `helixlock challenge`")
+    sound.add_argument("--kind", default="", help="only kinds whose name holds this")
+    sound.add_argument("--binary", required=True)
+    sound.add_argument("-j", "--jobs", type=int, default=1)
     self_check = commands.add_parser("check", help="the generator against the documents' formulas")
     self_check.add_argument("--seeds", type=seeds, required=True, help="first..last")
     commands.add_parser("kinds", help="the kinds of scene")
     told = words.parse_args()
-    {"generate": generate, "score": run, "check": against, "formulas": discovered, "kinds": kinds}[told.command](told)
+    {"generate": generate, "score": run, "check": against, "formulas": discovered, "doubts": doubted, "kinds": kinds}[told.command](told)
 
 
 def seeds(text):
@@ -71,6 +79,11 @@ def run(told):
 def discovered(told):
     wanted = [seed for seed in told.seeds if told.kind in KINDS[seed % len(KINDS)].__name__]
     formulas(wanted, told.binary)
+
+
+def doubted(told):
+    wanted = [seed for seed in told.seeds if told.kind in KINDS[seed % len(KINDS)].__name__]
+    doubts(wanted, told.challenges, told.binary, told.jobs)
 
 
 def against(told):

@@ -6,6 +6,7 @@
 //! less the price of all looks. It must beat the file as it is, the file without its effects, and
 //! the file's effects at any size.
 
+mod along;
 mod column;
 mod common;
 mod court;
@@ -34,6 +35,9 @@ const MOST: usize = 3;
 /// The largest evidence comes first. Looks at no more than a few thousand rows.
 #[must_use]
 pub fn doubts(problem: &Problem) -> Vec<Doubt> {
+    if let Some(doubt) = along::runs_along(problem) {
+        return vec![doubt];
+    }
     let small = problem.thinned(SEARCHED_ROWS);
     // Laid out anew, so that a mend changes nothing but what it mends.
     let small = small.and_then(|small| Problem::new(&small.model, &small.measurement).ok());
@@ -54,7 +58,7 @@ pub fn doubts(problem: &Problem) -> Vec<Doubt> {
 fn hypotheses(problem: &Problem) -> Vec<Hypothesis> {
     let mut all = column::units(problem);
     all.extend(swap::swaps(problem));
-    all.extend(shift::shift(problem));
+    all.extend(shift::shifts(problem));
     all.extend(dividers::other_dividers(problem));
     if !follows_steps(problem) {
         all.extend(factor::factors(problem));

@@ -47,6 +47,7 @@ const CELLS: &[(&str, &str)] = &[
     ("a formula", "=A1"),
     ("a spreadsheet's error", "#VALUE!"),
     ("a no-break space inside", "1\u{a0}234"),
+    ("a negative number in parentheses", "(0.2)"),
     ("a very long word", "abcdefghijklmnopqrstuvwxyzabcdefghijklmnopqrstuvwxyz"),
     ("a quote that opens in the middle", "0\"2"),
     ("a semicolon at the end", "0.2;"),

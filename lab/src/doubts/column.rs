@@ -41,7 +41,7 @@ fn is_there(problem: &Problem, column: &LoggedColumn) -> bool {
     match column.name {
         "time_s" => measurement.timed,
         "position_mm" => !measurement.rotary && !derived,
-        "speed_rpm" => measurement.timed && !derived,
+        "speed_rpm" => measurement.speed_told && measurement.timed && !derived,
         name => measurement.covariates.contains_key(name),
     }
 }

@@ -42,8 +42,11 @@ impl<'a> Court<'a> {
 
     /// The mistake that beats every other explanation, with the problem after its mend.
     pub(super) fn judged(&self, all: Vec<Hypothesis>) -> Option<(Doubt, Problem)> {
-        let rough = self.view(&rough_noises(self.problem));
-        let all: Vec<Hypothesis> = all.into_iter().filter(|one| self.told(&rough, one)).collect();
+        let noises = rough_noises(self.problem);
+        let rough = self.view(&noises);
+        let plain = View::new(self.problem, &self.common[0], &noises);
+        let all: Vec<Hypothesis> =
+            all.into_iter().filter(|one| self.told([&rough, &plain], one)).collect();
         if all.is_empty() {
             return None;
         }
@@ -66,16 +69,19 @@ impl<'a> Court<'a> {
         View::new(self.problem, &self.common[2], noises)
     }
 
-    /// True when the data can tell a mistake, and it leaves less than the file as it is.
-    fn told(&self, rough: &View, one: &Hypothesis) -> bool {
+    /// True when the data can tell a mistake, and it leaves less than the file as it is: free of slopes and
+    /// curves, or with them and not more without; a wrong pressure is a slope first of all.
+    fn told(&self, [rough, plain]: [&View; 2], one: &Hypothesis) -> bool {
         if DOUBT < one.usual {
             return true;
         }
         let left = |predicted: &[f64]| rough.left(self.problem, predicted);
-        let after = left(&one.mended.predicted);
+        let (before, after) = (left(&self.problem.predicted), left(&one.mended.predicted));
+        let flat = |predicted: &[f64]| plain.left(self.problem, predicted);
+        let flatter = flat(&one.mended.predicted) < SMALLER * flat(&self.problem.predicted);
         let moved: Vec<f64> =
             one.mended.predicted.iter().zip(&self.problem.predicted).map(|(a, b)| a - b).collect();
-        let smaller = after < SMALLER * left(&self.problem.predicted);
+        let smaller = after < SMALLER * before || flatter && after <= before;
         let needed = one.lets_go() || self.absent.iter().all(|bare| after < SMALLER * left(bare));
         WORTH_A_FIT < rough.square(&moved) && smaller && needed
     }
@@ -99,6 +105,7 @@ impl<'a> Court<'a> {
         let evidence = |predicted: &[f64]| self.evidence(predicted, &Columns::default()).0;
         let mut rivals = vec![self.freed()];
         if best.physics {
+            rivals.push(self.loosened());
             rivals.extend(self.with_physics().iter().map(|predicted| evidence(predicted)));
         }
         // Whatever makes a wrong prediction vanish looks like a mend.
@@ -113,12 +120,11 @@ impl<'a> Court<'a> {
         let of = |common: &Columns| {
             let fit = self.fitted(predicted, &common.and(more));
             let number = self.problem.price_of_a_number();
-            let price = |at: usize| {
-                let (value, variance) =
-                    (fit.linear.coefficients[at], fit.linear.covariance[(at, at)]);
+            let variances = with_the_rest_held(&fit, common.raw.len());
+            let price = |(value, variance): (&f64, f64)| {
                 libm::log1p(value * value / variance.max(f64::MIN_POSITIVE)).max(number)
             };
-            let price: f64 = (0..common.raw.len()).map(price).sum();
+            let price: f64 = fit.linear.coefficients.iter().zip(variances).map(price).sum();
             (2.0 * fit.log_likelihood - price, fit)
         };
         let [none, slopes, curves] = &self.common;
@@ -139,7 +145,17 @@ impl<'a> Court<'a> {
     /// Evidence of the file's own effects at any size, integrated over sizes as large as theirs.
     fn freed(&self) -> f64 {
         let effects = &self.problem.model.effects;
-        let columns = effects.iter().filter_map(|term| departures(self.problem, term));
+        self.integrated(effects.iter().filter_map(|term| departures(self.problem, term)))
+    }
+
+    /// That of the effects of known size that the file does not have, by another factor than the textbook's:
+    /// a workpiece of another alloy grows by 1.8 times as much, and is not in °F.
+    fn loosened(&self) -> f64 {
+        let all = all_physics(self.problem);
+        self.integrated(all.iter().filter_map(|term| any_size(self.problem, term)))
+    }
+
+    fn integrated(&self, columns: impl Iterator<Item = Columns>) -> f64 {
         let more = columns.fold(Columns::default(), |all, one| all.and(&one));
         if more.raw.is_empty() {
             return f64::NEG_INFINITY;
@@ -166,9 +182,29 @@ impl<'a> Court<'a> {
     }
 }
 
+/// Variances of the first coefficients with all behind them held: what those may be is paid for apart, and a
+/// column that runs along with a slope must not make the slope cheap.
+fn with_the_rest_held(fit: &Fit, width: usize) -> Vec<f64> {
+    let covariance = &fit.linear.covariance;
+    let rest = covariance.nrows() - width;
+    let of_rest = covariance.view((width, width), (rest, rest)).into_owned();
+    let across = covariance.view((0, width), (width, rest));
+    let told = of_rest.try_inverse().map(|inverse| across * inverse * across.transpose());
+    let left = |at: usize| covariance[(at, at)] - told.as_ref().map_or(0.0, |told| told[(at, at)]);
+    (0..width).map(left).collect()
+}
+
 fn predicted_by(problem: &Problem, model: &Model) -> Option<Vec<f64>> {
     let other = Problem::new(model, &problem.measurement).ok()?;
     (other.rows == problem.rows).then_some(other.predicted)
+}
+
+/// Columns of an effect that the file does not have, as large as the textbook says, more or less.
+fn any_size(problem: &Problem, term: &Term) -> Option<Columns> {
+    let raw = problem.design(term).ok()?.columns;
+    let size = |value: &f64| Some((*value, value.abs().max(f64::MIN_POSITIVE.sqrt())));
+    let priors: Vec<_> = term.coefficients().iter().map(size).collect();
+    (priors.len() == raw.len()).then_some(Columns { raw, priors, fixed: None })
 }
 
 /// Columns by which an effect of the file may differ from what the file says.

@@ -15,6 +15,7 @@ use crate::measurement::sensor_column;
 use crate::model::Problem;
 use crate::noise::Noise;
 use crate::numerics::count;
+use crate::policy::mistakes::MACHINE_OF_EFFECTS;
 use crate::policy::size::WORTHWHILE_UM;
 
 /// Every sign and unit that a sensor's column may have been written with.
@@ -32,6 +33,9 @@ pub(super) fn factors(problem: &Problem) -> Vec<Hypothesis> {
             continue;
         }
         let Some(known) = LoggedColumn::named(column) else { continue };
+        if MACHINE_OF_EFFECTS <= problem.model.effects.len() {
+            all.extend(tens(problem, index, known));
+        }
         for (unit, factor, _) in others(known) {
             for (sign, turned) in [(1.0, ""), (-1.0, ", with the opposite sign")] {
                 let written = known.units[0].0;
@@ -44,6 +48,16 @@ pub(super) fn factors(problem: &Problem) -> Vec<Hypothesis> {
         }
     }
     all
+}
+
+/// A decimal point that slipped, either way. One effect alone may have grown by so much.
+fn tens(problem: &Problem, sensor: usize, column: &LoggedColumn) -> [Hypothesis; 2] {
+    let written = column.units[0].0;
+    [10.0, 0.1].map(|factor| {
+        let says = format!("`{}` is written in units of {factor} {written}", column.name);
+        let how = format!("unit = \"{factor} {written}\"");
+        scaled(problem, sensor, ("unit", says, how), factor)
+    })
 }
 
 /// True when more than slopes and drifts is predicted: what is less than a sensor shows would,

@@ -1,4 +1,8 @@
-//! Another zero of the position: all that is fixed to the travel stands beside its place.
+//! Another zero of the position, or of one pass's: all that is fixed to the travel stands beside its place.
+//!
+//! The clock's zero is none of this: time counts from the start of a record, whatever its clock says.
+
+use std::ops::Range;
 
 use rayon::prelude::*;
 
@@ -6,7 +10,7 @@ use super::hypothesis::Hypothesis;
 use crate::measurement::Measurement;
 use crate::model::{Columns, Problem, Stage, noises_of};
 use crate::numerics::{count, golden_maximum};
-use crate::policy::mistakes::SHIFT_TURNS;
+use crate::policy::mistakes::{SHIFT_TURNS, WORSE_PASS};
 
 /// Places looked at, a turn of the spindle: each shortest wave of a screw more than four times.
 const PLACES_A_TURN: u16 = 20;
@@ -14,52 +18,113 @@ const PLACES_A_TURN: u16 = 20;
 /// Halvings of an interval after the best place of the grid is known.
 const STEPS: usize = 16;
 
-/// The shift that brings what the file predicts nearest to the data; `None` when it predicts
-/// nothing that has a place.
-pub(super) fn shift(problem: &Problem) -> Option<Hypothesis> {
+/// Whose zero is another.
+#[derive(Clone, Copy, Debug)]
+enum Zero {
+    Position,
+    /// The position of a pass, by its index.
+    Pass(usize),
+}
+
+/// For each zero the shift that brings what the file predicts nearest to the data; none where nothing
+/// that it predicts depends on it.
+pub(super) fn shifts(problem: &Problem) -> Vec<Hypothesis> {
     if problem.measurement.rotary || problem.model.effects.is_empty() {
-        return None;
+        return Vec::new();
     }
     let stage = Stage::new(problem, &Columns::default(), &noises_of(problem, &problem.residual()));
-    let gain = |shift_mm: f64| gain(&stage, shift_mm).unwrap_or(f64::NEG_INFINITY);
-    let lead_mm = problem.model.workpiece.lead.mm();
-    let step_mm = lead_mm / f64::from(PLACES_A_TURN);
+    zeros(problem).into_iter().filter_map(|zero| shift(&stage, zero)).collect()
+}
+
+/// The position's zero, and that of the pass which the file explains far worse than the others.
+fn zeros(problem: &Problem) -> Vec<Zero> {
+    let left = problem.residual();
+    let passes = problem.measurement.pass_names.len();
+    let mut sizes: Vec<(f64, usize)> = (0..passes)
+        .map(|pass| {
+            let blocks = problem.layout.blocks.iter();
+            let of_pass = |rows: &Range<usize>| {
+                rows.start < rows.end
+                    && problem.measurement.pass[problem.rows[rows.start].sample] == pass
+            };
+            let rows = blocks.map(|block| block.rows.clone()).filter(of_pass);
+            let (squares, number) = rows.fold((0.0, 0), |(squares, number), rows| {
+                let values = &left[rows];
+                let mean = values.iter().sum::<f64>() / count(values.len());
+                let own: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
+                (squares + own, number + values.len())
+            });
+            (squares / count(number.max(1)), pass)
+        })
+        .collect();
+    sizes.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let worst = match sizes.as_slice() {
+        [(most, pass), (next, _), ..] if WORSE_PASS * next < *most => Some(Zero::Pass(*pass)),
+        _ => None,
+    };
+    std::iter::once(Zero::Position).chain(worst).collect()
+}
+
+fn shift(stage: &Stage<'_>, zero: Zero) -> Option<Hypothesis> {
+    let problem = stage.problem;
+    let gain = |shift: f64| gain(stage, zero, shift).unwrap_or(f64::NEG_INFINITY);
+    let step = problem.model.workpiece.lead.mm() / f64::from(PLACES_A_TURN);
+    // Half a place off a turn: what repeats every turn would not show that it moves.
+    let probe = moved(problem, zero, 0.5 * step)?;
+    if probe.iter().all(|value| value.abs() <= 0.0) {
+        return None;
+    }
     let places = 1..=SHIFT_TURNS * PLACES_A_TURN;
     let places: Vec<f64> = places.map(f64::from).flat_map(|place| [place, -place]).collect();
     let tried: Vec<(f64, f64)> =
-        places.par_iter().map(|place| (gain(place * step_mm), place * step_mm)).collect();
-    let (best, near_mm) = tried.into_iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
+        places.par_iter().map(|place| (gain(place * step), place * step)).collect();
+    let (best, near) = tried.into_iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
     if best <= 0.0 {
         return None;
     }
-    let ends = (near_mm - step_mm, near_mm + step_mm);
-    let (shift_mm, _) = golden_maximum(&mut |place| gain(place), ends, STEPS);
-    let says = format!("the data's zero of the position lies {shift_mm:.3} mm from the file's");
-    let (less, more) = if shift_mm < 0.0 { ("add", "to") } else { ("take", "off") };
-    let mend = format!("{less} {:.3} mm {more} `position_mm`", shift_mm.abs());
-    let one = Hypothesis::of_measurement(
-        problem,
-        &shifted(&problem.measurement, shift_mm, lead_mm),
-        ("shift", format!("{says} (offset)"), mend),
-    )?;
+    let (shift, _) = golden_maximum(&mut |place| gain(place), (near - step, near + step), STEPS);
+    let shifted = zero.shifted(problem, shift);
+    let one = Hypothesis::of_measurement(problem, &shifted, zero.words(problem, shift))?;
     Some(Hypothesis { numbers: 1.0, looks: count(places.len()), usual: 0.0, ..one })
 }
 
-fn shifted(measurement: &Measurement, shift_mm: f64, lead_mm: f64) -> Measurement {
-    let less = |values: &[f64], shift: f64| values.iter().map(|value| value - shift).collect();
-    Measurement {
-        position_mm: less(&measurement.position_mm, shift_mm),
-        angle_rev: less(&measurement.angle_rev, shift_mm / lead_mm),
-        ..measurement.clone()
+impl Zero {
+    fn shifted(self, problem: &Problem, shift_mm: f64) -> Measurement {
+        let mut mended = problem.measurement.clone();
+        let turns = shift_mm / problem.model.workpiece.lead.mm();
+        for (row, pass) in problem.measurement.pass.iter().enumerate() {
+            if !matches!(self, Self::Pass(only) if only != *pass) {
+                mended.position_mm[row] -= shift_mm;
+                mended.angle_rev[row] -= turns;
+            }
+        }
+        mended
+    }
+
+    fn words(self, problem: &Problem, shift_mm: f64) -> (&'static str, String, String) {
+        let (what, of_pass) = match self {
+            Self::Position => ("the position".to_owned(), String::new()),
+            Self::Pass(pass) => {
+                let name = problem.measurement.pass_names[pass];
+                (format!("the position of pass {name}"), format!(" of pass {name}"))
+            }
+        };
+        let says = format!("the data's zero of {what} lies {shift_mm:.3} mm from the file's");
+        let (less, more) = if shift_mm < 0.0 { ("add", "to") } else { ("take", "off") };
+        let mend = format!("{less} {:.3} mm {more} `position_mm`{of_pass}", shift_mm.abs());
+        ("shift", format!("{says} (offset)"), mend)
     }
 }
 
+/// By how much a shift moves what is predicted.
+fn moved(problem: &Problem, zero: Zero, shift: f64) -> Option<Vec<f64>> {
+    let mended = Problem::new(&problem.model, &zero.shifted(problem, shift)).ok()?;
+    let pairs = mended.predicted.iter().zip(&problem.predicted);
+    (mended.rows == problem.rows).then(|| pairs.map(|(a, b)| a - b).collect())
+}
+
 /// What a shift takes away under the noise of the file as it is.
-fn gain(stage: &Stage<'_>, shift_mm: f64) -> Option<f64> {
-    let problem = stage.problem;
-    let lead_mm = problem.model.workpiece.lead.mm();
-    let mended =
-        Problem::new(&problem.model, &shifted(&problem.measurement, shift_mm, lead_mm)).ok()?;
-    let moved = mended.predicted.iter().zip(&problem.predicted).map(|(a, b)| a - b).collect();
+fn gain(stage: &Stage<'_>, zero: Zero, shift: f64) -> Option<f64> {
+    let moved = moved(stage.problem, zero, shift)?;
     Some(stage.gain(&Columns { fixed: Some(moved), ..Columns::default() }).gain)
 }

@@ -53,7 +53,7 @@ fn measured(model: &Model) -> Table {
     table(&clean.iter().map(noise).collect::<Vec<_>>())
 }
 
-fn changed(mut table: Table, column: &str, change: impl Fn(f64) -> f64) -> Table {
+fn changed(mut table: Table, column: &str, mut change: impl FnMut(f64) -> f64) -> Table {
     let found = table.columns.iter_mut().find(|one| one.name == column).expect("the column");
     found.values.iter_mut().for_each(|value| *value = change(*value));
     table
@@ -88,6 +88,20 @@ fn a_sign_and_a_unit_are_told_by_what_the_file_predicts() {
 }
 
 #[test]
+fn a_slipped_decimal_point_is_told_where_every_effect_grew() {
+    let known = machine(150, WAVES);
+    let of = |model: &Model, factor: f64| {
+        doubted(model, &changed(measured(model), "error_um", |value| factor * value))
+    };
+    let (what, mend) = of(&known, 0.1).expect("a doubt");
+    assert!(what == "unit" && mend.ends_with("unit = \"10 um\""), "{what} {mend}");
+    let (what, mend) = of(&known, 10.0).expect("a doubt");
+    assert!(what == "unit" && mend.ends_with("unit = \"0.1 um\""), "{what} {mend}");
+    let (one, _) = WAVES.split_at(WAVES.rfind("[[effect]]").expect("two effects"));
+    assert_eq!(of(&machine(150, one), 0.1), None, "one effect may shrink");
+}
+
+#[test]
 fn without_a_prediction_a_sign_is_not_told() {
     let bare = machine(150, "");
     let turned = changed(measured(&machine(150, WAVES)), "error_um", |value| -value);
@@ -105,6 +119,27 @@ fn fahrenheit_is_told_by_the_swing_and_by_the_shop() {
     }
 }
 
+/// 1008 hPa swinging by two are 756 mmHg: a slope of 69 µm/m, which anything may have, and a little more.
+#[test]
+fn millimetres_of_mercury_are_told_by_the_slope_that_they_make() {
+    let known = machine(150, "[[effect]]\nkind = 'air-pressure'\n");
+    let mut chance = ChaCha8Rng::seed_from_u64(11);
+    let mut weather = table(&vec![0.0; 600]);
+    let hpa = (0..600).map(|row| 1008.0 + 2.0 * libm::sin(0.02 * crate::numerics::count(row)));
+    weather.columns.push(Column { name: "air_pressure_hpa".to_owned(), values: hpa.collect() });
+    let clean = problem(&known, &weather).predicted;
+    let mut row = 0;
+    let sound = changed(weather, "error_um", |_| {
+        row += 1;
+        let fresh: f64 = StandardNormal.sample(&mut chance);
+        clean[row - 1] + 0.02 * fresh
+    });
+    assert_eq!(doubted(&known, &sound), None);
+    let mercury = changed(sound, "air_pressure_hpa", |hpa| hpa * 760.0 / 1013.25);
+    let (what, mend) = doubted(&known, &mercury).expect("a doubt");
+    assert!(what == "unit" && mend.contains("mmhg"), "{what} {mend}");
+}
+
 #[test]
 fn another_zero_of_the_position_is_found() {
     let bump = "[[effect]]\nkind = 'screw-wear'\nheight = '2.5 um'\nposition = '140 mm'\n\
@@ -113,6 +148,70 @@ fn another_zero_of_the_position_is_found() {
     let shifted = changed(measured(&known), "position_mm", |place| place + 4.2);
     let (what, mend) = doubted(&known, &shifted).expect("a doubt");
     assert!(what == "shift" && mend.starts_with("take 4.2"), "{what} {mend}");
+}
+
+#[test]
+fn another_zero_of_one_pass_is_found() {
+    let bump = "[[effect]]\nkind = 'screw-wear'\nheight = '2.5 um'\nposition = '140 mm'\n\
+                width = '9 mm'\n";
+    let known = machine(150, &format!("{WAVES}{bump}"));
+    let mut twice = measured(&known);
+    let rows = twice.rows();
+    for column in &mut twice.columns {
+        let later = if column.name == "time_s" { 700.0 } else { 0.0 };
+        let again: Vec<f64> = column.values.iter().map(|value| value + later).collect();
+        column.values.extend(again);
+    }
+    let mut number = 0;
+    let pass = (0..2 * rows).map(|row| if row < rows { 1.0 } else { 2.0 }).collect();
+    twice.columns.push(Column { name: "pass".to_owned(), values: pass });
+    assert_eq!(doubted(&known, &twice), None);
+    let second = changed(twice, "position_mm", |place| {
+        number += 1;
+        if rows < number { place + 4.2 } else { place }
+    });
+    let (what, mend) = doubted(&known, &second).expect("a doubt");
+    assert!(what == "shift" && mend.starts_with("take 4.2"), "{what} {mend}");
+    assert!(mend.ends_with("of pass 2"), "{mend}");
+}
+
+/// What a clock shows at the start of a record is no part of it.
+#[test]
+fn the_zero_of_the_clock_is_none() {
+    let shaken = machine(
+        150,
+        "[[effect]]\nkind = 'vibration'\nfrequency = '0.031 Hz'\namplitude = '1.1 um'\n",
+    );
+    let late = changed(measured(&shaken), "time_s", |time_s| time_s + 1.7e9);
+    assert_eq!(doubted(&shaken, &late), None);
+    let [late, sound] = [late, measured(&shaken)].map(|table| problem(&shaken, &table).residual());
+    assert!(late.iter().zip(&sound).all(|(late, sound)| (late - sound).abs() < 1e-6));
+}
+
+/// A servo's position instead of its error, and one that counts the other way.
+#[test]
+fn a_position_in_place_of_the_error_is_told() {
+    let bare = machine(150, "");
+    let error = measured(&machine(150, WAVES));
+    for (share, word) in [(1.0, "minus"), (2.0, "opposite"), (0.4, "0.6000 times")] {
+        let mut table = error.clone();
+        let place = table.column("position_mm").expect("a place").to_vec();
+        let mut row = 0;
+        table = changed(table, "error_um", |value| {
+            row += 1;
+            value + 1000.0 * share * place[row - 1]
+        });
+        let (what, mend) = doubted(&bare, &table).expect("a doubt");
+        assert!(what == "position-for-error" && mend.contains(word), "{what} {mend}");
+    }
+}
+
+/// A speed that follows from clock and travel stands in no column.
+#[test]
+fn a_speed_that_no_column_tells_is_not_doubted() {
+    let slow = machine(150, "");
+    let late = changed(measured(&slow), "time_s", |time_s| 60.0 * time_s);
+    assert_eq!(doubted(&slow, &late).filter(|(_, mend)| mend.contains("speed_rpm")), None);
 }
 
 #[test]

@@ -31,15 +31,28 @@ impl View {
     }
 }
 
-/// White noise of the size that neighbouring samples differ by.
+/// White noise of the size by which samples lie off the line between their neighbours.
+///
+/// A slope, which may be the very mistake, is no noise.
 pub(super) fn rough_noises(problem: &Problem) -> Vec<Noise> {
     let left = problem.residual();
+    let turns: Vec<f64> = problem.record.turns().collect();
+    let turn = |row: usize| turns[problem.rows[row].sample];
+    let off = |row: usize| {
+        let (from, to) = (turn(row - 1), turn(row + 1));
+        let share = (turn(row) - from) / (to - from);
+        let share = if (0.0..=1.0).contains(&share) { share } else { 0.5 };
+        let line = left[row - 1] + share * (left[row + 1] - left[row - 1]);
+        let variance = 1.0 + share * share + (1.0 - share) * (1.0 - share);
+        (left[row] - line).abs() / variance.sqrt()
+    };
     let noise = |sensor: usize| {
         let blocks = problem.layout.blocks.iter().filter(|block| block.sensor == sensor);
-        let pairs = blocks.flat_map(|block| left[block.rows.clone()].windows(2));
-        let mut steps: Vec<f64> = pairs.map(|pair| (pair[1] - pair[0]).abs()).collect();
-        let deviation = (1.4826 * median(&mut steps)).max(f64::MIN_POSITIVE.sqrt());
-        Noise::white().scaled(0.5 * deviation * deviation)
+        let inner = blocks
+            .flat_map(|block| block.rows.clone().skip(1).take(block.rows.len().saturating_sub(2)));
+        let mut sizes: Vec<f64> = inner.map(off).collect();
+        let deviation = (1.4826 * median(&mut sizes)).max(f64::MIN_POSITIVE.sqrt());
+        Noise::white().scaled(deviation * deviation)
     };
     (0..problem.sensors.len()).map(noise).collect()
 }

@@ -74,3 +74,20 @@ pub(crate) const MACHINE_OF_EFFECTS: usize = 2;
 ///
 /// Chosen. Doubled: twice the time.
 pub(crate) const SHIFT_TURNS: u16 = 6;
+
+/// Square that a pass leaves, over that of any other one, from which on its own zero is looked for.
+///
+/// Chosen: noise of forty samples that depend on nothing differs by less. Doubled: a shift by which
+/// an effect leaves less than its noise is not seen.
+pub(crate) const WORSE_PASS: f64 = 2.0;
+
+/// Share of the travel that no error runs along with.
+///
+/// Chosen: a hundred times what the compensator takes out, and ten times a wrong tooth in a hundred.
+/// Doubled: a position in units that differ by a fifth is taken for an error.
+pub(crate) const RUNS_ALONG: f64 = 0.1;
+
+/// Share of an error's square that this must explain.
+///
+/// Chosen: what is left is a third of the error. Nearer to 1: a position with large errors is no doubt.
+pub(crate) const RUNS_ALONG_SHARE: f64 = 0.9;
