@@ -8,8 +8,8 @@ use crate::policy::mistakes::{RUNS_ALONG, RUNS_ALONG_SHARE};
 
 /// The doubt, where an error moves as a tenth of the travel does, and the file does not say so.
 pub(super) fn runs_along(problem: &Problem) -> Option<Doubt> {
+    let left = problem.residual();
     (0..problem.sensors.len()).find_map(|sensor| {
-        let left = problem.residual();
         let (share, evidence) = along(problem, sensor, &left)?;
         along(problem, sensor, &problem.observed)?;
         Some(said(
