@@ -5,8 +5,8 @@ use helixlock_original::Circuit;
 use helixlock_original::figures::calibrator::{self, Step};
 use helixlock_original::figures::compensator::{self, Correction};
 use helixlock_original::figures::{
-    Clear, decade, discriminator, divider, phase_meter, phase_selector, range_stage, reset_counter,
-    ring,
+    Clear, decade, discriminator, divider, laser_direction, phase_meter, phase_selector,
+    range_stage, reset_counter, ring,
 };
 
 /// A figure and a block.
@@ -62,12 +62,16 @@ pub(super) enum Output {
     Level { pin: &'static str, signal: &'static str },
     /// A number whose bits are pins with a number behind their name, low bit first.
     Bits { pin: &'static str, count: usize, signal: &'static str },
+    /// Pulses `up` less pulses `down`; the block has clocks of `further` less what it is `behind`.
+    Way { up: &'static str, down: &'static str, further: &'static str, behind: &'static str },
 }
 
 impl Output {
     pub(super) fn signal(&self) -> &'static str {
-        let (Self::Pulses { signal, .. } | Self::Level { signal, .. } | Self::Bits { signal, .. }) =
-            self;
+        let (Self::Pulses { signal, .. }
+        | Self::Level { signal, .. }
+        | Self::Bits { signal, .. }
+        | Self::Way { further: signal, .. }) = self;
         signal
     }
 
@@ -75,6 +79,7 @@ impl Output {
         match self {
             Self::Pulses { pin, .. } | Self::Level { pin, .. } => vec![(*pin).to_owned()],
             Self::Bits { pin, count, .. } => (0..*count).map(|bit| format!("{pin}{bit}")).collect(),
+            Self::Way { up, down, .. } => [*up, *down].map(str::to_owned).into(),
         }
     }
 }
@@ -141,6 +146,17 @@ pub(super) const DRIVES: &[Drive] = &[
         ],
         outputs: &[Output::Level { pin: "t1", signal: "meter" }],
         warm_up: 60,
+        ..NOTHING
+    },
+    Drive {
+        figure: "6",
+        block: "quadrature_decoder",
+        build: laser_direction::circuit,
+        moves: &[
+            (1, Move::Level { pin: "sine", input: "a" }),
+            (1, Move::Level { pin: "cosine", input: "b" }),
+        ],
+        outputs: &[Output::Way { up: "up", down: "down", further: "pulse", behind: "behind" }],
         ..NOTHING
     },
     Drive {

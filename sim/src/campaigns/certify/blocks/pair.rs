@@ -86,7 +86,7 @@ impl<'a> Pair<'a> {
     fn move_both(&mut self) -> Result<bool, Error> {
         let chosen = self.choose();
         let moved_ps = self.move_old(chosen)?;
-        let pulses = self.move_new(chosen)?;
+        let came_out = self.move_new(chosen)?;
         let edges = self.old.take_edges();
         for edge in &edges {
             let cause_ps = moved_ps.iter().rfind(|moved_ps| **moved_ps < edge.time_ps);
@@ -94,18 +94,22 @@ impl<'a> Pair<'a> {
             self.slowest_ps = self.slowest_ps.max(answer_ps);
         }
         let mut alike = true;
-        for (output, pulses) in self.drive.outputs.iter().zip(pulses) {
-            alike &= self.is_alike(output, pulses, &edges)?;
+        for (output, came_out) in self.drive.outputs.iter().zip(came_out) {
+            alike &= self.is_alike(output, came_out, &edges)?;
         }
         Ok(alike)
     }
 
     /// Compares an output, of which so many pulses came out of the block.
-    fn is_alike(&mut self, output: &Output, pulses: u64, edges: &[Edge]) -> Result<bool, Error> {
-        if let Output::Pulses { pin, .. } = output {
+    fn is_alike(&mut self, output: &Output, pulses: i64, edges: &[Edge]) -> Result<bool, Error> {
+        let rises = |pin| {
             let net = self.circuit.pin(pin)?;
-            let rises = edges.iter().filter(|edge| edge.net == net && edge.level).count();
-            return Ok(u64::try_from(rises) == Ok(pulses));
+            Ok(edges.iter().filter(|edge| edge.net == net && edge.level).map(|_| 1).sum::<i64>())
+        };
+        match output {
+            Output::Pulses { pin, .. } => return Ok(rises(pin)? == pulses),
+            Output::Way { up, down, .. } => return Ok(rises(up)? - rises(down)? == pulses),
+            Output::Level { .. } | Output::Bits { .. } => {}
         }
         let mut number = 0;
         for (bit, pin) in output.pins().iter().enumerate() {
@@ -143,8 +147,9 @@ impl<'a> Pair<'a> {
         Ok(moved_ps)
     }
 
-    /// Gives the synchronous block the same; how many clocks each output was high.
-    fn move_new(&mut self, chosen: &Move) -> Result<Vec<u64>, Error> {
+    /// Gives the synchronous block the same; how many clocks each output was high, less what it is
+    /// behind by now.
+    fn move_new(&mut self, chosen: &Move) -> Result<Vec<i64>, Error> {
         for (wire, input) in self.drive.copied {
             let level = self.old.level(self.circuit.pin(wire)?);
             self.new.set_input(self.signal(input), level.into());
@@ -154,10 +159,11 @@ impl<'a> Pair<'a> {
         if let Some((input, level)) = before {
             self.new.set_input(input, level ^ 1);
         }
-        let mut high = vec![0; self.drive.outputs.len()];
+        let outputs = self.drive.outputs;
+        let mut high: Vec<_> = outputs.iter().map(|output| self.behind(output)).collect();
         for _ in 0..CLOCKS {
-            for (output, high) in self.drive.outputs.iter().zip(&mut high) {
-                *high += u64::from(self.new.value(self.signal(output.signal())) == 1);
+            for (output, high) in outputs.iter().zip(&mut high) {
+                *high += i64::from(self.new.value(self.signal(output.signal())) == 1);
             }
             self.new.step();
             if let Some((input, level)) = before
@@ -166,7 +172,14 @@ impl<'a> Pair<'a> {
                 self.new.set_input(input, level);
             }
         }
+        outputs.iter().zip(&mut high).for_each(|(output, high)| *high -= self.behind(output));
         Ok(high)
+    }
+
+    /// What the block has to make up for before its pulses count again.
+    fn behind(&mut self, output: &Output) -> i64 {
+        let Output::Way { behind, .. } = output else { return 0 };
+        self.new.value(self.signal(behind)).cast_signed()
     }
 
     fn signal(&self, name: &str) -> SignalId {
