@@ -47,7 +47,7 @@ fn figures_are_certified_gate_by_gate() {
     let certificate: serde_json::Value =
         serde_json::from_slice(&output.stdout).expect("JSON alone");
     let blocks = certificate["blocks"].as_array().expect("a list");
-    assert_eq!(blocks.len(), 13, "{certificate}");
+    assert_eq!(blocks.len(), 14, "{certificate}");
     for block in blocks {
         assert_eq!(block["different"], 0, "{block}");
         assert_eq!(block["pulses"], 300 + 2 * 30, "{block}");
