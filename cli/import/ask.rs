@@ -11,7 +11,7 @@ pub(crate) fn ask<'a>(
     input: &mut impl BufRead,
     out: &mut impl Write,
 ) -> anyhow::Result<&'a Answer> {
-    writeln!(out, "{}: {}", question.file, question.text)?;
+    writeln!(out, "{}: {}", question.place, question.text)?;
     for (index, answer) in question.answers.iter().enumerate() {
         writeln!(out, "  {}  {}", index + 1, answer.label)?;
     }
@@ -20,7 +20,7 @@ pub(crate) fn ask<'a>(
         out.flush()?;
         let mut line = String::new();
         if input.read_line(&mut line)? == 0 {
-            bail!("{}: found the end of input, expected an answer", question.file);
+            bail!("{}: found the end of input, expected an answer", question.place);
         }
         let chosen = line.trim().parse::<usize>().ok().and_then(|number| number.checked_sub(1));
         if let Some(answer) = chosen.and_then(|index| question.answers.get(index)) {

@@ -1,5 +1,6 @@
 //! Decisions: given by a recipe, or found out and written down with their reason.
 
+use crate::error::Place;
 use crate::question::{Answer, Question};
 use crate::recipe::{ColumnRule, Recipe, Value};
 
@@ -104,13 +105,14 @@ impl<'a> Decisions<'a> {
         self.question(text, answers.collect());
     }
 
-    /// Something open, with the lines that would settle it.
+    /// Something open of the whole file, with the lines that would settle it.
     pub(crate) fn question(&mut self, text: &str, answers: Vec<Answer>) {
-        self.questions.push(Question {
-            file: self.file.to_owned(),
-            text: text.to_owned(),
-            answers,
-        });
+        self.question_at(&Place::file(self.file), text, answers);
+    }
+
+    /// Something open, and where it stands.
+    pub(crate) fn question_at(&mut self, place: &Place, text: &str, answers: Vec<Answer>) {
+        self.questions.push(Question { place: place.clone(), text: text.to_owned(), answers });
     }
 
     pub(crate) fn note(&mut self, note: impl Into<String>) {

@@ -27,6 +27,15 @@ impl Place {
     pub fn line(name: &str, line: usize) -> Self {
         Self { at: At::file(name).on_line(line), sheet: None }
     }
+
+    /// A part of a line of text, by where it lies in memory; the line alone for any other text.
+    pub(crate) fn word(name: &str, line: usize, text: &str, word: &str) -> Self {
+        let mut place = Self::line(name, line);
+        let byte = word.as_ptr().addr().checked_sub(text.as_ptr().addr());
+        let before = byte.and_then(|byte| text.get(..byte));
+        place.at.column = before.map(|before| 1 + before.chars().count());
+        place
+    }
 }
 
 impl fmt::Display for Place {
@@ -113,6 +122,13 @@ pub(crate) fn quoted(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn words_are_told_by_where_they_lie() {
+        let line = "µ 1 1";
+        let column = |word| Place::word("a", 1, line, word).at.column;
+        assert_eq!([&line[3..4], &line[5..6], line].map(column), [Some(3), Some(5), Some(1)]);
+    }
 
     #[test]
     fn cells_of_a_sheet_have_letters() {

@@ -266,7 +266,12 @@ impl Grid {
 
     /// Where a row, or a cell of it, stands.
     pub(crate) fn place(&self, row: usize, column: Option<usize>) -> Place {
-        let mut place = Place::line(&self.file, self.rows.get(row).map_or(0, |row| row.line));
+        let line = self.rows.get(row).map_or(0, |row| row.line);
+        if line == 0 {
+            // Names that no line of the file holds.
+            return Place::file(&self.file);
+        }
+        let mut place = Place::line(&self.file, line);
         let range = self.range(row);
         place.at.column = column.map(|column| {
             let cell = self.cells.get(range.start + column).filter(|_| column < range.len());

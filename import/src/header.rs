@@ -1,7 +1,7 @@
 //! Names and units of columns, from the rows above the data.
 
 use crate::data::{self, Word};
-use crate::error::{ImportError, quoted};
+use crate::error::{ImportError, Place, quoted};
 use crate::grid::Grid;
 use crate::outline::Outline;
 use crate::runs::{self, Run};
@@ -17,6 +17,8 @@ pub(crate) struct Header {
     pub(crate) unit: Option<String>,
     /// The run it names, if it does.
     pub(crate) run: Option<Run>,
+    /// Where its name stands, or its first value.
+    pub(crate) place: Place,
 }
 
 /// Headers of all columns, each with a name of its own.
@@ -24,6 +26,8 @@ pub(crate) fn headers(grid: &Grid, outline: &Outline) -> Result<Vec<Header>, Imp
     let (units, names): (Vec<usize>, Vec<usize>) =
         outline.header.iter().partition(|row| outline.header.len() > 1 && is_units(grid, **row));
     let mut headers: Vec<Header> = Vec::new();
+    let data = outline.blocks.first().and_then(|block| block.rows.first());
+    let top = names.last().or(data).copied().unwrap_or(0);
     for column in 0..outline.width {
         let mut name = String::new();
         for row in &names {
@@ -54,6 +58,7 @@ pub(crate) fn headers(grid: &Grid, outline: &Outline) -> Result<Vec<Header>, Imp
             }
             header.name = format!("{} ({})", header.name, column + 1);
         }
+        header.place = grid.place(top, Some(column));
         headers.push(header);
     }
     Ok(headers)
@@ -109,7 +114,8 @@ pub(crate) fn read_name(name: &str) -> Header {
         None => (plain.clone(), None),
     };
     let bare = bare.trim().trim_end_matches([':', '：', ',']).trim().to_owned();
-    Header { name: name.to_owned(), run: runs::run_of(&bare), bare, unit }
+    let place = Place::default();
+    Header { name: name.to_owned(), run: runs::run_of(&bare), bare, unit, place }
 }
 
 /// What a name means: the longest known word in it; `Error Position` is an error, whatever is longer.

@@ -78,7 +78,10 @@ pub(crate) fn ask(
             );
             let read = answer("it is a reading", &known);
             known.push(mark.to_owned());
-            decisions.question(&text, vec![answer("it stands for a missing value", &known), read]);
+            let ways = vec![answer("it stands for a missing value", &known), read];
+            let row = rows.iter().find(|row| grid.cell(**row, column).trim() == mark);
+            let place = grid.place(row.copied().unwrap_or(0), Some(column));
+            decisions.question_at(&place, &text, ways);
         }
     }
 }

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::error::Place;
+
 /// One way to settle a question.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Answer {
@@ -14,8 +16,8 @@ pub struct Answer {
 /// Something that can be read in more than one way.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Question {
-    /// The file it is about.
-    pub file: String,
+    /// The file it is about, and where in it.
+    pub place: Place,
     /// What is open, and why.
     pub text: String,
     /// The ways to settle it, the likelier first; never empty.
@@ -24,7 +26,7 @@ pub struct Question {
 
 impl fmt::Display for Question {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{}: {}", self.file, self.text)?;
+        writeln!(f, "{}: {}", self.place, self.text)?;
         write!(f, "\nhint: answer in a recipe (`--recipe`), with one of")?;
         for answer in &self.answers {
             write!(f, "\n  {}:", answer.label)?;

@@ -5,7 +5,7 @@ mod units;
 
 use crate::data::{self, Target, Word};
 use crate::decide::Decisions;
-use crate::error::quoted;
+use crate::error::{Place, quoted};
 use crate::fringes::{COUNT, DETECTORS};
 use crate::header::{self, Header};
 use crate::question::Answer;
@@ -187,7 +187,11 @@ fn ask_which(
         error_answer(&candidate.header.name, error, target)
     };
     let text = format!("several columns may be where it came to, aimed at {}", quoted(target));
-    decisions.question(&text, found_at.iter().map(answer).collect());
+    decisions.question_at(
+        &candidates[found_at[0]].header.place,
+        &text,
+        found_at.iter().map(answer).collect(),
+    );
 }
 
 /// Target minus what was found is the error.
@@ -280,7 +284,8 @@ fn one_of_each(candidates: &mut [Candidate<'_>], decisions: &mut Decisions<'_>) 
         if given.is_empty() && needed {
             let names: Vec<_> = same.iter().map(|at| candidates[*at].header.name.clone()).collect();
             let text = format!("`{}` may be `{target}` each", names.join("`, `"));
-            decisions.question(&text, answers(&names, target));
+            let place = &candidates[same[1]].header.place;
+            decisions.question_at(place, &text, answers(&names, target));
         }
         let kept = given.first().copied().unwrap_or(same[0]);
         for at in same.into_iter().filter(|at| *at != kept && !given.contains(at)) {
@@ -318,7 +323,8 @@ fn two_positions(
     };
     let text = format!("`{}` and `{}` are positions both", names[0], names[1]);
     let [first, second] = [&names[0], &names[1]];
-    decisions.question(&text, vec![answer([first, second]), answer([second, first])]);
+    let ways = vec![answer([first, second]), answer([second, first])];
+    decisions.question_at(&candidates[other].header.place, &text, ways);
     candidates[other].rule.to = None;
     candidates[other].rule.reason.clear();
     difference(&mut candidates[other], &names[0]);
@@ -390,7 +396,8 @@ fn observed(candidates: &[Candidate<'_>], decisions: &mut Decisions<'_>) {
     if !has(&OBSERVED) && !has(&DETECTORS) && !free.is_empty() {
         let rotary = candidates.iter().any(|candidate| candidate.is("angle_rev"));
         let to = if rotary { "error_arcsec" } else { "error_um" };
-        decisions.question("no column is known as the measured error", answers(&free, to));
+        let text = "no column is known as the measured error";
+        decisions.question_at(&names_line(candidates), text, answers(&free, to));
     }
     let even = decisions.given("table", "period_s").is_some();
     let numbers = candidates.iter().any(|candidate| candidate.samples.holds == Holds::Numbers);
@@ -402,6 +409,14 @@ fn observed(candidates: &[Candidate<'_>], decisions: &mut Decisions<'_>) {
             label: "a row comes every so many seconds".to_owned(),
             recipe: "[table]\nperiod_s = 0.001".to_owned(),
         });
-        decisions.question("no column is known as position or time", ways);
+        let text = "no column is known as position or time";
+        decisions.question_at(&names_line(candidates), text, ways);
     }
+}
+
+/// The line of the names.
+fn names_line(candidates: &[Candidate<'_>]) -> Place {
+    let mut place = candidates[0].header.place.clone();
+    place.at.column = None;
+    place
 }

@@ -52,8 +52,7 @@ pub(crate) fn grid(lines: &[&str], decisions: &mut Decisions<'_>) -> Result<Grid
         }
         let word = rest.split_whitespace().next().unwrap_or_default();
         let Some(value) = number(word, '.') else {
-            let mut place = Place::line(file, index + 1);
-            place.at.column = line.rfind(word).map(|byte| 1 + line[..byte].chars().count());
+            let place = Place::word(file, index + 1, line, word);
             return Err(ImportError::found(place, quoted(word), format!("a number for `{name}`")));
         };
         let Some(instant) = parse(&stamp, Order::Year) else { continue };

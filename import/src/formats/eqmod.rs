@@ -26,7 +26,7 @@ pub(crate) fn read(lines: &[&str], decisions: &mut Decisions<'_>) -> Result<Buil
     let file = decisions.file();
     let (mut time_s, mut error) = (Vec::new(), Vec::new());
     for (index, line) in lines.iter().enumerate() {
-        let place = || Place::line(file, index + 1);
+        let place = |word: &str| Place::word(file, index + 1, line, word);
         let line = line.trim();
         if line.is_empty() || line.starts_with('#') {
             continue;
@@ -38,7 +38,7 @@ pub(crate) fn read(lines: &[&str], decisions: &mut Decisions<'_>) -> Result<Buil
         let row = row(line, place)?;
         if time_s.last().is_some_and(|last| row[0] <= *last) {
             let found = format!("{} s behind a later second", row[0]);
-            return Err(ImportError::found(place(), found, "seconds that rise"));
+            return Err(ImportError::found(place(line), found, "seconds that rise"));
         }
         time_s.push(row[0]);
         error.push(row[2]);
@@ -54,14 +54,15 @@ pub(crate) fn read(lines: &[&str], decisions: &mut Decisions<'_>) -> Result<Buil
 
 fn setting_of(
     setting: &str,
-    place: impl Fn() -> Place,
+    place: impl Fn(&str) -> Place,
     decisions: &mut Decisions<'_>,
 ) -> Result<(), ImportError> {
     let Some((name, value)) = setting.split_once('=') else {
-        return Err(ImportError::found(place(), quoted(setting), "`!Name=value`"));
+        return Err(ImportError::found(place(setting), quoted(setting), "`!Name=value`"));
     };
-    let Some(value) = number(value.trim(), '.').filter(|value| 0.0 < *value) else {
-        return Err(ImportError::found(place(), quoted(value.trim()), "a number above 0"));
+    let word = value.trim();
+    let Some(value) = number(word, '.').filter(|value| 0.0 < *value) else {
+        return Err(ImportError::found(place(word), quoted(word), "a number above 0"));
     };
     if name.trim() == "WormPeriod" {
         let order = (SIDEREAL_DAY_S / value * 100.0).round() / 100.0;
@@ -72,21 +73,18 @@ fn setting_of(
     Ok(())
 }
 
-fn row(line: &str, place: impl Fn() -> Place) -> Result<[f64; 3], ImportError> {
+fn row(line: &str, place: impl Fn(&str) -> Place) -> Result<[f64; 3], ImportError> {
     let cells: Vec<&str> = line.split([' ', '\t']).filter(|cell| !cell.is_empty()).collect();
     if cells.len() != CELLS.len() {
         let found = format!("{} cells", cells.len());
-        return Err(ImportError::found(place(), found, format!("three: {}", CELLS.join(", "))));
+        return Err(ImportError::found(place(line), found, format!("three: {}", CELLS.join(", "))));
     }
     let mut row = [0.0; 3];
     for ((value, cell), name) in row.iter_mut().zip(&cells).zip(CELLS) {
         // Visual Basic writes the decimal sign of its country.
         let read = number(cell, '.').or_else(|| number(cell, ','));
         *value = read.ok_or_else(|| {
-            let mut at = place();
-            let before = line.find(cell).map_or(0, |byte| line[..byte].chars().count());
-            at.at.column = Some(before + 1);
-            ImportError::found(at, format!("{} for {name}", quoted(cell)), "a number")
+            ImportError::found(place(cell), format!("{} for {name}", quoted(cell)), "a number")
         })?;
     }
     Ok(row)

@@ -16,11 +16,12 @@ use crate::number::number;
 
 #[derive(Default)]
 struct Test {
-    unit: Option<String>,
+    /// Its line, and what it is.
+    unit: Option<(usize, String)>,
     /// Positions aimed at, by their number.
     targets: BTreeMap<usize, f64>,
-    /// Positions found, by cycle, direction (0 there, 1 back) and number.
-    found: BTreeMap<(usize, usize, usize), f64>,
+    /// Positions found and their lines, by cycle, direction (0 there, 1 back) and number.
+    found: BTreeMap<(usize, usize, usize), (usize, f64)>,
 }
 
 /// Reads assignments or tables.
@@ -37,7 +38,7 @@ pub(crate) fn read(lines: &[&str], decisions: &mut Decisions<'_>) -> Result<Buil
         } else if lower.contains("backward direction") {
             (direction, cycles) = (Some(1), Vec::new());
         } else if bare.contains("ref_pos(i,") {
-            cycles = test.header(bare);
+            cycles = test.header(index, bare);
         } else if bare.is_empty() || bare.starts_with("## ") {
             cycles.clear();
         } else if let (Some(direction), false) = (direction, cycles.is_empty()) {
@@ -51,9 +52,10 @@ pub(crate) fn read(lines: &[&str], decisions: &mut Decisions<'_>) -> Result<Buil
 
 impl Test {
     /// Cycles of the columns of a table.
-    fn header(&mut self, text: &str) -> Vec<usize> {
+    fn header(&mut self, index: usize, text: &str) -> Vec<usize> {
         if let Some((_, unit)) = text.split_once('[') {
-            self.unit.get_or_insert(unit.split(']').next().unwrap_or_default().to_owned());
+            let unit = unit.split(']').next().unwrap_or_default().to_owned();
+            self.unit.get_or_insert((index + 1, unit));
         }
         let cycle = |cell: &str| cell.split_once("ref_pos(i,")?.1.split(')').next()?.parse().ok();
         text.split('|').filter_map(cycle).collect()
@@ -82,7 +84,7 @@ impl Test {
         let at = cells[0].parse().map_err(|_| refused(file, index, line, cells[0]))?;
         self.targets.insert(at, value(cells[1])?);
         for (cycle, cell) in cycles.iter().zip(&cells[2..]) {
-            self.found.insert((*cycle, direction, at), value(cell)?);
+            self.found.insert((*cycle, direction, at), (index + 1, value(cell)?));
         }
         Ok(())
     }
@@ -90,7 +92,7 @@ impl Test {
     fn assignment(&mut self, file: &str, index: usize, line: &str) -> Result<(), ImportError> {
         let Some((name, cell)) = line.trim().split_once('=') else { return Ok(()) };
         if name == "UNIT" {
-            self.unit = Some(cell.trim().to_owned());
+            self.unit = Some((index + 1, cell.trim().to_owned()));
         }
         let Some((name, indices)) = name.strip_suffix(']').and_then(|name| name.split_once('['))
         else {
@@ -106,39 +108,46 @@ impl Test {
         let value =
             number(cell.trim(), '.').ok_or_else(|| refused(file, index, line, cell.trim()))?;
         match (wanted, numbers.as_slice()) {
-            (1, [at]) => self.targets.insert(*at, value),
+            (1, [at]) => {
+                self.targets.insert(*at, value);
+            }
             (2, [at, cycle]) => {
-                self.found.insert((*cycle, usize::from(name == "REF_DATA_BWD"), *at), value)
+                let back = usize::from(name == "REF_DATA_BWD");
+                self.found.insert((*cycle, back, *at), (index + 1, value));
             }
             _ => {
                 return Err(ImportError::found(
-                    Place::line(file, index + 1),
+                    Place::word(file, index + 1, line, indices),
                     quoted(indices),
                     "numbers of position and cycle",
                 ));
             }
-        };
+        }
         Ok(())
     }
 
     fn build(self, decisions: &mut Decisions<'_>) -> Result<Built, ImportError> {
         let file = decisions.file();
-        let refuse = |found: String, expected: &str| {
-            Err(ImportError::found(Place::file(file), found, expected))
-        };
+        let refuse =
+            |place, found: String, expected: &str| Err(ImportError::found(place, found, expected));
         if self.found.is_empty() {
             return refuse(
+                Place::file(file),
                 "no reference positions".into(),
                 "`REF_DATA_FWD[…]` or tables of `ref_pos`",
             );
         }
-        let named = self.unit.clone();
+        let named = self.unit.as_ref().map(|(_, unit)| unit.clone());
         let unit = decisions.text("calibration", "unit", || match named {
             Some(unit) => (unit, "as the file says".into()),
             None => ("mm".into(), "what its manual says holds without `UNIT`".into()),
         });
         let Some(scale) = data::unit(&unit, "length").or_else(|| data::unit(&unit, "angle")) else {
-            return refuse(format!("the unit {}", quoted(&unit)), "a unit of length or angle");
+            let line = self.unit.iter().find(|(_, named)| *named == unit);
+            let place =
+                line.map_or_else(|| Place::file(file), |(line, _)| Place::line(file, *line));
+            let found = format!("the unit {}", quoted(&unit));
+            return refuse(place, found, "a unit of length or angle");
         };
         let angular = scale.kind == "angle";
         let ours =
@@ -154,9 +163,10 @@ impl Test {
         order.sort_by_key(|((cycle, back, at), _)| {
             (*cycle, *back, if *back == 1 { usize::MAX - at } else { *at })
         });
-        for ((cycle, back, at), found) in order {
+        for ((cycle, back, at), (line, found)) in order {
             let Some(target) = self.targets.get(at) else {
                 return refuse(
+                    Place::line(file, *line),
                     format!("a reference for position {at}"),
                     "a target for it (`TGT_DATA`)",
                 );
@@ -180,8 +190,5 @@ fn digits(value: f64) -> f64 {
 }
 
 fn refused(file: &str, index: usize, line: &str, cell: &str) -> ImportError {
-    let mut place = Place::line(file, index + 1);
-    let byte = line.find(cell).unwrap_or(0);
-    place.at.column = Some(1 + line[..byte].chars().count());
-    ImportError::found(place, quoted(cell), "a number")
+    ImportError::found(Place::word(file, index + 1, line, cell), quoted(cell), "a number")
 }

@@ -141,14 +141,13 @@ fn triplets(file: &str, lines: &[&str]) -> Result<Vec<[f64; 3]>, ImportError> {
             ));
         }
         for (value, word) in row.iter_mut().zip(&words) {
-            let mut place = Place::line(file, index + 1);
-            place.at.column = line.find(word).map(|byte| 1 + line[..byte].chars().count());
+            let place = Place::word(file, index + 1, line, word);
             *value = number(word, '.')
                 .ok_or_else(|| ImportError::found(place, quoted(word), "a number"))?;
         }
         if rows.last().is_some_and(|last| row[0] <= last[0]) {
             return Err(ImportError::found(
-                Place::line(file, index + 1),
+                Place::word(file, index + 1, line, words[0]),
                 format!("the position {}", row[0]),
                 "a larger one than before",
             ));

@@ -36,8 +36,9 @@ pub(crate) fn grid(bytes: &[u8], decisions: &mut Decisions<'_>) -> Result<Grid, 
         ImportError::found(Place::file(decisions.file()), found, expected)
     };
     let is_swapped = bytes.get(126..HEADER) == Some(b"MI");
-    let plain = unpacked(bytes, is_swapped)
-        .ok_or_else(|| refused("a MATLAB file that contradicts itself", "one that MATLAB opens"))?;
+    let plain = unpacked(bytes, is_swapped).map_err(|(at, what)| {
+        refused(&format!("at byte {at} an element that {what}"), "a file that MATLAB opens")
+    })?;
     if limits::UNPACKED < plain.len() {
         return Err(refused("more than it may unpack to", &format!("{} bytes", limits::UNPACKED)));
     }
@@ -55,21 +56,23 @@ pub(crate) fn grid(bytes: &[u8], decisions: &mut Decisions<'_>) -> Result<Grid, 
 
 /// The elements behind the header, those that are packed unpacked, until they are too many.
 ///
-/// `None` where one is longer than the file, or cannot be unpacked.
-fn unpacked(bytes: &[u8], is_swapped: bool) -> Option<Vec<u8>> {
-    let (mut plain, mut rest) = (Vec::new(), bytes.get(HEADER..)?);
+/// Otherwise where one is longer than the file, or cannot be unpacked.
+fn unpacked(bytes: &[u8], is_swapped: bool) -> Result<Vec<u8>, (usize, &'static str)> {
+    let (mut plain, mut rest) = (Vec::new(), bytes.get(HEADER..).unwrap_or_default());
     while let Some((tag, behind)) = rest.split_at_checked(TAG) {
         let [kind, size] = [0, 4].map(|at| word(&tag[at..], is_swapped));
-        let element = behind.get(..size as usize)?;
+        let at = bytes.len() - rest.len();
+        let element = behind.get(..size as usize).ok_or((at, "reaches beyond the file"))?;
         if kind == PACKED {
             let left = (limits::UNPACKED + 1).saturating_sub(plain.len()) as u64;
-            ZlibDecoder::new(element).take(left).read_to_end(&mut plain).ok()?;
+            let unpacked = ZlibDecoder::new(element).take(left).read_to_end(&mut plain);
+            unpacked.map_err(|_| (at, "cannot be unpacked"))?;
         } else {
             plain.extend_from_slice(&rest[..TAG + element.len()]);
         }
         rest = &behind[element.len()..];
     }
-    Some(plain)
+    Ok(plain)
 }
 
 /// A number of four bytes.

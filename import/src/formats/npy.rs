@@ -27,8 +27,10 @@ struct Header {
 
 /// Reads an array as a grid; records have a row of names.
 pub(crate) fn grid(file: &str, bytes: &[u8]) -> Result<Grid, ImportError> {
-    let (text, data) =
-        parted(bytes).ok_or_else(|| refused(file, "the end of the file", "a header of NumPy"))?;
+    let (text, data) = parted(bytes).ok_or_else(|| {
+        let found = format!("the end of the file at byte {}", bytes.len());
+        refused(file, &found, "a header of NumPy")
+    })?;
     let header = Header::read(file, &text)?;
     let row_size = header.kinds.iter().map(|kind| kind.size).sum::<usize>();
     let cells = header
@@ -42,7 +44,7 @@ pub(crate) fn grid(file: &str, bytes: &[u8]) -> Result<Grid, ImportError> {
     if data.len() != size {
         return Err(refused(
             file,
-            &format!("{} bytes of data", data.len()),
+            &format!("{} bytes behind byte {}", data.len(), bytes.len() - data.len()),
             &format!("{size} as the header says"),
         ));
     }

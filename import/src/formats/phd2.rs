@@ -120,12 +120,12 @@ impl<'a> Reader<'a> {
     fn line(&mut self, number: usize, line: &str) -> Result<(), ImportError> {
         let begun = !self.time_s.is_empty();
         if let Some(rest) = line.strip_prefix("Guiding Begins at") {
-            self.begin(number, rest)?;
+            self.begin(number, line, rest)?;
             self.fresh = begun;
         } else if line.starts_with("Calibration Begins") {
             self.names.clear();
         } else if let Some(rest) = line.split("Pixel scale =").nth(1) {
-            self.pixel_scale(number, rest)?;
+            self.pixel_scale(number, line, rest)?;
         } else if line.starts_with("INFO: SET LOCK POSITION")
             || line.starts_with("INFO: Server received PAUSE")
             || line.starts_with("INFO: DITHER")
@@ -140,12 +140,12 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    fn begin(&mut self, number: usize, rest: &str) -> Result<(), ImportError> {
+    fn begin(&mut self, number: usize, line: &str, rest: &str) -> Result<(), ImportError> {
+        let place = || Place::word(self.file, number, line, rest.trim());
         let instant = parse(rest, Order::Year).filter(|instant| instant.day.is_some());
         let Some(instant) = instant else {
-            let place = Place::line(self.file, number);
             return Err(ImportError::found(
-                place,
+                place(),
                 quoted(rest.trim()),
                 "when guiding began, as `2017-02-18 20:31:15`",
             ));
@@ -154,9 +154,8 @@ impl<'a> Reader<'a> {
         self.session_s = Some(session_s);
         let first_s = *self.first_s.get_or_insert(session_s);
         if session_s < first_s - DAY_S {
-            let place = Place::line(self.file, number);
             return Err(ImportError::found(
-                place,
+                place(),
                 "a session before the first one",
                 "sessions in order of time",
             ));
@@ -165,7 +164,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    fn pixel_scale(&mut self, line: usize, rest: &str) -> Result<(), ImportError> {
+    fn pixel_scale(&mut self, at: usize, line: &str, rest: &str) -> Result<(), ImportError> {
         let word = rest.split_whitespace().next().unwrap_or_default();
         if self.given_scale.is_some() || word.starts_with("unspecified") || word.is_empty() {
             return Ok(());
@@ -174,7 +173,7 @@ impl<'a> Reader<'a> {
             self.scale = Some(scale);
             Ok(())
         } else {
-            let place = Place::line(self.file, line);
+            let place = Place::word(self.file, at, line, word);
             Err(ImportError::found(place, quoted(word), "a pixel scale in arc seconds"))
         }
     }

@@ -68,30 +68,29 @@ fn frames(file: &str, lines: &[&str], is_dec: bool) -> Result<Vec<Frame>, Import
     let (mut frames, mut answers, mut midnights): (Vec<Frame>, usize, f64) = (Vec::new(), 0, 0.0);
     for (index, line) in lines.iter().enumerate() {
         let Some((clock, message)) = parted(line) else { continue };
-        let found = |found: String, expected: &str| {
-            ImportError::found(Place::line(file, index + 1), found, expected)
+        let found = |word: &str, expected: &str| {
+            ImportError::found(Place::word(file, index + 1, line, word), quoted(word), expected)
         };
         if message.starts_with("Moving (") {
             let name = if is_dec { "yDistance=" } else { "xDistance=" };
             let word = message.split(name).nth(1).and_then(|rest| rest.split(' ').next());
             let raw = word.and_then(|word| number(word, '.'));
-            let raw =
-                raw.ok_or_else(|| found(quoted(message), "a reading behind `raw xDistance=`"))?;
+            let raw = raw.ok_or_else(|| found(message, "a reading behind `raw xDistance=`"))?;
             let second = parse(clock, Order::Year).map(|instant| instant.second);
-            let second = second.ok_or_else(|| found(quoted(clock), "a time of day"))?;
+            let second = second.ok_or_else(|| found(clock, "a time of day"))?;
             let before = frames.last().map_or(f64::NEG_INFINITY, |frame| frame.time_s);
             if midnights + second < before - 0.5 * DAY_S {
                 midnights += DAY_S;
             }
             let time_s = midnights + second;
             if time_s < before {
-                return Err(found(quoted(clock), "a clock that does not go back"));
+                return Err(found(clock, "a clock that does not go back"));
             }
             frames.push(Frame { time_s, raw, push: 0.0 });
             answers = 0;
         } else if let Some((_, rest)) = message.split_once("esult() returns ") {
             let push = rest.split(' ').next().and_then(|word| number(word, '.'));
-            let push = push.ok_or_else(|| found(quoted(message), "a push behind `returns`"))?;
+            let push = push.ok_or_else(|| found(message, "a push behind `returns`"))?;
             if let Some(frame) = frames.last_mut().filter(|_| answers == usize::from(is_dec)) {
                 frame.push = push;
             }

@@ -18,8 +18,9 @@ use crate::number::number;
 #[derive(Default)]
 struct Sections {
     targets: Vec<f64>,
-    target_count: Option<usize>,
-    run_count: Option<usize>,
+    /// Line, and what stands there.
+    target_count: Option<(usize, usize)>,
+    run_count: Option<(usize, usize)>,
     angular: bool,
     /// Line, run, target (both from 1) and deviation.
     readings: Vec<(usize, usize, usize, f64)>,
@@ -88,8 +89,12 @@ impl Sections {
                 ("TARGET DATA", "filetype" | "file type") => {
                     sections.angular = value.to_uppercase().contains("ANGULAR");
                 }
-                ("TARGET DATA", "target-count") => sections.target_count = value.parse().ok(),
-                ("RUNS", "run-count") => sections.run_count = value.parse().ok(),
+                ("TARGET DATA", "target-count") => {
+                    sections.target_count = value.parse().ok().map(|count| (index + 1, count));
+                }
+                ("RUNS", "run-count") => {
+                    sections.run_count = value.parse().ok().map(|count| (index + 1, count));
+                }
                 ("DEVIATIONS", "run target data") => list = true,
                 ("DEVIATIONS", "") if list && !text.is_empty() => {
                     sections.reading(file, index, line)?;
@@ -113,7 +118,7 @@ impl Sections {
                 Some(target) => self.targets.push(target),
                 None => {
                     return Err(ImportError::found(
-                        word_place(file, index, line, word),
+                        Place::word(file, index + 1, line, word),
                         quoted(word),
                         "a target position",
                     ));
@@ -133,16 +138,17 @@ impl Sections {
                 "run, target and deviation",
             ));
         };
+        let (run_at, target_at) = (run, target);
         let count = |word: &str, expected: &str| {
             let parsed = word.parse::<usize>().ok().filter(|count| (1..=1_000_000).contains(count));
             parsed.ok_or_else(|| {
-                ImportError::found(word_place(file, index, line, word), quoted(word), expected)
+                ImportError::found(Place::word(file, index + 1, line, word), quoted(word), expected)
             })
         };
         let (run, target) = (count(run, "a run from 1")?, count(target, "a target from 1")?);
         let Some(deviation) = number(deviation, '.') else {
             return Err(ImportError::found(
-                word_place(file, index, line, deviation),
+                Place::word(file, index + 1, line, deviation),
                 quoted(deviation),
                 "a deviation",
             ));
@@ -150,15 +156,13 @@ impl Sections {
         if self.targets.len() < target {
             let found = format!("target {target}");
             let expected = format!("one of the {} targets", self.targets.len());
-            return Err(ImportError::found(Place::line(file, index + 1), found, expected));
+            let place = Place::word(file, index + 1, line, target_at);
+            return Err(ImportError::found(place, found, expected));
         }
         if self.readings.iter().any(|(_, r, t, _)| (*r, *t) == (run, target)) {
             let found = format!("run {run}, target {target} again");
-            return Err(ImportError::found(
-                Place::line(file, index + 1),
-                found,
-                "one reading each",
-            ));
+            let place = Place::word(file, index + 1, line, run_at);
+            return Err(ImportError::found(place, found, "one reading each"));
         }
         self.readings.push((index + 1, run, target, deviation));
         Ok(())
@@ -178,24 +182,23 @@ impl Sections {
     }
 
     fn check(&self, file: &str) -> Result<(), ImportError> {
-        let refuse = |found: String, expected: String| {
-            Err(ImportError::found(Place::file(file), found, expected))
-        };
+        let refuse =
+            |place, found: &str, expected: &str| Err(ImportError::found(place, found, expected));
         if self.targets.is_empty() {
-            return refuse("no targets".into(), "positions behind `Targets :`".into());
+            return refuse(Place::file(file), "no targets", "positions behind `Targets :`");
         }
         if self.readings.is_empty() {
-            return refuse("no readings".into(), "lines below `Run Target Data:`".into());
+            return refuse(Place::file(file), "no readings", "lines below `Run Target Data:`");
         }
-        if let Some(count) = self.target_count.filter(|count| *count != self.targets.len()) {
-            return refuse(
-                format!("{} targets", self.targets.len()),
-                format!("{count} as `Target-count` says"),
-            );
-        }
-        let runs = self.runs();
-        if let Some(count) = self.run_count.filter(|count| *count != runs) {
-            return refuse(format!("{runs} runs"), format!("{count} as `Run-count` says"));
+        let counted = [
+            (self.target_count, self.targets.len(), "targets", "Target-count"),
+            (self.run_count, self.runs(), "runs", "Run-count"),
+        ];
+        for (told, count, what, name) in counted {
+            if let Some((line, told)) = told.filter(|(_, told)| *told != count) {
+                let expected = format!("{told} as `{name}` says");
+                return refuse(Place::line(file, line), &format!("{count} {what}"), &expected);
+            }
         }
         Ok(())
     }
@@ -249,12 +252,4 @@ impl Sections {
 
 fn column(name: &str) -> Column {
     Column { name: name.to_owned(), values: Vec::new() }
-}
-
-/// Where a word stands in a line.
-fn word_place(file: &str, index: usize, line: &str, word: &str) -> Place {
-    let mut place = Place::line(file, index + 1);
-    let byte = line.find(word).unwrap_or(0);
-    place.at.column = Some(1 + line[..byte].chars().count());
-    place
 }

@@ -103,7 +103,8 @@ fn angle_answers(candidate: &Candidate<'_>, target: Target) -> Vec<Answer> {
 fn ask_fraction(candidate: &mut Candidate<'_>, decisions: &mut Decisions<'_>) {
     let name = &candidate.header.name;
     let text = format!("column {} is in %, and nowhere above 1", quoted(name));
-    decisions.question(&text, unit_answers(name, &["ratio", "%"]));
+    let answers = unit_answers(name, &["ratio", "%"]);
+    decisions.question_at(&candidate.header.place, &text, answers);
     candidate.rule.unit = Some("ratio".to_owned());
     candidate.rule.reason.push_str("; its unit is not sure");
 }
@@ -135,7 +136,7 @@ fn ask_unit(candidate: &mut Candidate<'_>, target: Target, decisions: &mut Decis
             ),
         });
     }
-    decisions.question(&text, answers);
+    decisions.question_at(&candidate.header.place, &text, answers);
     candidate.rule.unit = Some(units[0].to_owned());
     candidate.rule.reason.push_str("; its unit is not sure");
 }
