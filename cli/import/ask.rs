@@ -37,7 +37,7 @@ mod tests {
     fn the_number_of_an_answer_is_asked_for_until_there_is_one() {
         let answer = |label: &str| Answer { label: label.into(), recipe: String::new() };
         let question = Question {
-            file: "a.csv".into(),
+            place: helixlock_import::Place::file("a.csv"),
             text: "which unit".into(),
             answers: vec![answer("um"), answer("mm")],
         };

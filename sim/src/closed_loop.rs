@@ -14,6 +14,7 @@ mod simulate;
 mod swing;
 #[cfg(test)]
 mod tests;
+mod under_way;
 mod waveform_file;
 
 pub use appraisal::{
@@ -35,4 +36,5 @@ pub use recorder::{Comparison, Recorder, unwrap_um};
 pub(crate) use simulate::ready;
 pub use simulate::{Course, Options, Simulation, View, simulate, simulate_watched};
 pub use swing::{Progress, Swing};
+pub use under_way::UnderWay;
 pub use waveform_file::{ANALOGUE, SHOWN_FIRST, TICK, WaveformFile, write_vcd};

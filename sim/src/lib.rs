@@ -15,7 +15,7 @@ pub use closed_loop::{
     ANALOGUE, Analogue, Change, ClosedLoop, Comparison, Course, Findings, Grinder, Hunting,
     Illustrations, LeadAppraisal, Options, PULSE_CLOCKS, Pass, PassFindings, PassPlan, Place,
     Playback, Probe, Process, Progress, PulsePin, Recorder, SHOWN_FIRST, Sample, Seen, Simulation,
-    Swing, TICK, Trace, View, Watch, Waveform, WaveformFile, appraise_lead, clock_of,
+    Swing, TICK, Trace, UnderWay, View, Watch, Waveform, WaveformFile, appraise_lead, clock_of,
     fastest_um_per_s, illustrate, measure_hunting, peak_to_peak, run_pass, signals_of, simulate,
     simulate_watched, time_of, unwrap_um, write_vcd,
 };
