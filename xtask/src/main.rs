@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::Path;
 use std::process::{Command, ExitCode};
 
-use anyhow::Context;
+use anyhow::{Context, ensure};
 use clap::Parser;
 use xtask::python;
 use xtask::setup::Tools;
@@ -46,8 +46,13 @@ fn run(task: Task, out: &mut impl Write) -> anyhow::Result<u8> {
     }
 }
 
+/// Commands of `evidence`: another word is refused before anything is compiled.
+const EVIDENCE: [&str; 4] = ["prove", "icarus", "same-output", "sbom"];
+
 /// Its exit status.
 fn evidence(root: &Path, words: &[String]) -> anyhow::Result<u8> {
+    let word = words.first().map_or("", String::as_str);
+    ensure!(EVIDENCE.contains(&word), "found `{word}`, expected check, {}", EVIDENCE.join(", "));
     let mut cargo = Command::new("cargo");
     cargo.args(["run", "--quiet", "--package", "helixlock-evidence", "--"]).args(words);
     let path = Tools::of(root).path()?;
