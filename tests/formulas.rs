@@ -102,3 +102,36 @@ fn a_formula_remembers() {
         assert!((value - truth).abs() < 3.0 * error + 0.02 * truth, "{name} {value} ± {error}");
     }
 }
+
+/// Strokes of a sine, sampled every 10 ms: an axis that is 8 ms late, rounded to 20 µm. What its
+/// speed at each sample tells is proposed, and neither play nor waves.
+#[test]
+fn a_follower_is_late_by_the_speed_of_every_sample() {
+    let folder = scratch();
+    let machine = "title = 'axis'\n[spindle]\nspeed = '300 rpm'\n[lead_screw]\nlead = '5 mm'\n";
+    let (path, file) = word(&folder, "machine.toml");
+    put(&path, machine);
+    let mut text = "time_s,position_mm,error_um\n".to_owned();
+    for row in 0..600_u32 {
+        let time_s = f64::from(row) / 100.0;
+        // From half a stroke a second to one.
+        let turns = 0.5 * time_s + 0.04 * time_s * time_s;
+        let phase = std::f64::consts::TAU * turns;
+        let velocity_mm_s = 5.0 * libm::cos(phase) * std::f64::consts::TAU * (0.5 + 0.08 * time_s);
+        let error_um = (8.0 * velocity_mm_s / 20.0).round() * 20.0;
+        writeln!(text, "{time_s},{:.2},{error_um}", 5.0 * libm::sin(phase)).expect("memory");
+    }
+    let (path, data) = word(&folder, "data.csv");
+    put(&path, &text);
+    let found = json(&helixlock(&["discover", &file, &data, "--json"]));
+    assert_eq!(found["verdict"], "explained-by-a-formula", "{found}");
+    let proposals = found["proposals"].as_array().expect("a list");
+    assert_eq!(proposals.len(), 1, "{found}");
+    assert_eq!(proposals[0]["shape"], "late by a time", "{found}");
+    let (size, error) = number(&proposals[0]["parameters"]["size"]);
+    // A turn a minute is a twelfth of a millimetre a second; a table ahead is no error behind.
+    assert!((size + 8.0 / 12.0).abs() < 2.0 * error + 0.005, "{size} ± {error}");
+    let diagnosed = json(&helixlock(&["diagnose", &file, &data, "--json"]));
+    assert_eq!(diagnosed["verdict"], "unexplained", "{diagnosed}");
+    assert_eq!(diagnosed["residual"][0]["along"], "velocity_rpm", "{diagnosed}");
+}

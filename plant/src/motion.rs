@@ -153,6 +153,7 @@ impl Motion {
             spindle_rad: TAU * position_mm / self.lead_mm,
             speed_rpm: stretch.speed_rpm,
             direction: stretch.velocity_mm_s.signum(),
+            velocity_rpm: stretch.speed_rpm * stretch.velocity_mm_s.signum(),
             pass: self.number,
             travelled_mm,
             since_reversal_mm: if stretch.reversed { since_mm } else { f64::INFINITY },

@@ -112,6 +112,8 @@ pub struct Instant<'a> {
     pub speed_rpm: f64,
     /// +1 forward, −1 in reverse.
     pub direction: f64,
+    /// Turns of the spindle a minute at this very moment, negative backwards.
+    pub velocity_rpm: f64,
     /// Pass, from 0.
     pub pass: usize,
     /// Way since the start of the pass, mm, never falling.
@@ -223,6 +225,7 @@ impl Record {
             spindle_rad: self.spindle_rad[index],
             speed_rpm: self.speed_rpm[index],
             direction: self.direction[index],
+            velocity_rpm: self.velocity_rpm(index),
             pass: self.pass[index],
             travelled_mm: self.travelled_mm[index],
             since_reversal_mm: self.since_reversal_mm[index],
@@ -247,12 +250,24 @@ impl Record {
             spindle_rad: spindle_rad[row],
             speed_rpm: speed_rpm[row],
             direction: direction[row],
+            velocity_rpm: self.velocity_rpm(row),
             pass: pass[row],
             travelled_mm: travelled_mm[row],
             since_reversal_mm: since_reversal_mm[row],
             error_um: error_um[row],
             covariates: self.logged(row),
         })
+    }
+
+    /// Turns over time from the sample before to the one behind, as far as they are of its pass; 0
+    /// where no time passes between them.
+    fn velocity_rpm(&self, row: usize) -> f64 {
+        let is_own = |other: &usize| self.pass.get(*other) == Some(&self.pass[row]);
+        let before = row.checked_sub(1).filter(is_own).unwrap_or(row);
+        let behind = Some(row + 1).filter(is_own).unwrap_or(row);
+        let elapsed_s = self.time_s[behind] - self.time_s[before];
+        let turns = (self.spindle_rad[behind] - self.spindle_rad[before]) / TAU;
+        if 0.0 < elapsed_s { 60.0 * turns / elapsed_s } else { 0.0 }
     }
 
     /// Logged quantities of one sample.

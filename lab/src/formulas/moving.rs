@@ -248,9 +248,13 @@ pub(super) fn of_the_way(all: &Quantities) -> Vec<Shape> {
             );
         }
     }
+    let physics = "a sensor or a follower that is late by a time";
+    let late = |velocity| shape("late by a time", "speed", physics).curve("size", velocity);
+    shapes.extend(all.velocity.as_ref().map(|velocity| late(of(velocity))));
     if 0.0 < spread(&v.values) {
-        let physics = "a sensor or a follower that is late by a time";
-        shapes.push(shape("late by a time", "speed", physics).curve("size", of(v) * of(way)));
+        if all.velocity.is_none() {
+            shapes.push(late(of(v) * of(way)));
+        }
         let physics = "friction or heat that grows with speed";
         shapes.push(shape("by speed", "speed", physics).curve("size", of(v)));
         if moves {

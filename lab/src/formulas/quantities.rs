@@ -20,6 +20,8 @@ pub(crate) struct Quantities {
     pub(crate) turns: Arc<Quantity>,
     pub(crate) speed: Arc<Quantity>,
     pub(crate) direction: Arc<Quantity>,
+    /// How fast it turns at every sample, where that was measured and is not always the same.
+    pub(crate) velocity: Option<Arc<Quantity>>,
     pub(crate) since_reversal: Arc<Quantity>,
     pub(crate) pass: Arc<Quantity>,
     /// How many passes there are.
@@ -45,6 +47,9 @@ impl Quantities {
             turns: quantity("angle_rev", Dimension::number(), record.turns().collect()),
             speed: quantity("speed_rpm", unit("rpm"), record.speed_rpm.clone()),
             direction: quantity("direction", Dimension::number(), record.direction.clone()),
+            velocity: problem
+                .velocity_rpm()
+                .map(|values| quantity("velocity_rpm", unit("rpm"), values)),
             since_reversal: quantity(
                 "since_reversal_mm",
                 unit("mm"),

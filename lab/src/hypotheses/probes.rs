@@ -59,9 +59,11 @@ impl Structure {
     }
 }
 
-/// Number of probes, for they are counted together: every logged column is one more.
+/// Number of probes, for they are counted together: every logged column is one more, and a speed
+/// that changes within a pass.
 pub(super) fn probes(problem: &Problem) -> f64 {
-    PROBES + count(problem.measurement.covariates.len())
+    let columns = problem.measurement.covariates.len();
+    PROBES + count(columns + usize::from(problem.velocity_rpm().is_some()))
 }
 
 /// True for something beyond chance and large enough to change a figure: as much against the swift
@@ -370,6 +372,8 @@ fn covariates(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
         measured.covariates.iter().map(|(name, values)| (name.as_str(), values)).collect();
     columns.push(("direction", &measured.direction));
     columns.push(("speed_rpm", &measured.speed_rpm));
+    let velocity = problem.velocity_rpm();
+    columns.extend(velocity.iter().map(|values| ("velocity_rpm", values)));
     columns
         .into_iter()
         .filter(|(_, values)| 0.0 < spread(values))

@@ -4,7 +4,9 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use helixlock_plant::prediction::{Sensor, gain, meter_um, observe, shown};
-use helixlock_plant::{Effect, EffectError, Entry, Machine, Model, Part, Record, Samples, Term};
+use helixlock_plant::{
+    Column, Effect, EffectError, Entry, Machine, Model, Part, Record, Samples, Term,
+};
 
 use super::designs::Designs;
 use super::finer::Finer;
@@ -13,7 +15,7 @@ use crate::noise::{Block, Layout, outlier_inflation};
 use crate::numerics::{count, highest_frequency, median};
 use crate::policy::extent::MOST_BETWEEN;
 use crate::policy::reading::{MOST_TOLD, WRITTEN_INTERVAL};
-use crate::policy::size::{FINEST_SENSOR_UM, SWINGS};
+use crate::policy::size::{FINEST_SENSOR_UM, ONE_SPEED, SWINGS};
 
 /// One value of one sensor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -68,6 +70,20 @@ impl Problem {
     /// [`EffectError`] when an effect of the machine needs a column the measurement lacks.
     pub fn new(model: &Model, measurement: &Measurement) -> Result<Self, EffectError> {
         Self::laid_out(model, measurement, None)
+    }
+
+    /// Turns of the spindle a minute at every sample, negative backwards; `None` where time was not
+    /// measured, or a pass has one speed: differences of neighbours then tell what its direction
+    /// tells, with more noise.
+    #[must_use]
+    pub(crate) fn velocity_rpm(&self) -> Option<Column> {
+        if !self.measurement.timed {
+            return None;
+        }
+        let velocity: Column = self.record.instants().map(|now| now.velocity_rpm).collect();
+        let usual = velocity.iter().zip(self.record.speed_rpm.iter());
+        let mut off: Vec<f64> = usual.map(|(now, usual)| (now.abs() / usual - 1.0).abs()).collect();
+        (ONE_SPEED < median(&mut off)).then_some(velocity)
     }
 
     /// The same with means of groups of neighbouring samples.

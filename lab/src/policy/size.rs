@@ -78,6 +78,13 @@ pub(crate) const WORTHWHILE_UM: f64 = 0.01;
 /// Chosen, far below any step of a gearbox. Doubled: nothing moves.
 pub(crate) const ANOTHER_SPEED: f64 = 1e-3;
 
+/// Share of the usual speed by which half of the samples of a record must be off it, for the speed to
+/// be that of every sample and not of the pass.
+///
+/// Chosen: steps of travel and time that are rounded to a tenth are 0.1 off, a stroke of a sine 0.35.
+/// Doubled: of such strokes only the speed of the pass is looked at.
+pub(crate) const ONE_SPEED: f64 = 0.2;
+
 /// Share of a record that a pause must have to count as a dwell.
 ///
 /// Chosen: a drift with the record's own time constant goes on by four tenths of its rest in it.

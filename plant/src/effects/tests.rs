@@ -34,6 +34,7 @@ pub(super) fn now() -> Instant<'static> {
         spindle_rad: 500.0 / 6.0 * std::f64::consts::TAU,
         speed_rpm: 6.0,
         direction: 1.0,
+        velocity_rpm: 6.0,
         pass: 0,
         travelled_mm: 500.0,
         since_reversal_mm: 3.0,
