@@ -1,5 +1,7 @@
 //! A machine file in, two passes out: without and with the correction.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use helixlock_plant::{LowPass, Machine, Model};
 
 use super::grinder::Grinder;
@@ -172,14 +174,22 @@ pub fn simulate_watched(
     progress: &mut dyn FnMut(u64),
 ) -> Result<Simulation, Error> {
     let course = Course::new(model, options)?;
-    let grinder = Grinder::new(model, course.length_mm)?;
-    let left_out = grinder.left_out().to_vec();
-    let mut open = run_pass(ready(&course)?, grinder, course.plan(model, false), None, progress)?;
-    let done = open.clocks;
-    let plan = course.plan(model, true);
-    let grinder = Grinder::new(model, course.length_mm)?;
-    let mut progress = |now| progress(done + now);
-    let mut closed = run_pass(ready(&course)?, grinder, plan, watch, &mut progress)?;
+    let left_out = Grinder::new(model, course.length_mm)?.left_out().to_vec();
+    let pass = |correct: bool, watch: Option<Watch<'_>>, progress: &mut dyn FnMut(u64)| {
+        let grinder = Grinder::new(model, course.length_mm)?;
+        run_pass(ready(&course)?, grinder, course.plan(model, correct), watch, progress)
+    };
+    // Neither pass knows of the other: they run side by side.
+    let beside = AtomicU64::new(0);
+    let mut open = Err(Error::NoComparison { length_mm: course.length_mm });
+    let closed = rayon::in_place_scope(|scope| {
+        let (open, beside, pass) = (&mut open, &beside, &pass);
+        scope.spawn(move |_| {
+            *open = pass(false, None, &mut |now| beside.store(now, Ordering::Relaxed));
+        });
+        pass(true, watch, &mut |now| progress(now + beside.load(Ordering::Relaxed)))
+    });
+    let (mut open, mut closed) = (open?, closed?);
     if open.trace.time_s.is_empty() || closed.trace.time_s.is_empty() {
         return Err(Error::NoComparison { length_mm: course.length_mm });
     }

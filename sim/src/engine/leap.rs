@@ -30,12 +30,8 @@ pub struct Leap<'a, K: Kernel> {
     now: Moment<K>,
     /// One bit a watched net.
     watched_nets: Vec<u64>,
-    /// Watched signals that are no nets.
-    watched_others: Vec<SignalId>,
-    /// Values they had.
-    others: Vec<u64>,
-    /// Room for the values they have.
-    others_now: Vec<u64>,
+    /// Watched signals that are no nets, with the values they had.
+    watched_others: Vec<(SignalId, u64)>,
     /// Counters that a watched signal shows as they are: it changes whenever they move.
     watched_counters: Vec<usize>,
     /// All signals at this moment, when somebody asked for one that is kept nowhere.
@@ -55,8 +51,6 @@ impl<'a, K: Kernel> Leap<'a, K> {
             now,
             watched_nets: vec![0; nets],
             watched_others: Vec::new(),
-            others: Vec::new(),
-            others_now: Vec::new(),
             watched_counters: Vec::new(),
             evaluated: Evaluated::new(circuit),
         };
@@ -119,13 +113,28 @@ impl<'a, K: Kernel> Leap<'a, K> {
         changed.zip(&self.watched_nets).any(|(changed, watched)| changed & watched != 0)
     }
 
+    /// The value of a signal of a design that has settled.
+    fn shown(&mut self, signal: SignalId) -> u64 {
+        match self.circuit.place(signal) {
+            Place::Input(index) => self.now.slots.as_ref()[index],
+            Place::Register(index) => self.register(index),
+            Place::Net(index) => self.now.slots.as_ref()[self.circuit.net_slot(index)],
+            Place::Logic => self.evaluate()[signal.0 as usize],
+        }
+    }
+
+    /// Notes the values of watched signals that are no nets; true when one of them is another.
     fn note_watched_others(&mut self) -> bool {
-        let signals = std::mem::take(&mut self.watched_others);
-        let mut now = std::mem::take(&mut self.others_now);
-        self.values(&signals, &mut now);
-        (self.watched_others, self.others_now) = (signals, now);
-        std::mem::swap(&mut self.others, &mut self.others_now);
-        self.others != self.others_now
+        let mut watched = std::mem::take(&mut self.watched_others);
+        let mut another = false;
+        // One by one: two lists that were just written are compared as bytes, and wait for that.
+        for (signal, known) in &mut watched {
+            let value = self.shown(*signal);
+            another |= value != *known;
+            *known = value;
+        }
+        self.watched_others = watched;
+        another
     }
 }
 
@@ -150,12 +159,7 @@ impl<K: Kernel> Engine for Leap<'_, K> {
 
     fn value(&mut self, signal: SignalId) -> u64 {
         self.settle();
-        match self.circuit.place(signal) {
-            Place::Input(index) => self.now.slots.as_ref()[index],
-            Place::Register(index) => self.register(index),
-            Place::Net(index) => self.now.slots.as_ref()[self.circuit.net_slot(index)],
-            Place::Logic => self.evaluate()[signal.0 as usize],
-        }
+        self.shown(signal)
     }
 
     fn values(&mut self, signals: &[SignalId], values: &mut Vec<u64>) {
@@ -183,7 +187,7 @@ impl<K: Kernel> Engine for Leap<'_, K> {
             match (self.circuit.net_of(*signal), self.circuit.place(*signal)) {
                 (Some(index), _) => self.watched_nets[index / 64] |= 1 << (index % 64),
                 (None, Place::Input(_)) => {}
-                (None, _) => self.watched_others.push(*signal),
+                (None, _) => self.watched_others.push((*signal, 0)),
             }
         }
     }
