@@ -8,13 +8,14 @@ use serde_json::Value;
 use super::{LEDGER, MACHINE};
 use crate::shared::output::Batch;
 
-/// Keeps a machine file that somebody edited, and a ledger with rounds that were taken back.
+/// Keeps a machine file that somebody edited, and a ledger with rounds that were taken back or with
+/// effects that somebody refused.
 ///
 /// Gives the name the machine file has got, if any. `known` is what is about to be written, and what
 /// was read: nothing is lost when one of them is what lies there.
 pub(super) fn keep_aside(files: &mut Batch, known: &[&str]) -> anyhow::Result<Option<String>> {
     let ledger = Ledger::read(files.folder());
-    if ledger.rounds().iter().any(is_taken_back) {
+    if ledger.rounds().iter().any(|round| is_taken_back(round) || has_refusals(round)) {
         files.write_content(&free_name(files.folder(), "ledger", "json"), &ledger.bytes)?;
     }
     ledger.edited_aside(files, known)
@@ -58,6 +59,11 @@ impl Ledger {
 /// True for a round that was taken back.
 pub(super) fn is_taken_back(round: &Value) -> bool {
     round.get("taken_back").and_then(Value::as_bool) == Some(true)
+}
+
+/// True for a round with effects that somebody refused, each with the reason.
+fn has_refusals(round: &Value) -> bool {
+    round.get("refused").and_then(Value::as_array).is_some_and(|refused| !refused.is_empty())
 }
 
 /// The first of `stem-1.tail`, `stem-2.tail` … that is free.

@@ -41,6 +41,7 @@ const MACHINE: &str = "machine.toml";
 
 /// Find what a machine file lacks and write the better file, its ledger and a report
 #[derive(Debug, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of the command line")]
 pub(crate) struct Learn {
     /// Machine file
     #[arg(required_unless_present = "undo")]
@@ -57,6 +58,9 @@ pub(crate) struct Learn {
     /// Add what was found even if something is left that no effect accounts for
     #[arg(long)]
     accept: bool,
+    /// Let the new machine file replace the old one
+    #[arg(long, requires = "output")]
+    force: bool,
     /// Take the last round in the folder's ledger back
     #[arg(long, requires = "output", conflicts_with_all = ["machine", "data"])]
     undo: bool,
@@ -92,6 +96,9 @@ impl Learn {
         if let Some(folder) = folder {
             let page = diagnosis_page::page(problem, diagnosis, closed_loop(check));
             let mut inputs = machine_files(machine, &learned.file.model);
+            if self.force {
+                inputs.remove(0);
+            }
             inputs.extend(self.custom.iter().cloned().chain([data.to_owned()]));
             let mut files = Batch::new(folder, inputs)?.in_language(out.language());
             kept = keep_aside(&mut files, &[learned.machine(), &learned.text])?;

@@ -20,6 +20,7 @@ use super::refusal::{Answered, Refusal, json};
 use super::state::state;
 use super::trial::{Moved, trial};
 use super::{axes, said, spectrum, waves};
+use crate::shared::output::recover;
 
 /// Everything the pages work on.
 #[derive(Debug)]
@@ -45,9 +46,10 @@ struct Mend {
 }
 
 impl Workbench {
-    /// A workbench over a folder.
+    /// A workbench over a folder, in which what was interrupted there is finished first.
     pub(crate) fn new(folder: Folder) -> anyhow::Result<Self> {
         folder.names().context("the folder cannot be read")?;
+        recover(folder.root())?;
         let (jobs, cache, dropped) = (Jobs::default(), Cache::default(), Dropped::default());
         Ok(Self { folder, jobs, cache, dropped, writing: Mutex::default() })
     }

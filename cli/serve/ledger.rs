@@ -66,7 +66,9 @@ impl Pair {
         let mut book = self
             .book()?
             .unwrap_or_else(|| Book::new(&seen.title, &seen.unit, &seen.data, &seen.data_hash));
-        if book.machine() != Some(&self.machine) {
+        if book.machine() == Some(&self.machine) {
+            book.size([seen.rms_um, seen.holdout_rms_um], &seen.data_hash);
+        } else {
             book.push(NewRound {
                 rms_um: seen.rms_um,
                 holdout_rms_um: seen.holdout_rms_um,

@@ -12,6 +12,9 @@ pub(crate) const SCRATCH: &str = "SCRATCH";
 pub(crate) const DRAFT: &str = "draft.toml";
 pub(crate) const DRAFTED: &str = "drafted";
 
+/// The machine file that `learn` writes; who reads it has to allow that.
+const LEARNED: &str = "machine.toml";
+
 /// What a command works on.
 #[derive(Debug)]
 pub(crate) struct Subject<'a> {
@@ -36,7 +39,12 @@ pub(crate) fn words(command: &str, subject: &Subject<'_>) -> anyhow::Result<Vec<
     let &Subject { machine, data, effect, keep, .. } = subject;
     let words: Vec<String> = match command {
         "compare" | "diagnose" => [command, machine, data, "--json"].map(str::to_owned).into(),
-        "learn" => ["learn", machine, data, "-o", SCRATCH, "--json"].map(str::to_owned).into(),
+        "learn" => {
+            let own = if machine == LEARNED { &["--force"][..] } else { &[] };
+            let words =
+                ["learn", machine, data, "-o", SCRATCH].into_iter().chain(own.iter().copied());
+            words.chain(["--json"]).map(str::to_owned).collect()
+        }
         "sim" => simulated(subject)?,
         "draft" => {
             let (draft, drafted) = (format!("{SCRATCH}/{DRAFT}"), format!("{SCRATCH}/{DRAFTED}"));
@@ -49,7 +57,7 @@ pub(crate) fn words(command: &str, subject: &Subject<'_>) -> anyhow::Result<Vec<
             let keep = keep.to_string();
             let kept = if keep == "0" { vec![] } else { vec!["--keep", &keep] };
             let head = ["add", machine, effect, "--fit", data, "--refit"];
-            let words = head.into_iter().chain(kept).chain(["-o", &output, "--json"]);
+            let words = head.into_iter().chain(kept).chain(["-o", &output, "--force", "--json"]);
             words.map(str::to_owned).collect()
         }
         other => bail!("`{other}` is not begun from here"),
@@ -115,8 +123,12 @@ mod tests {
         assert_eq!(typed("compare", "m.toml", 0), "helixlock compare m.toml data.csv --json");
         assert_eq!(typed("learn", "m.toml", 0), "helixlock learn m.toml data.csv -o .");
         assert_eq!(
+            typed("learn", "machine.toml", 0),
+            "helixlock learn machine.toml data.csv -o . --force"
+        );
+        assert_eq!(
             typed("add", "m.toml", 2),
-            "helixlock add m.toml abbe --fit data.csv --refit --keep 2 -o m.toml"
+            "helixlock add m.toml abbe --fit data.csv --refit --keep 2 -o m.toml --force"
         );
         assert_eq!(typed("sim", "my m.toml", 0), "helixlock sim 'my m.toml' -o simulation");
         assert_eq!(typed("draft", "m.toml", 0), "helixlock sim m.toml -o simulation");

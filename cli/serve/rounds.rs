@@ -4,7 +4,7 @@ use anyhow::{Context, bail};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::shared::angular::in_unit;
+use crate::shared::angular::{in_unit, key_in};
 
 /// A ledger; what other programs have written into it stays.
 #[derive(Clone, Debug)]
@@ -110,6 +110,22 @@ impl Book {
         self.0["data_hash"] = data_hash.into();
     }
 
+    /// Gives the last round that stands its sizes, `[rms_um, holdout_rms_um]` of these data, where it
+    /// has none: it began with a refusal, before anything was fitted.
+    pub(crate) fn size(&mut self, sizes_um: [Option<f64>; 2], data_hash: &str) {
+        let Some(&last) = self.standing().last() else { return };
+        let unit = self.0["unit"].as_str().unwrap_or("um").to_owned();
+        let round = &mut self.rounds_mut()[last];
+        if !round[key_in("rms_um", &unit)].is_null() || round["data_hash"] != data_hash {
+            return;
+        }
+        for (stem, size) in ["rms", "holdout_rms"].into_iter().zip(sizes_um) {
+            for key in [format!("{stem}_um"), format!("{stem}_before_um")] {
+                round[key_in(&key, &unit)] = size.into();
+            }
+        }
+    }
+
     /// True when a round can be taken back.
     pub(crate) fn can_undo(&self) -> bool {
         1 < self.standing().len()
@@ -187,6 +203,21 @@ mod tests {
         assert_eq!((book.machine(), book.can_redo()), (Some("other"), false));
         assert_eq!(book.undo().as_deref(), Some("second"));
         assert_eq!(book.rounds().len(), 4);
+    }
+
+    #[test]
+    fn a_round_that_was_not_sized_is_sized_once_by_its_own_data() {
+        let mut book = Book::new("a machine", "arcsec", "data.csv", "hash");
+        let round =
+            NewRound { machine: "first".into(), data_hash: "a".into(), ..NewRound::default() };
+        book.push(round).unwrap();
+        book.size([Some(2.0), Some(3.0)], "b");
+        assert_eq!(book.rounds()[0]["rms_arcsec"], Value::Null, "data of another round");
+        book.size([Some(2.0), Some(3.0)], "a");
+        book.size([Some(4.0), Some(5.0)], "a");
+        let sizes = ["rms", "rms_before", "holdout_rms", "holdout_rms_before"];
+        let sizes = sizes.map(|key| book.rounds()[0][format!("{key}_arcsec")].as_f64());
+        assert_eq!(sizes, [2.0, 2.0, 3.0, 3.0].map(Some));
     }
 
     #[test]
