@@ -20,6 +20,7 @@ export async function show(root, page) {
     await post("machine", {}, { text: draft.value });
     await page.refresh();
     save.disabled = true;
+    document.getElementById("unsaved").hidden = true;
     showMessage(t("page.saved"));
   }), { id: "save-device", disabled: true });
   const changed = async () => {

@@ -48,13 +48,13 @@ async function render(root, page) {
     make("div", {}, make("dt", {}, t("effects.now")), make("dd", { "data-key": "now", "data-value": first.rms_um }, `${number(first.rms_um)} ${unit}`)),
     make("div", {}, make("dt", {}, t("effects.then")), make("dd", { "data-key": "noise_um", "data-value": result.noise_um }, `${number(result.noise_um)} ${unit}`))));
   const suggested = result.effects ?? [];
-  if (suggested.length) root.append(makeAll(result, page, suggested));
+  const refused = new Map((app.state.ledger?.rounds ?? []).flatMap((round) => round.refused ?? []).map((one) => [one.effect, one.reason]));
+  if (suggested.length) root.append(makeAll(result, page, suggested, refused));
   root.append(unexplained(result, unit));
   const trial = make("div", { id: "trial" });
   root.append(trial);
   const catalogue = new Map((await get("catalogue")).map((about) => [about.effect, about]));
   const isSuggested = (one) => suggested.some((effect) => effect.effect === one.effect);
-  const refused = new Map((app.state.ledger?.rounds ?? []).flatMap((round) => round.refused ?? []).map((one) => [one.effect, one.reason]));
   const cards = result.candidates.map((one) => card(one, { result, unit, trial, page, refused, suggested: isSuggested(one), about: catalogue.get(one.effect) }));
   const top = cards.filter((_, index) => isSuggested(result.candidates[index]));
   const rest = cards.filter((_, index) => !isSuggested(result.candidates[index]));
@@ -78,9 +78,12 @@ async function draw(top, others, page) {
   else others.addEventListener("toggle", () => fill(rest), { once: true });
 }
 
-// Everything that is suggested at once: what `helixlock learn` does.
-function makeAll(result, page, suggested) {
-  const names = suggested.map((effect) => named("effect", effect.effect)).join(", ");
+// Everything that is suggested at once: what `helixlock learn` does. It knows of no refusal, so that
+// beside one each effect is added by itself.
+function makeAll(result, page, suggested, refused) {
+  const listed = (effects) => effects.map((effect) => named("effect", effect.effect)).join(", ");
+  const names = listed(suggested);
+  const unwanted = listed(suggested.filter((effect) => refused.has(effect.effect)));
   const take = () => page.attempt(async () => {
     const found = await run("learn");
     if (!found) return;
@@ -92,7 +95,8 @@ function makeAll(result, page, suggested) {
   });
   const held = result.verdict === "unexplained";
   return make("div", {}, make("p", {}, held ? t("effects.held", { names }) : t("effects.suggested", { names })),
-    held ? null : make("div", { class: "row" }, button(t("effects.add_all"), take, { class: "first", id: "add-all" })));
+    unwanted ? make("p", {}, t("effects.unwanted", { names: unwanted })) : null,
+    held || unwanted ? null : make("div", { class: "row" }, button(t("effects.add_all"), take, { class: "first", id: "add-all" })));
 }
 
 // What the best model leaves that no effect accounts for.
@@ -127,7 +131,7 @@ function card(one, { result, unit, trial, page, refused, suggested, about }) {
     fact(t("effects.confused"), names(one.confounded_with)),
     one.confounded_with.length ? null : fact(t("effects.alike"), names(about?.confused_with ?? [])),
     fact(t("effects.separate"), one.separate_by ? say(one.separate_by) : about?.separated_by),
-    refused.has(one.effect) ? fact(t("effects.refused"), refused.get(one.effect)) : null,
+    refused.has(one.effect) ? make("p", { class: "refused" }, make("span", { class: "dim" }, `${t("effects.refused")} `), make("bdi", {}, refused.get(one.effect))) : null,
     about ? make("div", { class: "row" },
       button(t("effects.try"), tried, { class: "try" }),
       button(t("effects.add"), add, { class: "add" }),

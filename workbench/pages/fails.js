@@ -58,10 +58,11 @@ async function draw(root, page, series, sensors) {
   const group = newGroup();
   const across = t(`axis_label.${look.x}`);
   const centred = centre(series.residual, series.blocks);
-  new Chart(root, { title: t("fails.measured_model", { sensor: named("sensor", look.sensor) }), x: across, y: unit, group, lines: [
+  const above = new Chart(root, { title: t("fails.measured_model", { sensor: named("sensor", look.sensor) }), x: across, y: unit, group, lines: [
     { label: t("fails.measured"), colour: "orange", curves: curvesOf(x, series.measured, blocks), dots: series.rows < 3000 },
     { label: t("fails.model"), colour: "blue", curves: curvesOf(x, model, blocks) },
   ] });
+  above.box.id = "measured";
   const residual = new Chart(root, { title: t("fails.residual"), x: across, y: unit, group, height: 200, lines: [
     { label: t("fails.residual"), colour: "blue", curves: curvesOf(x, centred, blocks) },
   ] });
@@ -116,7 +117,7 @@ function choices(series, sensors, again) {
     again();
   } }, values.map((value) => new Option(name(value), value, false, value === chosen))));
   const passes = [...new Set(series.blocks.map((block) => block.pass))];
-  const pass = (number) => make("label", {}, make("input", { type: "checkbox", checked: !look.without.has(number), change: (event) => {
+  const pass = (number) => make("label", { class: "pass" }, make("input", { type: "checkbox", checked: !look.without.has(number), change: (event) => {
     if (event.target.checked) look.without.delete(number);
     else look.without.add(number);
     again();
@@ -178,6 +179,7 @@ async function curve(root, words, unit) {
     { label: t("fails.mean"), colour: "orange", curves: [at(axis.mean)] },
   ] });
   chart.box.id = "along";
+  chart.box.dataset.axis = axis.key;
 }
 
 // The spectrum with names at its peaks.
@@ -191,6 +193,7 @@ async function spectrum(root, words, unit) {
   const text = (peak) => `${peak.name ?? "?"} ${number(peak.order, 3)}`;
   chart.after = (plot) => label(chart, plot, peaks, text);
   label(chart, chart.plot, peaks, text);
+  if (look.without.size) root.append(make("p", { class: "dim" }, t("fails.all_passes")));
   if (peaks.length) {
     const rows = peaks.map((peak) => [number(peak.order), number(peak.amplitude), peak.name ? make("bdi", {}, peak.name) : t("fails.nameless")]);
     root.append(table(t("fails.peaks"), [t("fails.order"), t("fails.amplitude_in", { unit }), t("fails.name")], rows, [0, 1]));

@@ -21,16 +21,21 @@ export async function show(root, page) {
     showMessage(t("page.saved"));
   });
   const list = make("div", {});
+  let sized;
+  const kept = async () => {
+    await sized;
+    await keep(root);
+  };
   root.append(
     make("div", { class: "row" },
       button(t("fall.undo"), turn("undo"), { id: "undo", disabled: !app.state.can_undo }),
       button(t("fall.redo"), turn("redo"), { id: "redo", disabled: !app.state.can_redo }),
       button(t("fall.print"), () => window.print()),
-      button(t("fall.export"), () => keep(root), { id: "export" })),
+      button(t("fall.export"), () => page.attempt(kept), { id: "export" })),
     list);
   draw(list, ledger, unit, null);
   root.append(parameters(ledger), refusals(ledger));
-  if (app.data) noise(list, ledger, unit, page);
+  if (app.data) sized = noise(list, ledger, unit, page);
 }
 
 // What is left after the last round, and what of it is noise: what `helixlock compare` finds now.
@@ -87,7 +92,7 @@ function parameters(ledger) {
 }
 
 function refusals(ledger) {
-  const rows = ledger.rounds.flatMap((round) => round.refused ?? []).map((one) => [named("effect", one.effect), one.reason]);
+  const rows = ledger.rounds.flatMap((round) => round.refused ?? []).map((one) => [named("effect", one.effect), make("bdi", {}, one.reason)]);
   if (!rows.length) return make("div", {});
   return table(t("fall.refused"), [t("fall.effect"), t("effects.reason")], rows);
 }

@@ -1,15 +1,17 @@
 // Long work: begun, watched, stopped; its command line is shown and can be copied.
 
-import { get, post, sameKeys } from "./api.js";
+import { app, get, post, sameKeys } from "./api.js";
 import { t } from "./words.js";
 
 const element = (id) => document.getElementById(id);
 let current = null;
 let stopped = false;
 
-export function showLine(line) {
+// The line of a machine file that is not saved does the same once it is.
+export function showLine(line, unsaved = false) {
   element("line").textContent = line;
   element("command").hidden = !line;
+  element("unsaved").hidden = !unsaved;
 }
 
 export function showMessage(text, bad = false) {
@@ -36,13 +38,14 @@ export async function run(command, words = {}, body = {}) {
   let job = await post("begin", { command, ...words }, body);
   const number = job.job;
   current = number;
-  showLine(job.line);
+  showLine(job.line, "text" in body && body.text !== app.state.machine.text);
   showMessage("");
   element("work").hidden = false;
   try {
-    for (let wait = 60; job.running; wait = Math.min(400, wait * 1.5)) {
+    while (job.running) {
       element("seconds").textContent = t("work.seconds", { n: job.seconds.toFixed(0) });
-      await pause(wait);
+      // What is soon done is soon seen.
+      await pause(Math.min(400, 40 + 100 * job.seconds));
       job = await get("job", { job: number });
     }
   } finally {

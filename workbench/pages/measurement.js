@@ -120,14 +120,15 @@ function settings(all, otherwise) {
   return table(t("measurement.settings"), [t("measurement.setting"), t("measurement.value"), t("measurement.why")], all.map(row));
 }
 
-// A card where something turns faster than the samples can follow.
+// A card where something turns faster than the samples can follow: a limit of sound data, no doubt
+// of them.
 async function spacing() {
   const { highest_order, faster } = await get("faster");
   if (!faster.length) return [];
   const fastest = Math.max(...faster.map(([, order]) => order));
   const say = await sayer(faster.map(([name]) => name));
   const rows = faster.map(([name, order]) => [make("bdi", {}, say(name)), number(order)]);
-  return [make("ul", { class: "cards" }, make("li", { class: "card doubt", id: "spacing" },
+  return [make("ul", { class: "cards" }, make("li", { class: "card", id: "spacing" },
     make("h3", {}, t("measurement.spacing")),
     make("p", {}, t("measurement.too_wide", { n: number(highest_order, 3), times: number(fastest / highest_order, 2) })),
     table(t("measurement.faster"), [t("machine.shaft"), t("machine.order")], rows, [1])))];

@@ -22,16 +22,22 @@ function apart(lines) {
   return lines.flatMap((line) => {
     const several = 1 < line.curves.length && line.curves.length <= FEW;
     if (!several) return [line];
-    return line.curves.map((curve, index) => ({ ...line, label: `${line.label} ${index + 1}`, curves: [curve] }));
+    return line.curves.map((curve, index) => ({ ...line, label: `${line.label} ${curve.pass ?? index + 1}`, curves: [curve] }));
   });
 }
 
+// While a page is laid out for paper its charts have the width that they were told.
+let printing = false;
+
+// Width of a chart on A4 with margins of 15 mm.
+const PAPER_PX = 640;
+
 export class Chart {
   // `lines`: { label, colour, curves, dots }; charts of one `group` share view and cursor.
-  constructor(parent, { title, x, y, lines, group, height = 240, fixed = null }) {
+  constructor(parent, { title, x, y, lines, group, height = 240 }) {
     this.lines = apart(lines);
+    this.axes = { x, y, height };
     this.group = group;
-    this.fixed = fixed;
     group?.charts.push(this);
     this.box = document.createElement("figure");
     this.box.className = "chart";
@@ -45,9 +51,10 @@ export class Chart {
     this.box.append(heading, this.canvas, this.tools());
     parent.append(this.box);
     this.whole = this.range();
-    this.view = [...this.whole];
-    this.draw(x, y, height);
+    this.see(...this.whole);
+    this.draw(this.canvas.clientWidth);
     this.wire();
+    this.box.chart = this;
   }
 
   range() {
@@ -81,7 +88,8 @@ export class Chart {
     return tools;
   }
 
-  draw(x, y, height) {
+  draw(width) {
+    const { x, y, height } = this.axes;
     const axis = { stroke: resolved("dim"), grid: { stroke: resolved("line"), width: 1 }, ticks: { stroke: resolved("line"), width: 1 }, font: "12px system-ui", labelFont: "13px system-ui", labelSize: 20 };
     const series = this.lines.map(({ label, colour: name, dots }) => ({
       label,
@@ -92,7 +100,7 @@ export class Chart {
       value: (_, value) => (value == null ? "–" : value.toPrecision(4)),
     }));
     const options = {
-      width: Math.max(260, this.canvas.clientWidth),
+      width: Math.max(260, width),
       height,
       scales: { x: { time: false, range: () => this.view } },
       series: [{ label: x, value: (_, value) => (value == null ? "–" : value.toPrecision(6)) }, ...series],
@@ -106,14 +114,16 @@ export class Chart {
           plot.setSelect({ left: 0, width: 0, top: 0, height: 0 }, false);
           this.look(low, high);
         }],
-        draw: [() => this.after?.(this.plot)],
+        draw: [(plot) => this.after?.(plot)],
       },
     };
+    this.plot?.destroy();
     this.plot = new window.uPlot(options, this.data(), this.canvas);
-    new ResizeObserver(() => {
-      const width = this.canvas.clientWidth;
-      if (width && width !== this.plot.width) this.plot.setSize({ width, height });
-    }).observe(this.canvas);
+  }
+
+  see(low, high) {
+    this.view = [low, high];
+    this.box.dataset.view = this.view.join(" ");
   }
 
   // What the view shows of every line, two places a column.
@@ -156,7 +166,7 @@ export class Chart {
   look(low, high) {
     if (!(low < high)) return;
     for (const chart of this.group?.charts ?? [this]) {
-      chart.view = [low, high];
+      chart.see(low, high);
       chart.redraw();
     }
   }
@@ -185,6 +195,10 @@ export class Chart {
   }
 
   wire() {
+    new ResizeObserver(() => {
+      const width = this.canvas.clientWidth;
+      if (!printing && width && width !== this.plot.width) this.plot.setSize({ width, height: this.axes.height });
+    }).observe(this.canvas);
     this.canvas.addEventListener("wheel", (event) => {
       if (!event.ctrlKey && !event.shiftKey) return;
       event.preventDefault();
@@ -201,6 +215,23 @@ export class Chart {
   }
 }
 
+// Every chart anew, as wide as it is told or as its place is, in the colours that hold now.
+function drawAll(width) {
+  for (const { chart } of document.querySelectorAll("figure.chart")) chart.draw(width ?? chart.canvas.clientWidth);
+}
+
+// A canvas keeps the width and the colours of the screen, and paper has others.
+window.addEventListener("beforeprint", () => {
+  printing = true;
+  document.documentElement.style.colorScheme = "light";
+  drawAll(PAPER_PX);
+});
+window.addEventListener("afterprint", () => {
+  printing = false;
+  document.documentElement.style.colorScheme = "";
+  drawAll();
+});
+
 let groups = 0;
 
 export function newGroup() {
@@ -210,7 +241,7 @@ export function newGroup() {
 
 // Curves of chosen blocks of rows.
 export function curvesOf(x, y, blocks) {
-  return blocks.map(({ from, to }) => new Curve(x, y, from, to));
+  return blocks.map(({ from, to, pass }) => Object.assign(new Curve(x, y, from, to), { pass }));
 }
 
 // Curve of `[x, y]` pairs.
