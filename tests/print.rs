@@ -1,5 +1,6 @@
 //! Pages on paper: A4, and no heading stands last on a sheet.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -7,7 +8,7 @@ use std::process::Command;
 use regex::Regex;
 
 use crate::support::command::{helixlock, put, scratch, word};
-use crate::workbench::driver;
+use crate::workbench::{Server, driver, shortened, story, with_data};
 
 /// Commands whose pages are printed, each without its output.
 const PRINTED: [&str; 5] = [
@@ -23,11 +24,23 @@ fn sheets(page: &Path) -> Vec<String> {
     let pdf = page.with_extension("pdf");
     let printed = driver("print.mjs").args([page, &pdf]).output().expect("`node` starts");
     assert!(printed.status.success(), "{}", String::from_utf8_lossy(&printed.stderr));
-    let text = Command::new("pdftotext").arg("-layout").arg(&pdf).arg("-").output();
-    let text = text.expect("`pdftotext` starts; it is in the Debian package `poppler-utils`");
-    assert!(text.status.success(), "{}", String::from_utf8_lossy(&text.stderr));
-    let text = String::from_utf8(text.stdout).expect("text");
-    text.split('\u{c}').filter(|sheet| !sheet.trim().is_empty()).map(str::to_owned).collect()
+    sheets_of(&pdf)
+}
+
+/// The text of what was printed, sheet by sheet.
+fn sheets_of(pdf: &Path) -> Vec<String> {
+    let text = poppler(&["pdftotext", "-layout"], pdf, &["-"]);
+    let text = String::from_utf8(text).expect("text");
+    let text = text.strip_suffix('\u{c}').expect("a sheet ends with a form feed");
+    text.split('\u{c}').map(str::to_owned).collect()
+}
+
+/// What one of poppler's tools says of a file.
+fn poppler(command: &[&str], pdf: &Path, more: &[&str]) -> Vec<u8> {
+    let run = Command::new(command[0]).args(&command[1..]).arg(pdf).args(more).output();
+    let run = run.expect("the tools of the Debian package `poppler-utils` start");
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    run.stdout
 }
 
 /// Headings of a page of HTML, as they are read.
@@ -40,12 +53,66 @@ fn headings(page: &Path) -> Vec<String> {
 /// Headings that stand last on a sheet, and how many sheets there are.
 fn last_headings(page: &Path) -> (Vec<String>, usize) {
     let (sheets, headings) = (sheets(page), headings(page));
-    let text = sheets.concat();
-    assert!(headings.iter().all(|heading| text.contains(heading)), "{headings:?} in\n{text}");
-    let last = sheets.iter().filter_map(|sheet| sheet.trim_end().lines().last());
-    let last: Vec<&str> = last.map(str::trim).collect();
-    let alone = headings.into_iter().filter(|heading| last.contains(&heading.as_str()));
-    (alone.collect(), sheets.len())
+    (last_of(&sheets, headings), sheets.len())
+}
+
+/// Headings that end a sheet.
+fn last_of(sheets: &[String], headings: Vec<String>) -> Vec<String> {
+    assert!(sheets.iter().all(|sheet| !sheet.trim().is_empty()), "a sheet is empty: {sheets:?}");
+    let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let text = words(&sheets.concat());
+    let missing: Vec<_> = headings.iter().filter(|heading| !text.contains(*heading)).collect();
+    assert!(missing.is_empty(), "{missing:?} in\n{text}");
+    // A heading may take more lines than one.
+    let ends = |sheet: &String| {
+        let lines: Vec<&str> = sheet.trim_end().lines().collect();
+        (1..=3)
+            .filter_map(|count| {
+                Some(words(&lines.get(lines.len().checked_sub(count)?..)?.join(" ")))
+            })
+            .collect::<Vec<_>>()
+    };
+    let last: Vec<String> = sheets.iter().flat_map(ends).collect();
+    headings.into_iter().filter(|heading| last.contains(heading)).collect()
+}
+
+/// The first sheet in colours, three bytes a point, five points a centimetre.
+fn first_in_colours(pdf: &Path) -> Vec<u8> {
+    let picture = poppler(&["pdftoppm", "-r", "13", "-l", "1"], pdf, &[]);
+    let head = picture.iter().enumerate().filter(|(_, byte)| **byte == b'\n').nth(2);
+    picture[head.expect("three lines before the points").0 + 1..].to_vec()
+}
+
+/// Part of the points that a property holds for.
+#[expect(clippy::cast_precision_loss, reason = "a number of points")]
+fn share(points: &[u8], of: impl Fn(&[u8]) -> bool) -> f64 {
+    points.chunks(3).filter(|point| of(point)).count() as f64 / (points.len() / 3) as f64
+}
+
+/// From a browser in the dark, whose charts have other colours and are wider than a sheet; the story
+/// itself asks what would be cut.
+#[test]
+fn every_screen_of_the_workbench_is_whole_on_paper() {
+    let bench = shortened(with_data("6"));
+    let papers = scratch();
+    let papers_word = papers.path().to_str().expect("a path of text");
+    let told = story("prints", &Server::over(bench.path()), &[papers_word]);
+    let told: BTreeMap<String, Vec<String>> = serde_json::from_str(&told).expect("JSON");
+    assert_eq!(told.len(), 8, "{told:?}");
+    for (name, headings) in told {
+        let pdf = papers.path().join(&name).with_extension("pdf");
+        let size = String::from_utf8(poppler(&["pdfinfo"], &pdf, &[])).expect("text");
+        assert!(size.contains("(A4)"), "{name}: {size}");
+        let sheets = sheets_of(&pdf);
+        let alone = last_of(&sheets, headings);
+        assert!(alone.is_empty(), "{name}: {alone:?}");
+        let points = first_in_colours(&pdf);
+        let white = share(&points, |point| point == [255, 255, 255]);
+        assert!(0.6 < white, "{name}: {white} of the sheet is white");
+        let blue = share(&points, |point| u16::from(point[0]) + 100 < u16::from(point[2]));
+        let bars = ["fall", "kept"].contains(&name.as_str());
+        assert!(!bars || 0.01 < blue, "{name}: {blue} of the sheet is blue");
+    }
 }
 
 #[test]

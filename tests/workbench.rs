@@ -1,5 +1,8 @@
 //! The workbench as its users meet it: in a real Chromium.
 
+mod kills;
+mod screens;
+
 use std::fmt::Write as _;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
@@ -13,14 +16,19 @@ use tempfile::TempDir;
 use crate::support::command::{helixlock, put, repository, scratch, word};
 
 /// `helixlock serve` over a folder, ended with the value.
-struct Server {
+pub(crate) struct Server {
     child: Child,
     address: String,
 }
 
 impl Server {
-    fn over(folder: &Path) -> Self {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_helixlock"))
+    pub(crate) fn over(folder: &Path) -> Self {
+        Self::run(Command::new(env!("CARGO_BIN_EXE_helixlock")), folder)
+    }
+
+    /// The same by a command that runs it.
+    fn run(mut command: Command, folder: &Path) -> Self {
+        let mut child = command
             .arg("serve")
             .arg(folder)
             .stdout(Stdio::piped())
@@ -67,6 +75,28 @@ impl Server {
         self.send(method, &self.path(&format!("api/{what}")), &head, body)
     }
 
+    /// The answer to what is not refused.
+    fn answered(&self, method: &str, what: &str, body: &str) -> Value {
+        let (status, answer) = self.ask(method, what, body).expect("an answer");
+        assert_eq!(status, 200, "{what}: {answer}");
+        json(&answer)
+    }
+
+    /// How a page asks for a change of the files as they are now.
+    fn change(&self, what: &str) -> String {
+        format!("{what}?machine=machine.toml&data=data.csv&revision={}", self.revision())
+    }
+
+    /// Work that was begun with these words, when it has come to its end.
+    fn finished(&self, words: &str) -> Value {
+        let mut job = self.answered("POST", &(self.change("begin") + words), "{}");
+        while job["running"] == true {
+            std::thread::sleep(Duration::from_millis(20));
+            job = self.answered("GET", &format!("job?job={}", job["job"]), "");
+        }
+        job
+    }
+
     fn revision(&self) -> String {
         let (_, state) = self.ask("GET", "state?machine=machine.toml", "").expect("an answer");
         json(&state)["revision"].as_str().expect("a revision").to_owned()
@@ -107,7 +137,7 @@ fn node_folder() -> PathBuf {
 }
 
 /// Does a story in a browser; gives what it said.
-fn story(name: &str, server: &Server, words: &[&str]) -> String {
+pub(crate) fn story(name: &str, server: &Server, words: &[&str]) -> String {
     let mut command = driver("stories.mjs");
     command.args([name, &server.address]).args(words);
     if std::env::var_os("UPDATE_PICTURES").is_some() {
@@ -133,6 +163,22 @@ fn challenge(seed: &str) -> (TempDir, TempDir) {
     let machine = std::fs::read_to_string(elsewhere.path().join("machine.toml")).expect("a file");
     put(&bench.path().join("machine.toml"), &machine);
     (bench, elsewhere)
+}
+
+/// A challenge with its data in one folder.
+pub(crate) fn with_data(seed: &str) -> TempDir {
+    let (bench, elsewhere) = challenge(seed);
+    let data = std::fs::read_to_string(elsewhere.path().join("data.csv")).expect("its data");
+    put(&bench.path().join("data.csv"), &data);
+    bench
+}
+
+/// The same with a workpiece that is ground in a minute.
+pub(crate) fn shortened(bench: TempDir) -> TempDir {
+    let path = bench.path().join("machine.toml");
+    let machine = std::fs::read_to_string(&path).expect("a machine file");
+    put(&path, &machine.replace("length = \"600 mm\"", "length = \"60 mm\""));
+    bench
 }
 
 /// A folder with the files of an example.
@@ -207,17 +253,18 @@ fn what_is_not_explained_changes_nothing() {
     assert_eq!(std::fs::read(bench.path().join("machine.toml")).unwrap(), before);
 }
 
-/// Every example with a machine file and data.
+/// Every example with a machine file and data; those that are read from an instrument's file first
+/// with the folder of the example, the machine file, the file and its recipe.
 #[test]
 fn a_screen_shows_what_the_command_prints() {
-    let worm = scratch();
-    for (from, to) in [("machine.toml", "machine.toml"), ("dataset01.csv", "data.csv")] {
-        let file = repository().join("examples/real-worm-drive").join(from);
-        put(&worm.path().join(to), &std::fs::read_to_string(file).expect("a file of the example"));
-    }
     let names = ["hidden-gear", "recorder-and-screw", "thermal-day", "encoder-1000-1024"];
     let names = names.into_iter().chain(["outside-the-catalogue"]);
-    for bench in names.map(example).chain([worm]) {
+    let read = [
+        ["real-worm-drive", "machine.toml", "dataset01.csv", ""],
+        ["real-worm-drive", "astro-physics.toml", "logs/performance_dataset03.txt", ""],
+        ["real-stage-fringes", "machine.toml", "first.txt", "fringes.toml"],
+    ];
+    for bench in names.map(example).chain(read.map(imported)) {
         let shown = json(&story("shows", &Server::over(bench.path()), &[]));
         let words = ["machine.toml", "data.csv"].map(|file| word(&bench, file).1);
         for command in ["compare", "diagnose"] {
@@ -225,6 +272,20 @@ fn a_screen_shows_what_the_command_prints() {
             assert_eq!(shown[command], printed.as_str(), "{command}, {}", words[0]);
         }
     }
+}
+
+/// A folder with a machine file of an example, and what `import` makes of an instrument's file.
+fn imported([folder, machine, file, recipe]: [&str; 4]) -> TempDir {
+    let bench = scratch();
+    let folder = repository().join("examples").join(folder);
+    let text = std::fs::read_to_string(folder.join(machine)).expect("a file of the example");
+    put(&bench.path().join("machine.toml"), &text);
+    let [file, recipe_word] = [file, recipe].map(|name| folder.join(name).display().to_string());
+    let data = word(&bench, "data.csv").1;
+    let words = ["import", &file, "-o", &data, "--recipe", &recipe_word];
+    let run = helixlock(&words[..if recipe.is_empty() { 4 } else { 6 }]);
+    assert_eq!(run.status, 0, "{}", run.stderr);
+    bench
 }
 
 /// Every example of the device, one of them in every check.
@@ -254,13 +315,6 @@ fn the_device_follows_its_form() {
     put(&path, &machine);
     story("lives", &Server::over(bench.path()), &["12 rpm"]);
     assert_eq!(std::fs::read_to_string(&path).unwrap(), machine.replace("\"6 rpm\"", "\"12 rpm\""));
-}
-
-/// 8 mm of lead at 6 rpm.
-#[test]
-fn a_click_on_the_residual_shows_the_flip_flops_there() {
-    let bench = example("hidden-gear");
-    story("flips", &Server::over(bench.path()), &["0.8"]);
 }
 
 #[test]
@@ -406,54 +460,11 @@ fn the_second_of_two_tabs_is_told_and_loses_nothing() {
     assert_eq!(server.save(&server.revision(), &second), Some(200));
 }
 
-/// Whatever the moment, the file is whole, and not older than what was acknowledged.
-#[test]
-fn a_kill_loses_nothing_that_was_shown_as_saved() {
-    let bench = example("hidden-gear");
-    let path = bench.path().join("machine.toml");
-    let machine = std::fs::read_to_string(&path).unwrap();
-    let numbered = |number: u32| machine.replacen("title = ", &format!("# {number}\ntitle = "), 1);
-    let number_in = |text: &str| -> u32 {
-        text.strip_prefix("# ").and_then(|rest| rest.lines().next()?.parse().ok()).unwrap_or(0)
-    };
-    let mut number = 0;
-    for wait_ms in [3, 7, 12, 18, 25, 40] {
-        let mut server = Server::over(bench.path());
-        let mut child = std::mem::replace(&mut server.child, idle());
-        let killer = std::thread::spawn(move || {
-            std::thread::sleep(Duration::from_millis(10 * wait_ms));
-            child.kill().and_then(|()| child.wait())
-        });
-        let mut acknowledged = number;
-        let mut revision = server.revision();
-        while server.save(&revision, &numbered(number + 1)) == Some(200) {
-            number += 1;
-            acknowledged = number;
-            let state = server.ask("GET", "state?machine=machine.toml", "");
-            let Some((200, state)) = state else { break };
-            revision = json(&state)["revision"].as_str().expect("a revision").to_owned();
-        }
-        killer.join().expect("no panic").expect("the server is killed");
-        let text = std::fs::read_to_string(&path).unwrap();
-        let found = number_in(&text);
-        assert!(acknowledged <= found && found <= acknowledged + 1, "{found}, {acknowledged}");
-        assert!(found == 0 || text == numbered(found), "the file is whole");
-        number = found;
-    }
-}
-
-/// A process that does nothing, in the place of one that is killed elsewhere.
-fn idle() -> Child {
-    Command::new("sleep").arg("60").spawn().expect("`sleep` starts")
-}
-
 /// On a telephone, in the dark and in Chinese as on a desk in the light: sizes, widths, contrast,
 /// and what axe-core finds.
 #[test]
 fn every_screen_can_be_read() {
-    let (bench, elsewhere) = challenge("6");
-    let data = std::fs::read_to_string(elsewhere.path().join("data.csv")).unwrap();
-    put(&bench.path().join("data.csv"), &data);
+    let bench = with_data("6");
     let server = Server::over(bench.path());
     let looks = ["desk light en-US", "phone dark zh-CN", "desk dark zh-CN", "phone light en-US"];
     for look in &looks[..if all() { 4 } else { 2 }] {
@@ -478,9 +489,7 @@ fn a_reading_is_told_in_chinese() {
 /// From a challenge to a machine file without noise left, and no mouse.
 #[test]
 fn the_keyboard_is_enough() {
-    let (bench, elsewhere) = challenge("6");
-    let data = std::fs::read_to_string(elsewhere.path().join("data.csv")).unwrap();
-    put(&bench.path().join("data.csv"), &data);
+    let bench = with_data("6");
     story("types", &Server::over(bench.path()), &[]);
     let ledger = std::fs::read_to_string(bench.path().join("ledger.json")).unwrap();
     assert_eq!(json(&ledger)["verdict"], "explained");
@@ -500,7 +509,7 @@ fn names_in_a_spectrum_stand_at_peaks_and_apart() {
     story("labels", &Server::over(bench.path()), &[]);
 }
 
-/// Every look and every challenge instead of some.
+/// Every look and every challenge instead of some, and for new pictures.
 fn all() -> bool {
-    std::env::var("HELIXLOCK_WORKBENCH").is_ok()
+    ["HELIXLOCK_WORKBENCH", "UPDATE_PICTURES"].iter().any(|name| std::env::var_os(name).is_some())
 }
