@@ -89,7 +89,7 @@ mod tests {
     fn pieces_are_the_whole() {
         let path = Path::new("../examples/sg7430-6mm/machine.toml");
         let model = Model::read(path).unwrap();
-        let options = Options { length_mm: Some(10.0), ..Options::default() };
+        let options = Options { length_mm: Some(10.0) };
         let whole = simulate(&model, &options, &mut |_| {}).unwrap();
         let end_s = whole.course.duration_s;
         for pieces in [3, 400] {
