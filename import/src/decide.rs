@@ -1,6 +1,6 @@
 //! Decisions: given by a recipe, or found out and written down with their reason.
 
-use crate::error::Place;
+use crate::place::Place;
 use crate::question::{Answer, Question};
 use crate::recipe::{ColumnRule, Recipe, Value};
 

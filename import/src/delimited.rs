@@ -1,10 +1,11 @@
 //! Text in cells: what stands between them, and the decimal sign.
 
 use crate::decide::Decisions;
-use crate::error::{ImportError, Place, quoted};
+use crate::error::{ImportError, quoted};
 use crate::grid::{Delimiter, Grid};
 use crate::instant::is_instant;
 use crate::number::{MISSING, number};
+use crate::place::Place;
 
 /// Lines looked at to find the delimiter.
 const SAMPLE: usize = 600;

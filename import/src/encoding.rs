@@ -4,7 +4,8 @@ use chardetng::{EncodingDetector, Iso2022JpDetection, Utf8Detection};
 use encoding_rs::{Encoding, GB18030, GBK, UTF_8, UTF_16BE, UTF_16LE};
 
 use crate::decide::Decisions;
-use crate::error::{ImportError, Place};
+use crate::error::ImportError;
+use crate::place::Place;
 
 /// The text of a file, line ends as they are.
 pub(crate) fn decode(bytes: &[u8], decisions: &mut Decisions<'_>) -> Result<String, ImportError> {

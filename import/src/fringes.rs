@@ -20,7 +20,8 @@ use std::f64::consts::PI;
 use helixlock_traces::Column;
 
 use crate::decide::Decisions;
-use crate::error::{ImportError, Place};
+use crate::error::ImportError;
+use crate::place::Place;
 use crate::recipe::Value;
 use unwrap::unwrapped;
 

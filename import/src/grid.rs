@@ -1,7 +1,8 @@
 //! Cells in rows, as text, each with its place in the file.
 
-use crate::error::{ImportError, Place};
+use crate::error::ImportError;
 use crate::limits;
+use crate::place::Place;
 
 /// What stands between two cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,9 +1,10 @@
 //! Names and units of columns, from the rows above the data.
 
 use crate::data::{self, Word};
-use crate::error::{ImportError, Place, quoted};
+use crate::error::{ImportError, quoted};
 use crate::grid::Grid;
 use crate::outline::Outline;
+use crate::place::Place;
 use crate::runs::{self, Run};
 
 /// What the header says of a column.

@@ -24,6 +24,7 @@ mod limits;
 mod marks;
 mod number;
 mod outline;
+mod place;
 mod propose;
 pub mod question;
 pub mod recipe;
@@ -32,7 +33,8 @@ mod runs;
 mod samples;
 mod text;
 
-pub use error::{ImportError, Place};
+pub use error::ImportError;
+pub use place::Place;
 pub use propose::{Proposal, Source, apply, propose};
 pub use question::{Answer, Question};
 pub use recipe::{ColumnRule, Recipe, Setting, Value};

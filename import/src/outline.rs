@@ -2,10 +2,11 @@
 
 use crate::data;
 use crate::decide::Decisions;
-use crate::error::{ImportError, Place, quoted};
+use crate::error::{ImportError, quoted};
 use crate::grid::Grid;
 use crate::instant::is_instant;
 use crate::number::{MISSING, Reading, read};
+use crate::place::Place;
 use crate::runs;
 
 /// Rows of names and units, and stretches of rows of data.

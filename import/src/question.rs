@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::error::Place;
+use crate::place::Place;
 
 /// One way to settle a question.
 #[derive(Clone, Debug, PartialEq, Eq)]

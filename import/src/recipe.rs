@@ -5,7 +5,7 @@ mod render;
 
 use std::collections::BTreeMap;
 
-use crate::error::Place;
+use crate::place::Place;
 
 /// A value of a setting.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,9 +5,10 @@ mod units;
 
 use crate::data::{self, Target, Word};
 use crate::decide::Decisions;
-use crate::error::{Place, quoted};
+use crate::error::quoted;
 use crate::fringes::{COUNT, DETECTORS};
 use crate::header::{self, Header};
+use crate::place::Place;
 use crate::question::Answer;
 use crate::recipe::ColumnRule;
 use crate::runs::counts_rows;

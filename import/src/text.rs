@@ -1,6 +1,6 @@
 //! Lines of a text and places in it.
 
-use crate::error::Place;
+use crate::place::Place;
 
 /// Line and column of a byte of a text.
 pub(crate) fn place(file: &str, text: &str, byte: usize) -> Place {

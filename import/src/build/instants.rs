@@ -47,7 +47,7 @@ pub(super) fn decide_zone(
         ("UTC".to_owned(), reason.to_owned())
     });
     crate::instant::offset(&zone).ok_or_else(|| {
-        let place = crate::error::Place::file(decisions.file());
+        let place = crate::place::Place::file(decisions.file());
         ImportError::found(place, format!("`zone = {}`", quoted(&zone)), "a zone such as `+02:00`")
     })
 }

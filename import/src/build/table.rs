@@ -43,7 +43,7 @@ pub(crate) fn check(columns: &[Column], file: &str) -> Result<(), ImportError> {
     };
     for wanted in [&OBSERVED[..], &COORDINATES[..]] {
         if !has(wanted) {
-            let place = crate::error::Place::file(file);
+            let place = crate::place::Place::file(file);
             return Err(ImportError::found(
                 place,
                 found,

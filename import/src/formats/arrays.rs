@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use crate::decide::Decisions;
-use crate::error::{ImportError, Place};
+use crate::error::ImportError;
 use crate::grid::Grid;
+use crate::place::Place;
 use crate::question::Answer;
 use crate::recipe::Value;
 

@@ -16,9 +16,10 @@ use arrow_ipc::reader::FileReader;
 use arrow_schema::{ArrowError, DataType, Field, TimeUnit};
 
 use crate::decide::Decisions;
-use crate::error::{ImportError, Place};
+use crate::error::ImportError;
 use crate::grid::Grid;
 use crate::limits;
+use crate::place::Place;
 
 /// Reads the columns of numbers as a grid with one row of names.
 pub(crate) fn grid(bytes: &[u8], decisions: &mut Decisions<'_>) -> Result<Grid, ImportError> {

@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 
 use super::channels::{self, Channel};
 use crate::decide::Decisions;
-use crate::error::{ImportError, Place, quoted};
+use crate::error::{ImportError, quoted};
 use crate::grid::Grid;
 use crate::instant::{Order, parse};
 use crate::number::number;
+use crate::place::Place;
 
 /// True when most lines hold a name, a date and a time.
 pub(crate) fn fits(lines: &[&str]) -> bool {

@@ -4,9 +4,10 @@
 //! is the one at which their rates of change agree best (their cross-correlation is largest).
 
 use crate::decide::Decisions;
-use crate::error::{ImportError, Place};
+use crate::error::ImportError;
 use crate::grid::Grid;
 use crate::limits;
+use crate::place::Place;
 use crate::recipe::Value;
 
 /// A channel: when, and what.

@@ -8,8 +8,9 @@ use helixlock_traces::Column;
 
 use crate::build::Built;
 use crate::decide::Decisions;
-use crate::error::{ImportError, Place, quoted};
+use crate::error::{ImportError, quoted};
 use crate::number::number;
+use crate::place::Place;
 
 /// Columns of a row.
 const CELLS: [&str; 3] = ["seconds", "motor position", "error in seconds of arc"];

@@ -11,9 +11,10 @@ use hdf5_reader::{Dataset, H5Type, Hdf5File, OpenOptions, dtype_element_size};
 use super::arrays::{self, Array};
 use crate::build::rounded;
 use crate::decide::Decisions;
-use crate::error::{ImportError, Place};
+use crate::error::ImportError;
 use crate::grid::Grid;
 use crate::limits;
+use crate::place::Place;
 
 /// Deepest groups; instruments have two or three.
 const DEPTH: usize = 16;

@@ -9,8 +9,9 @@ use helixlock_traces::Column;
 use crate::build::Built;
 use crate::data;
 use crate::decide::Decisions;
-use crate::error::{ImportError, Place, quoted};
+use crate::error::{ImportError, quoted};
 use crate::number::number;
+use crate::place::Place;
 
 /// True when lines hold three numbers each, comments aside.
 pub(crate) fn is_comp(lines: &[&str]) -> bool {

@@ -3,8 +3,9 @@
 //! Format: GitHub Flavored Markdown, section 4.10: a line of names, a line of dashes, lines of cells.
 
 use crate::decide::Decisions;
-use crate::error::{ImportError, Place};
+use crate::error::ImportError;
 use crate::header;
+use crate::place::Place;
 use crate::question::Answer;
 
 /// A table: where its names stand, and the line behind its last row.

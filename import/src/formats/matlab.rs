@@ -10,9 +10,10 @@ use flate2::read::ZlibDecoder;
 
 use super::arrays::{self, Array};
 use crate::decide::Decisions;
-use crate::error::{ImportError, Place};
+use crate::error::ImportError;
 use crate::grid::Grid;
 use crate::limits;
+use crate::place::Place;
 
 /// Bytes of text, version and byte order before the first element.
 const HEADER: usize = 128;

@@ -19,7 +19,8 @@ pub(crate) mod sigrok;
 pub(crate) mod spreadsheet;
 pub(crate) mod twincat;
 
-use crate::error::{ImportError, Place};
+use crate::error::ImportError;
+use crate::place::Place;
 
 /// The format of bytes that are no text; `None` for text.
 pub(crate) fn binary(

@@ -3,9 +3,10 @@
 //! Format: `NumPy` Enhancement Proposal 1, versions 1.0 to 3.0. The header is one Python literal of three keys,
 //! and is read as that; the crates for it bring a parser generator into every build.
 
-use crate::error::{ImportError, Place, quoted};
+use crate::error::{ImportError, quoted};
 use crate::grid::Grid;
 use crate::limits;
+use crate::place::Place;
 
 /// A number in an array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,8 +4,9 @@ use std::path::Path;
 
 use helixlock_traces::parquet::read_parquet;
 
-use crate::error::{ImportError, Place};
+use crate::error::ImportError;
 use crate::grid::Grid;
+use crate::place::Place;
 
 /// Reads the columns as a grid with one row of names.
 pub(crate) fn grid(file: &str, bytes: &[u8]) -> Result<Grid, ImportError> {

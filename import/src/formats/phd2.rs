@@ -9,9 +9,10 @@ use helixlock_traces::Column;
 
 use crate::build::Built;
 use crate::decide::Decisions;
-use crate::error::{ImportError, Place, quoted};
+use crate::error::{ImportError, quoted};
 use crate::instant::{Order, parse};
 use crate::number::number;
+use crate::place::Place;
 use crate::question::Answer;
 use crate::recipe::Value;
 

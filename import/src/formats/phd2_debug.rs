@@ -11,9 +11,10 @@ use helixlock_traces::Column;
 use super::phd2::{Wanted, ask_for_scale, wanted};
 use crate::build::Built;
 use crate::decide::Decisions;
-use crate::error::{ImportError, Place, quoted};
+use crate::error::{ImportError, quoted};
 use crate::instant::{Order, parse};
 use crate::number::number;
+use crate::place::Place;
 
 const DAY_S: f64 = 86_400.0;
 

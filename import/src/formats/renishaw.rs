@@ -11,8 +11,9 @@ use helixlock_traces::Column;
 
 use crate::build::Built;
 use crate::decide::Decisions;
-use crate::error::{ImportError, Place, quoted};
+use crate::error::{ImportError, quoted};
 use crate::number::number;
+use crate::place::Place;
 
 /// What the sections say.
 #[derive(Default)]

@@ -11,9 +11,10 @@ use zip::ZipArchive;
 
 use crate::build::Built;
 use crate::decide::Decisions;
-use crate::error::{ImportError, Place, quoted};
+use crate::error::{ImportError, quoted};
 use crate::limits;
 use crate::number::number;
+use crate::place::Place;
 use crate::question::Answer;
 use crate::recipe::Value;
 

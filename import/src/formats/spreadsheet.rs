@@ -5,9 +5,10 @@ use std::io::Cursor;
 use calamine::{Data, DataRef, ExcelDateTime, Reader, Sheets, open_workbook_auto_from_rs};
 
 use crate::decide::Decisions;
-use crate::error::{ImportError, Place};
+use crate::error::ImportError;
 use crate::grid::Grid;
 use crate::limits;
+use crate::place::Place;
 use crate::question::Answer;
 
 /// A cell that is not empty: row and column from 1, and what it shows.

@@ -6,9 +6,10 @@
 use super::channels::{self, Channel};
 use crate::decide::Decisions;
 use crate::delimited;
-use crate::error::{ImportError, Place, quoted};
+use crate::error::{ImportError, quoted};
 use crate::grid::Grid;
 use crate::number::{Reading, read};
+use crate::place::Place;
 
 /// Counts of 100 ns; a millisecond offset never gets this large.
 const FILETIME: f64 = 1e15;

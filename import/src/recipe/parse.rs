@@ -5,7 +5,8 @@ use std::ops::Range;
 use toml_edit::{Document, Item, TableLike};
 
 use super::{ColumnRule, KEYS, Key, Kind, Recipe, Value};
-use crate::error::{ImportError, Place, quoted};
+use crate::error::{ImportError, quoted};
+use crate::place::Place;
 
 impl Recipe {
     /// Reads a recipe; `name` is for messages.

@@ -21,6 +21,9 @@ use crate::circuit::{Circuit, Net};
 /// How long a pulse lasts, ps.
 const PULSE_PS: u64 = 500_000;
 
+/// The two photocells, the second a quarter of a fringe behind the first one.
+pub const PHOTOCELLS: [&str; 2] = ["sine", "cosine"];
+
 /// Pulses up and down, and the direction.
 pub fn add(c: &mut Circuit, sine: Net, cosine: Net) -> [Net; 3] {
     let late = c.delay("late", sine, PULSE_PS);
@@ -37,7 +40,7 @@ pub fn add(c: &mut Circuit, sine: Net, cosine: Net) -> [Net; 3] {
 #[must_use]
 pub fn circuit() -> Circuit {
     let mut c = Circuit::new("laser_direction");
-    let (sine, cosine) = (c.input("sine", false), c.input("cosine", false));
+    let [sine, cosine] = PHOTOCELLS.map(|name| c.input(name, false));
     let [up, down, forward] = add(&mut c, sine, cosine);
     for (name, net) in [("up", up), ("down", down), ("forward", forward)] {
         c.output(name, net);

@@ -224,7 +224,7 @@ mod tests {
         let preset = divider::circuit(128, Clear::Delayed);
         assert!(0 < different("programmable_divider", &preset));
         let mut crossed = Circuit::new("crossed");
-        let [sine, cosine] = ["sine", "cosine"].map(|name| crossed.input(name, false));
+        let [sine, cosine] = laser_direction::PHOTOCELLS.map(|name| crossed.input(name, false));
         let [up, down, _] = laser_direction::add(&mut crossed, cosine, sine);
         crossed.output("up", up);
         crossed.output("down", down);

@@ -153,8 +153,8 @@ pub(super) const DRIVES: &[Drive] = &[
         block: "quadrature_decoder",
         build: laser_direction::circuit,
         moves: &[
-            (1, Move::Level { pin: "sine", input: "a" }),
-            (1, Move::Level { pin: "cosine", input: "b" }),
+            (1, Move::Level { pin: laser_direction::PHOTOCELLS[0], input: "a" }),
+            (1, Move::Level { pin: laser_direction::PHOTOCELLS[1], input: "b" }),
         ],
         outputs: &[Output::Way { up: "up", down: "down", further: "pulse", behind: "behind" }],
         ..NOTHING
