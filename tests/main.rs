@@ -39,6 +39,8 @@ mod initial_phase_selector;
 mod input_conditioner;
 mod interruption;
 mod language;
+#[cfg(target_os = "linux")]
+mod large_tables;
 mod layers;
 mod learning;
 mod licences;

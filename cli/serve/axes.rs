@@ -125,7 +125,7 @@ fn binned(
     (rows, residual): (&[usize], &[f64]),
     most_bins: usize,
 ) -> AxisJson {
-    let value = |row: usize| axis.values[problem.rows[row].sample];
+    let value = |row: usize| axis.values[problem.samples[row]];
     let finite = || rows.iter().copied().filter(|&row| value(row).is_finite());
     let turns = axis.unit == "°";
     let (mut low, mut high) = if turns { (0.0, 360.0) } else { (f64::INFINITY, f64::NEG_INFINITY) };

@@ -93,7 +93,7 @@ pub(crate) fn series(opened: &Opened) -> Answered {
     let Opened { problem, residual, .. } = opened;
     let record = &problem.record;
     let of_row = |values: &[f64]| -> Vec<f64> {
-        problem.rows.iter().map(|row| values[row.sample]).collect()
+        problem.samples.iter().map(|&sample| values[sample]).collect()
     };
     let mut frame = Frame::default();
     if !problem.measurement.rotary {
@@ -107,7 +107,7 @@ pub(crate) fn series(opened: &Opened) -> Answered {
     frame.answer(&SeriesJson {
         unit: problem.measurement.unit(),
         rotary: problem.measurement.rotary,
-        rows: problem.rows.len(),
+        rows: problem.samples.len(),
         highest_order: problem.highest_order,
         notes: problem.measurement.notes.clone(),
         blocks: blocks(problem),

@@ -15,7 +15,7 @@ pub(crate) fn points(problem: &Problem, sensor: usize, values: &[f64]) -> Vec<[f
     let mut points = Vec::new();
     for block in problem.layout.blocks.iter().filter(|block| block.sensor == sensor) {
         for row in block.rows.clone() {
-            let sample = problem.rows[row].sample;
+            let sample = problem.samples[row];
             let x = if problem.model.rotary {
                 problem.record.time_s[sample]
             } else {

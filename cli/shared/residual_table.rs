@@ -14,7 +14,7 @@ pub(crate) fn residual_table(problem: &Problem, values: &[(&str, &[f64])]) -> Ta
     let column = |name: &str, value: &dyn Fn(&(usize, usize, usize)) -> f64| {
         Column::new(name, rows.iter().map(value).collect())
     };
-    let sample = |row: usize| problem.rows[row].sample;
+    let sample = |row: usize| problem.samples[row];
     let mut columns = vec![
         column("sensor", &|(sensor, _, _)| number(*sensor)),
         column("pass", &|(_, pass, _)| problem.measurement.pass_names[*pass]),

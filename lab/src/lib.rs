@@ -42,6 +42,6 @@ pub use discover::{Discovery, FormulaParameter, Found, Proposal, RunnerUp, disco
 pub use doubts::{Doubt, divider_doubt, doubts};
 pub use hypotheses::Structure;
 pub use measurement::{LabError, Measurement, Nominal, PulseTrains, Steps, sensor_column};
-pub use model::{Problem, Row};
+pub use model::Problem;
 pub use noise::{Block, Layout, Noise, SlowPart};
 pub use spectrum::{Line, NamedLine, amplitude_spectrum, lines_left};

@@ -21,7 +21,7 @@ pub(crate) use designs::GridColumns;
 pub(crate) use fit::{Fit, noises_of, settle, settle_beside, with_noise};
 pub(crate) use holdout::{helps_unseen, holdout_rms};
 pub(crate) use judged::Judged;
-pub use problem::{Problem, Row};
+pub use problem::Problem;
 pub(crate) use stage::{Gain, Stage};
 pub(crate) use state::{State, pattern};
 pub(crate) use uncertainty::{JointCovariance, joint_covariance, slopes};

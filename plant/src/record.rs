@@ -321,11 +321,13 @@ impl Record {
     /// Rows of each pass, in order.
     #[must_use]
     pub fn passes(&self) -> Vec<std::ops::Range<usize>> {
-        let mut starts: Vec<_> = (0..self.len())
-            .filter(|&row| row == 0 || self.pass[row] != self.pass[row - 1])
-            .collect();
-        starts.push(self.len());
-        starts.windows(2).map(|pair| pair[0]..pair[1]).filter(|rows| !rows.is_empty()).collect()
+        let mut end = 0;
+        let rows = |pass: &[usize]| {
+            let start = end;
+            end += pass.len();
+            start..end
+        };
+        self.pass.chunk_by(|a, b| a == b).map(rows).collect()
     }
 
     /// Turns of the spindle since its zero.

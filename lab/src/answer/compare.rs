@@ -144,12 +144,11 @@ fn sensor_residual(
         })
         .collect();
     let samples: usize = passes.iter().map(|pass| pass.samples).sum();
-    let (layout, rows) = small.of_sensor(sensor);
-    let left: Vec<f64> = rows.iter().map(|&row| state.fit.left[row]).collect();
+    let (layout, rows) = small.layout.of_sensor(sensor);
     let square: f64 =
         passes.iter().map(|pass| pass.rms_um * pass.rms_um * count(pass.samples)).sum();
     let rms_um = (square / count(samples.max(1))).sqrt();
-    let smaller = (rms_um / rms(&layout, &left).max(f64::MIN_POSITIVE)).powi(2);
+    let smaller = (rms_um / rms(&layout, &state.fit.left[rows]).max(f64::MIN_POSITIVE)).powi(2);
     let told = problem.told_variances();
     SensorResidual {
         sensor: problem.sensors[sensor],
@@ -159,7 +158,7 @@ fn sensor_residual(
         peak_to_peak_um: passes.iter().map(|pass| pass.peak_to_peak_um).fold(0.0, f64::max),
         passes,
         noise: noise_size(&state.fit.noises[sensor], interval_s(small)),
-        looked_at: rows.len(),
+        looked_at: layout.len(),
         outliers: blocks()
             .flat_map(|block| block.rows.clone())
             .filter(|&row| told[row] < problem.layout.inflation[row])

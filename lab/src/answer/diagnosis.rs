@@ -190,23 +190,23 @@ fn searched(problem: &Problem) -> Diagnosis {
     }
     let last = &steps[steps.len() - 1].state;
     let experiments = experiment::advice(&small, last, &found);
-    let state = states[states.len() - 1].clone();
+    let state = &states[states.len() - 1];
     Diagnosis {
-        verdict: verdict(&state, &found, &residual),
+        verdict: verdict(state, &found, &residual),
         doubts: Vec::new(),
         noise_um: rms(&problem.layout, &state.fit.left),
         rounds: rounds(&problem, &steps, &states),
-        candidates: ranked(&state, &found, &steps[0].tried, &experiments),
+        candidates: ranked(state, &found, &steps[0].tried, &experiments),
         residual,
         experiments,
-        left: state.fit.left,
         before: problem.residual(),
+        left: states.pop().map(|state| state.fit.left).unwrap_or_default(),
     }
 }
 
 /// Every state of a search fitted to all rows, outliers marked as the last one leaves them.
 fn on_all_rows(problem: &Problem, small: &Problem, steps: &[Step]) -> (Problem, Vec<State>) {
-    if small.rows.len() == problem.rows.len() {
+    if small.samples.len() == problem.samples.len() {
         return (small.clone(), steps.iter().map(|step| step.state.clone()).collect());
     }
     let mut whole = problem.clone();

@@ -133,7 +133,7 @@ impl Now {
     /// The answer, fitted to all rows.
     fn told(&self, problem: &Problem, small: &Problem) -> Discovery {
         let mut whole = problem.clone();
-        let state = if small.rows.len() == problem.rows.len() {
+        let state = if small.samples.len() == problem.samples.len() {
             whole = small.clone();
             self.state.clone()
         } else {

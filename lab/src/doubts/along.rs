@@ -25,7 +25,7 @@ fn along(problem: &Problem, sensor: usize, values: &[f64]) -> Option<(f64, f64)>
     let (mut xx, mut xy, mut yy, mut rows) = (0.0, 0.0, 0.0, 0);
     let measurement = &problem.measurement;
     let travel = |row: usize| {
-        let sample = problem.rows[row].sample;
+        let sample = problem.samples[row];
         if measurement.rotary {
             1_296_000.0 * measurement.angle_rev[sample]
         } else {

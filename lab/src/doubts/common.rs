@@ -1,6 +1,6 @@
 //! What every measurement has of its own: no mistake is seen by a slope, a curve or a drift.
 
-use crate::model::{Columns, Problem, Row};
+use crate::model::{Columns, Problem};
 
 /// Straight lines over the way, a sensor each.
 pub(super) fn slopes(problem: &Problem) -> Columns {
@@ -16,14 +16,7 @@ pub(super) fn curves(problem: &Problem) -> Columns {
 }
 
 fn a_sensor_each(problem: &Problem, shapes: &[&dyn Fn(usize) -> f64]) -> Columns {
-    let column = |sensor, shape: &dyn Fn(usize) -> f64| {
-        let value = |row: &Row| {
-            if row.sensor == sensor { shape(row.sample) } else { 0.0 }
-        };
-        problem.rows.iter().map(value).collect()
-    };
-    let sensors = problem.sensors.iter();
-    Columns::free(
-        sensors.flat_map(|&sensor| shapes.iter().map(move |shape| column(sensor, shape))).collect(),
-    )
+    let sensors = 0..problem.sensors.len();
+    let column = |sensor: usize| shapes.iter().map(move |shape| problem.alone(sensor, shape));
+    Columns::free(sensors.flat_map(column))
 }

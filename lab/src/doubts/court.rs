@@ -36,7 +36,7 @@ impl<'a> Court<'a> {
         let curves = lines.and(&curves(problem));
         let bare = Model { effects: Vec::new(), ..problem.model.clone() };
         let bare = predicted_by(problem, &bare).filter(|_| !problem.model.effects.is_empty());
-        let absent = std::iter::once(vec![0.0; problem.rows.len()]).chain(bare).collect();
+        let absent = std::iter::once(vec![0.0; problem.samples.len()]).chain(bare).collect();
         Self { problem, common: [Columns::default(), lines, curves], absent, price }
     }
 
@@ -83,7 +83,7 @@ impl<'a> Court<'a> {
             one.mended.predicted.iter().zip(&self.problem.predicted).map(|(a, b)| a - b).collect();
         let smaller = after < SMALLER * before || flatter && after <= before;
         let needed = one.lets_go() || self.absent.iter().all(|bare| after < SMALLER * left(bare));
-        WORTH_A_FIT < rough.square(&moved) && smaller && needed
+        WORTH_A_FIT < rough.square(moved) && smaller && needed
     }
 
     /// What each mistake gains under a fixed noise.
@@ -136,7 +136,7 @@ impl<'a> Court<'a> {
 
     /// A prediction with its noise, columns free.
     fn fitted(&self, predicted: &[f64], columns: &Columns) -> Fit {
-        let trial = Problem { predicted: predicted.to_vec(), ..self.problem.clone() };
+        let trial = Problem { predicted: predicted.to_vec().into(), ..self.problem.clone() };
         let noises = rough_noises(&trial);
         let rough = with_noise(&trial.layout, columns, &trial.residual(), &noises);
         settle(&trial, columns, &noises_of(&trial, &rough.left))
@@ -196,7 +196,7 @@ fn with_the_rest_held(fit: &Fit, width: usize) -> Vec<f64> {
 
 fn predicted_by(problem: &Problem, model: &Model) -> Option<Vec<f64>> {
     let other = Problem::new(model, &problem.measurement).ok()?;
-    (other.rows == problem.rows).then_some(other.predicted)
+    (other.has_rows_of(problem)).then(|| other.predicted.to_vec())
 }
 
 /// Columns of an effect that the file does not have, as large as the textbook says, more or less.

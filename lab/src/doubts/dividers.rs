@@ -25,7 +25,7 @@ pub(super) fn other_dividers(problem: &Problem) -> Option<Hypothesis> {
     let (says, mend, machine) = misfit(&problem.model)?;
     let model = Model { machine, effects: problem.model.effects.clone() };
     let mended = Problem::new(&model, &problem.measurement).ok()?;
-    let alike = mended.rows == problem.rows;
+    let alike = mended.has_rows_of(problem);
     let usual = slope(&mended) - slope(problem);
     let mended = Problem { layout: problem.layout.clone(), ..mended };
     alike.then_some(Hypothesis {

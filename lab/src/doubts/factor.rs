@@ -65,7 +65,7 @@ fn tens(problem: &Problem, sensor: usize, column: &LoggedColumn) -> [Hypothesis;
 fn predicts_a_shape(problem: &Problem) -> bool {
     let noises = vec![Noise::white(); problem.sensors.len()];
     let view = View::new(problem, &slopes(problem).and(&curves(problem)), &noises);
-    let size_um = (view.square(&problem.predicted) / count(problem.rows.len())).sqrt();
+    let size_um = (view.square(problem.predicted.to_vec()) / count(problem.samples.len())).sqrt();
     WORTHWHILE_UM < size_um
 }
 

@@ -62,7 +62,7 @@ impl Hypothesis {
         let model = with_effects(&problem.model, more);
         let usual = usualness(mended, &model) - usualness(&problem.measurement, &model);
         let mended = Problem::new(&model, mended).ok()?;
-        let alike = mended.rows == problem.rows;
+        let alike = mended.has_rows_of(problem);
         let mended = Problem { layout: problem.layout.clone(), ..mended };
         alike.then_some(Self {
             what,
@@ -90,7 +90,7 @@ pub(super) fn another_machine(problem: &Problem) -> Option<Hypothesis> {
     let effects = problem.model.effects.len();
     let bare = Model { effects: Vec::new(), ..problem.model.clone() };
     let mended = Problem::new(&bare, &problem.measurement).ok()?;
-    (MACHINE_OF_EFFECTS <= effects && mended.rows == problem.rows).then(|| Hypothesis {
+    (MACHINE_OF_EFFECTS <= effects && mended.has_rows_of(problem)).then(|| Hypothesis {
         what: "another-machine",
         says: format!("none of the file's {effects} effects is in the data: is it this machine?"),
         mend: "take the machine file that belongs to the data".to_owned(),

@@ -45,7 +45,7 @@ fn zeros(problem: &Problem) -> Vec<Zero> {
             let blocks = problem.layout.blocks.iter();
             let of_pass = |rows: &Range<usize>| {
                 rows.start < rows.end
-                    && problem.measurement.pass[problem.rows[rows.start].sample] == pass
+                    && problem.measurement.pass[problem.samples[rows.start]] == pass
             };
             let rows = blocks.map(|block| block.rows.clone()).filter(of_pass);
             let (squares, number) = rows.fold((0.0, 0), |(squares, number), rows| {
@@ -120,11 +120,11 @@ impl Zero {
 fn moved(problem: &Problem, zero: Zero, shift: f64) -> Option<Vec<f64>> {
     let mended = Problem::new(&problem.model, &zero.shifted(problem, shift)).ok()?;
     let pairs = mended.predicted.iter().zip(&problem.predicted);
-    (mended.rows == problem.rows).then(|| pairs.map(|(a, b)| a - b).collect())
+    (mended.has_rows_of(problem)).then(|| pairs.map(|(a, b)| a - b).collect())
 }
 
 /// What a shift takes away under the noise of the file as it is.
 fn gain(stage: &Stage<'_>, zero: Zero, shift: f64) -> Option<f64> {
     let moved = moved(stage.problem, zero, shift)?;
-    Some(stage.gain(&Columns { fixed: Some(moved), ..Columns::default() }).gain)
+    Some(stage.gain(&Columns { fixed: Some(moved.into()), ..Columns::default() }).gain)
 }

@@ -19,7 +19,7 @@ impl View {
     }
 
     /// Whitened square of what is not common.
-    pub(super) fn square(&self, values: &[f64]) -> f64 {
+    pub(super) fn square(&self, values: Vec<f64>) -> f64 {
         let views: Vec<&[f64]> = self.common.iter().map(Vec::as_slice).collect();
         fit(&views, &self.whitener.whiten(values)).residual_square
     }
@@ -27,7 +27,7 @@ impl View {
     /// That of what a prediction leaves.
     pub(super) fn left(&self, problem: &Problem, predicted: &[f64]) -> f64 {
         let pairs = problem.observed.iter().zip(predicted);
-        self.square(&pairs.map(|(seen, said)| seen - said).collect::<Vec<_>>())
+        self.square(pairs.map(|(seen, said)| seen - said).collect())
     }
 }
 
@@ -37,7 +37,7 @@ impl View {
 pub(super) fn rough_noises(problem: &Problem) -> Vec<Noise> {
     let left = problem.residual();
     let turns: Vec<f64> = problem.record.turns().collect();
-    let turn = |row: usize| turns[problem.rows[row].sample];
+    let turn = |row: usize| turns[problem.samples[row]];
     let off = |row: usize| {
         let (from, to) = (turn(row - 1), turn(row + 1));
         let share = (turn(row) - from) / (to - from);

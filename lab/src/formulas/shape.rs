@@ -224,7 +224,7 @@ impl Shape {
     fn columns(&self, problem: &Problem, entry: Entry, values: &[f64]) -> Columns {
         let samples = problem.record.len();
         let curves = self.parts.iter().flat_map(|part| part.columns(values, samples));
-        Columns::free(curves.map(|deltas| problem.column(entry, &deltas)).collect())
+        Columns::free(curves.map(|deltas| problem.column(entry, &deltas)))
     }
 
     /// The formula, and the unit of each of its parameters; `None` when it mixes units.
@@ -317,7 +317,7 @@ impl Band {
     }
 
     fn of_rows(&self, stage: &Stage<'_>) -> Vec<f64> {
-        stage.problem.rows.iter().map(|row| self.over[row.sample]).collect()
+        stage.problem.samples.iter().map(|&sample| self.over[sample]).collect()
     }
 
     fn scan<'a>(&self, stage: &'a Stage<'_>, over: &'a [f64]) -> Scan<'a> {

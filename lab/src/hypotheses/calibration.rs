@@ -4,6 +4,7 @@
 //! against the correlation lengths of the record. Many smooth columns also follow slow noise, and
 //! what they leave looks whiter than it was. Noise drawn from the fitted model says by how much.
 
+use helixlock_plant::Column;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -23,7 +24,7 @@ pub(crate) fn chance(
     problem: &Problem,
     model: &Columns,
     fit: &Fit,
-    raw: &[Vec<f64>],
+    raw: &[Column],
     gain: f64,
 ) -> f64 {
     let width = count(raw.len());
@@ -44,7 +45,7 @@ pub(crate) fn chance(
 }
 
 /// Gain of the columns on noise drawn from a fit.
-fn drawn_gain(problem: &Problem, model: &Columns, fit: &Fit, raw: &[Vec<f64>], seed: u64) -> f64 {
+fn drawn_gain(problem: &Problem, model: &Columns, fit: &Fit, raw: &[Column], seed: u64) -> f64 {
     let mut chance = ChaCha8Rng::seed_from_u64(seed);
     let mut noisy = problem.clone();
     let drawn = draw(&problem.layout, &fit.noises, &mut chance);
@@ -92,7 +93,7 @@ mod tests {
         let layout = Layout {
             blocks: vec![Block { sensor: 0, pass: 0, rows: 0..rows }],
             clock: (0..rows).map(count).collect(),
-            inflation: vec![1.0; rows],
+            inflation: vec![1.0; rows].into(),
         };
         let noise = Noise { white: 0.5, slow: vec![SlowPart { variance: 2.0, length: 4.0 }] };
         let drawn = draw(&layout, &[noise], &mut ChaCha8Rng::seed_from_u64(3));

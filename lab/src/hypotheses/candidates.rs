@@ -4,7 +4,7 @@ use helixlock_plant::{CATALOGUE, Entry, Formula, Parameter, Role, Search, Term};
 
 use super::unfolding::unfolded;
 use crate::model::{Component, Problem, Stage};
-use crate::numerics::{Looks, by_factors, count, evenly, median, product, spread};
+use crate::numerics::{Looks, by_factors, count, evenly, product, spread};
 use crate::policy::evidence::{ANOTHER_MATERIAL, LOOSELY_KNOWN, MARGIN};
 use crate::policy::extent::{FREQUENCIES, LONGEST, NARROWEST, OVERTONES, SHORTEST, SLOWEST_WAVES};
 use crate::spectrum::{Scan, gear_orders, strongest_first};
@@ -228,7 +228,7 @@ fn axis(stage: &Stage<'_>, parameter: &Parameter) -> Vec<f64> {
 fn logarithmic(problem: &Problem, parameter: &Parameter) -> Vec<f64> {
     let (mut low, mut high) = (*parameter.range.start(), *parameter.range.end());
     let told = match parameter.unit.suffix().as_str() {
-        "s" => Some((interval_s(problem) / SHORTEST, spread(&problem.record.time_s))),
+        "s" => Some((problem.interval_s() / SHORTEST, spread(&problem.record.time_s))),
         "mm" => {
             let travel_mm = spread(&problem.record.position_mm);
             Some((travel_mm / NARROWEST, travel_mm))
@@ -240,18 +240,6 @@ fn logarithmic(problem: &Problem, parameter: &Parameter) -> Vec<f64> {
         high = high.min(whole * LONGEST).max(low);
     }
     by_factors(low.max(1e-12), high.max(1e-12), PLAIN)
-}
-
-/// Median time between two samples of a pass as they were measured, before any means.
-fn interval_s(problem: &Problem) -> f64 {
-    let finer = problem.finer.as_deref();
-    let record = finer.map_or(&problem.record, |finer| &finer.record);
-    let measured = finer.and_then(|finer| finer.measured.clone());
-    let rows = measured.unwrap_or_else(|| (0..record.len()).collect());
-    let pairs = rows.windows(2).filter(|pair| record.pass[pair[0]] == record.pass[pair[1]]);
-    let mut intervals: Vec<f64> =
-        pairs.map(|pair| (record.time_s[pair[1]] - record.time_s[pair[0]]).abs()).collect();
-    median(&mut intervals)
 }
 
 fn whole(low: f64, high: f64) -> Vec<f64> {
@@ -315,7 +303,7 @@ fn frequencies(stage: &Stage<'_>, low: f64, high: f64) -> Vec<f64> {
 }
 
 fn row_times(problem: &Problem) -> Vec<f64> {
-    problem.rows.iter().map(|row| problem.record.time_s[row.sample]).collect()
+    problem.samples.iter().map(|&sample| problem.record.time_s[sample]).collect()
 }
 
 fn time_scan<'a>(stage: &'a Stage<'_>, times: &'a [f64], low: f64, high: f64) -> Scan<'a> {

@@ -40,7 +40,7 @@ fn of_rounded_logs(problem: &Problem, fit: &Fit) -> f64 {
     let shown = about_means(problem, &shown);
     let by_log = problem.measurement.off_by.iter().filter_map(|(name, off_by)| {
         let values = problem.measurement.covariates.get(name)?;
-        let column: Vec<f64> = problem.rows.iter().map(|row| values[row.sample]).collect();
+        let column: Vec<f64> = problem.samples.iter().map(|&sample| values[sample]).collect();
         let column = about_means(problem, &column);
         let (square, common) = (dot(&column, &column), dot(&column, &shown));
         let all = square * dot(&shown, &shown);

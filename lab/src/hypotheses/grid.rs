@@ -21,7 +21,7 @@ pub(crate) fn on_grid(problem: &Problem, candidate: &Candidate) -> GridColumns {
         Formula::Custom(_) | Formula::Curve(_) => None,
     };
     let width = candidate.term.priors().len();
-    let values = candidate.grid.len() * width * problem.rows.len();
+    let values = candidate.grid.len() * width * problem.samples.len();
     let at = |point| usable(problem, &Component::new(candidate.at(point)));
     let make = || Arc::new((0..candidate.grid.len()).into_par_iter().map(at).collect());
     match kind.filter(|_| 1 < candidate.grid.len() && values <= MOST_VALUES) {

@@ -12,7 +12,7 @@ use crate::policy::chance::{FEWEST_JUMPS, JUMP_DEVIATIONS};
 /// `None` when there are fewer than two, which a slip or a knock explains.
 #[must_use]
 pub(crate) fn jumps(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
-    let white = Whitener::new(&problem.layout, &fit.noises).whiten(&fit.left);
+    let white = Whitener::new(&problem.layout, &fit.noises).whiten(fit.left.clone());
     let mut sizes = Vec::new();
     for block in &problem.layout.blocks {
         for row in block.rows.clone().skip(1) {

@@ -58,7 +58,7 @@ pub(super) fn along_travel(problem: &Problem, fit: &Fit, white: &[f64]) -> Optio
         let blocks = problem.layout.blocks.iter().filter(|block| block.sensor == sensor);
         let rows = blocks.flat_map(|block| block.rows.clone());
         let mut line: Vec<(f64, f64)> =
-            rows.map(|row| (position[problem.rows[row].sample], white[row])).collect();
+            rows.map(|row| (position[problem.samples[row]], white[row])).collect();
         line.sort_by(|a, b| a.0.total_cmp(&b.0));
         line
     });
@@ -70,7 +70,7 @@ pub(super) fn along_travel(problem: &Problem, fit: &Fit, white: &[f64]) -> Optio
 pub(super) fn in_one_pass(problem: &Problem, fit: &Fit, white: &[f64]) -> Option<Local> {
     let time = &problem.record.time_s;
     let lines = problem.layout.blocks.iter().map(|block| {
-        block.rows.clone().map(|row| (time[problem.rows[row].sample], white[row])).collect()
+        block.rows.clone().map(|row| (time[problem.samples[row]], white[row])).collect()
     });
     clearest(problem, fit, &lines.collect::<Vec<_>>())
 }
@@ -95,7 +95,7 @@ fn clearest(problem: &Problem, fit: &Fit, lines: &[Vec<(f64, f64)>]) -> Option<L
         }
     }
     let (chance, ratio, at) = best?;
-    let share = count(CELLS) * (ratio - 1.0).max(0.0) / count(problem.rows.len());
+    let share = count(CELLS) * (ratio - 1.0).max(0.0) / count(problem.samples.len());
     let rms_um = swift_rms(&problem.layout, &fit.left) * share.sqrt();
     Some(Local { rms_um, p_value: (chance * looked).min(1.0), at })
 }

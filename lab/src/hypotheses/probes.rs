@@ -14,7 +14,7 @@ use super::time_reversal::one_way;
 use super::waves;
 use helixlock_plant::Column;
 
-use crate::model::{Columns, Fit, Problem, Row, Stage, settle};
+use crate::model::{Columns, Fit, Problem, Stage, settle};
 use crate::noise::{Whitener, rms, swift_rms};
 use crate::numerics::{chi_squared_tail, count, spread};
 use crate::policy::chance::{MANY_COLUMNS, NAMED, PROBES, SIGNIFICANCE};
@@ -121,9 +121,9 @@ fn varies_inside_a_pass(problem: &Problem, column: &[f64]) -> bool {
 }
 
 /// Structure explained by free columns: its size and chance.
-fn probe(problem: &Problem, model: &Columns, fit: &Fit, raw: &[Vec<f64>]) -> (f64, f64) {
+fn probe(problem: &Problem, model: &Columns, fit: &Fit, raw: &[Column]) -> (f64, f64) {
     let varying = raw.iter().filter(|column| varies_inside_a_pass(problem, column));
-    let raw: &[Vec<f64>] = &varying.cloned().collect::<Vec<_>>();
+    let raw: &[Column] = &varying.cloned().collect::<Vec<_>>();
     if raw.is_empty() {
         return (0.0, 1.0);
     }
@@ -157,7 +157,7 @@ fn smooth(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
     }
     let mut found = Vec::new();
     for (along, values, order) in axes {
-        if spread(values) <= 0.0 || problem.rows.len() < ROWS_A_COLUMN * order {
+        if spread(values) <= 0.0 || problem.samples.len() < ROWS_A_COLUMN * order {
             continue;
         }
         let raw = stacked(problem, &chebyshev(values, order));
@@ -180,7 +180,7 @@ fn smooth(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
 fn smooth_in_passes(problem: &Problem, model: &Columns, fit: &Fit) -> Option<Structure> {
     let passes = problem.record.passes();
     let order = (COLUMNS_OF_PASSES / passes.len().max(1)).min(*CURVE_OF_A_PASS.end());
-    let few = problem.rows.len() < ROWS_A_COLUMN * order * passes.len();
+    let few = problem.samples.len() < ROWS_A_COLUMN * order * passes.len();
     if passes.len() < 2 || order < *CURVE_OF_A_PASS.start() || few {
         return None;
     }
@@ -232,7 +232,7 @@ fn local_shapes(problem: &Problem, fit: &Fit) -> Vec<Structure> {
         let p_value = (probes(problem) * p_value).min(1.0);
         Some(Structure { at: Some(at), ..Structure::without_place(along, shape, rms_um, p_value) })
     };
-    let white = Whitener::new(&problem.layout, &fit.noises).whiten(&fit.left);
+    let white = Whitener::new(&problem.layout, &fit.noises).whiten(fit.left.clone());
     let everywhere =
         told("position", "shape at one place", local::along_travel(problem, fit, &white));
     let once = || told("time", "shape in one pass", local::in_one_pass(problem, fit, &white));
@@ -271,17 +271,10 @@ fn turning(turns: &[f64], order: f64) -> Vec<Vec<f64>> {
 }
 
 /// Sensor by sensor its own columns: a probe assumes nothing of entries.
-fn stacked(problem: &Problem, samples: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let mut raw = Vec::new();
-    for sensor in &problem.sensors {
-        for values in samples {
-            let of_row = |row: &Row| {
-                if row.sensor == *sensor { values[row.sample] } else { 0.0 }
-            };
-            raw.push(problem.rows.iter().map(of_row).collect());
-        }
-    }
-    raw
+fn stacked(problem: &Problem, samples: &[Vec<f64>]) -> Vec<Column> {
+    let sensors = 0..problem.sensors.len();
+    let column = |values: &Vec<f64>, sensor| problem.alone(sensor, |sample| values[sample]).into();
+    sensors.flat_map(|sensor| samples.iter().map(move |values| column(values, sensor))).collect()
 }
 
 /// Chebyshev polynomials 1 … order over the range of a coordinate.
@@ -339,7 +332,7 @@ fn step_with_tails(
     problem: &Problem,
     model: &Columns,
     fit: &Fit,
-    raw: Vec<Vec<f64>>,
+    raw: Vec<Column>,
     places: usize,
 ) -> f64 {
     let (width, looks) = (count(raw.len()), probes(problem) * count(places));

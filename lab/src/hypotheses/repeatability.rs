@@ -16,7 +16,7 @@ use crate::policy::extent::COMMON_SAMPLES;
 #[must_use]
 pub(crate) fn repeatability(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
     let whitener = Whitener::new(&problem.layout, &fit.noises);
-    let white = whitener.whiten(&fit.left);
+    let white = whitener.whiten(fit.left.clone());
     let (mut score, mut correlations, mut pairs) = (0.0, 0.0, 0.0);
     for sensor in 0..problem.sensors.len() {
         let passes: Vec<Vec<(f64, f64)>> = problem
@@ -46,7 +46,7 @@ fn along_travel(
     white: &[f64],
     rows: std::ops::Range<usize>,
 ) -> Option<Vec<(f64, f64)>> {
-    let place = |row: usize| problem.record.spindle_rad[problem.rows[row].sample];
+    let place = |row: usize| problem.record.spindle_rad[problem.samples[row]];
     let mut points: Vec<(f64, f64)> = rows.clone().map(|row| (place(row), white[row])).collect();
     let forward = place(rows.start) < place(rows.end - 1);
     let one_way = points.windows(2).all(|pair| {

@@ -32,6 +32,6 @@ pub(crate) fn taken_for_noise(
 
 /// Independent samples' worth of a pass of a sensor about its mean.
 fn samples_a_pass(problem: &Problem, fit: &Fit, sensor: usize) -> f64 {
-    let (layout, _) = problem.of_sensor(sensor);
+    let (layout, _) = problem.layout.of_sensor(sensor);
     effective_samples(&layout, &fit.noises[sensor]) / count(layout.blocks.len().max(1))
 }

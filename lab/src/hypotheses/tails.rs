@@ -50,7 +50,8 @@ pub(crate) fn chance_with_tails(
     of_gain: impl Fn(f64) -> f64,
 ) -> f64 {
     let whitener = Whitener::new(&problem.layout, &after.noises);
-    let (before, mut after) = (whitener.whiten(&before.left), whitener.whiten(&after.left));
+    let white = |fit: &Fit| whitener.whiten(fit.left.clone());
+    let (before, mut after) = (white(before), white(after));
     let taken = |row: usize| before[row] * before[row] - after[row] * after[row];
     let loudest = (0..before.len()).max_by(|&a, &b| taken(a).total_cmp(&taken(b)));
     let Some(row) = loudest else { return 1.0 };

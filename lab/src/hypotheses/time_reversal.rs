@@ -57,7 +57,7 @@ pub(super) fn one_way(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
         .blocks
         .iter()
         .map(|block| {
-            let first = problem.rows[block.rows.start].sample;
+            let first = problem.samples[block.rows.start];
             let way = if problem.record.direction[first] < 0.0 { -1.0 } else { 1.0 };
             (&fit.left[block.rows.clone()], way)
         })

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::candidates::{Candidate, INSTANTS, around, between_samples};
 use super::grid::{on_grid, usable};
-use crate::model::{Columns, Component, Gain, Stage};
+use crate::model::{Columns, Component, Gain, Problem, Stage};
 use crate::numerics::simplex::minimise;
 use crate::numerics::{Looks, count, simplex, spread};
 use crate::policy::chance::EXACT_STANDARD_ERRORS;
@@ -116,14 +116,14 @@ fn sudden_places(stage: &Stage<'_>, candidate: &Candidate) -> Vec<Vec<f64>> {
     let (Some(axis), Some(first)) = (time_axis(candidate), candidate.grid.first()) else {
         return Vec::new();
     };
-    let (rows, time_s) = (&stage.problem.rows, &stage.problem.record.time_s);
-    let mut later: Vec<usize> = (1..rows.len())
-        .filter(|&row| time_s[rows[row - 1].sample] < time_s[rows[row].sample])
-        .collect();
+    let Problem { samples, record, .. } = stage.problem;
+    let time_s = |row: usize| record.time_s[samples[row]];
+    let mut later: Vec<usize> =
+        (1..samples.len()).filter(|&row| time_s(row - 1) < time_s(row)).collect();
     let size = |row: usize| stage.target[row].abs();
     later.sort_by(|&a, &b| size(b).total_cmp(&size(a)));
     later.truncate(SUDDEN_CHANGES);
-    let before = |row: usize| 0.5 * (time_s[rows[row - 1].sample] + time_s[rows[row].sample]);
+    let before = |row: usize| 0.5 * (time_s(row - 1) + time_s(row));
     let at = |row: usize| {
         let mut place = first.clone();
         place[axis] = before(row);
@@ -209,7 +209,7 @@ fn counted(stage: &Stage<'_>, component: Component) -> Option<(Component, f64)> 
         let raw = Columns::of(stage.problem, std::slice::from_ref(&held)).ok()?.raw;
         let unit_um = spread(raw.get(column)?).max(1e-6);
         // The Bayesian price of one coefficient is √n; a whole number costs its alternatives.
-        let rows = count(stage.problem.rows.len()).max(3.0);
+        let rows = count(stage.problem.samples.len()).max(3.0);
         choices *= (2.0 * LARGEST_STEP_UM / unit_um).max(1.0) / rows.sqrt();
     }
     Some((held, choices))

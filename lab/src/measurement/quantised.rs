@@ -62,7 +62,7 @@ fn between(levels: &[f64]) -> Option<f64> {
 /// The values there are, each once, in order.
 fn levels(values: &[f64]) -> Vec<f64> {
     let mut levels = values.to_vec();
-    levels.sort_by(f64::total_cmp);
+    levels.sort_unstable_by(f64::total_cmp);
     let largest = levels.iter().fold(0.0_f64, |largest, level| largest.max(level.abs()));
     levels.dedup_by(|b, a| *b - *a <= 1e-9 * largest);
     levels

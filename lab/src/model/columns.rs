@@ -1,5 +1,6 @@
 //! Columns of one least-squares fit, with what is known of their coefficients beforehand.
 
+use helixlock_plant::Column;
 use rayon::prelude::*;
 
 use crate::noise::Whitener;
@@ -8,11 +9,11 @@ use crate::noise::Whitener;
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Columns {
     /// Row by row.
-    pub(crate) raw: Vec<Vec<f64>>,
+    pub(crate) raw: Vec<Column>,
     /// Prior mean and standard deviation, where physics fixes a coefficient.
     pub(crate) priors: Vec<Option<(f64, f64)>>,
     /// What to take off the target first.
-    pub(crate) fixed: Option<Vec<f64>>,
+    pub(crate) fixed: Option<Column>,
 }
 
 /// Columns whitened at once, so that two threads share what a fit has.
@@ -21,9 +22,9 @@ const TOGETHER: usize = 8;
 impl Columns {
     /// Free columns that belong to no effect.
     #[must_use]
-    pub(crate) fn free(raw: Vec<Vec<f64>>) -> Self {
-        let priors = vec![None; raw.len()];
-        Self { raw, priors, fixed: None }
+    pub(crate) fn free(raw: impl IntoIterator<Item: Into<Column>>) -> Self {
+        let raw: Vec<Column> = raw.into_iter().map(Into::into).collect();
+        Self { priors: vec![None; raw.len()], raw, fixed: None }
     }
 
     /// These columns followed by others.
@@ -36,9 +37,9 @@ impl Columns {
         both
     }
 
-    pub(crate) fn take_off(&mut self, fixed: Option<Vec<f64>>) {
+    pub(crate) fn take_off(&mut self, fixed: Option<Column>) {
         match (&mut self.fixed, fixed) {
-            (Some(sum), Some(more)) => sum.iter_mut().zip(more).for_each(|(a, b)| *a += b),
+            (Some(sum), Some(more)) => sum.iter_mut().zip(&more).for_each(|(a, b)| *a += b),
             (slot @ None, more) => *slot = more,
             (Some(_), None) => {}
         }
@@ -57,7 +58,7 @@ impl Columns {
     /// The columns as slices.
     #[must_use]
     pub(crate) fn views(&self) -> Vec<&[f64]> {
-        self.raw.iter().map(Vec::as_slice).collect()
+        self.raw.iter().map(|column| column.as_slice()).collect()
     }
 
     /// Lengthens whitened columns by one row a prior.
@@ -73,13 +74,11 @@ impl Columns {
     /// The whitened target with the rows of the priors.
     #[must_use]
     pub(crate) fn target(&self, whitener: &Whitener, residual: &[f64]) -> Vec<f64> {
-        let mut white = match &self.fixed {
-            None => whitener.whiten(residual),
-            Some(fixed) => {
-                let left: Vec<f64> = residual.iter().zip(fixed).map(|(r, f)| r - f).collect();
-                whitener.whiten(&left)
-            }
-        };
+        let mut left = residual.to_vec();
+        if let Some(fixed) = &self.fixed {
+            left.iter_mut().zip(fixed.iter()).for_each(|(left, fixed)| *left -= fixed);
+        }
+        let mut white = whitener.whiten(left);
         white.extend(self.priors.iter().flatten().map(|(mean, deviation)| mean / deviation));
         white
     }
@@ -88,8 +87,8 @@ impl Columns {
     #[must_use]
     pub(crate) fn left(&self, residual: &[f64], coefficients: &[f64]) -> Vec<f64> {
         let mut left = residual.to_vec();
-        let weighted = self.raw.iter().map(Vec::as_slice).zip(coefficients.iter().copied());
-        let fixed = self.fixed.iter().map(|fixed| (fixed.as_slice(), 1.0));
+        let weighted = self.raw.iter().zip(coefficients.iter().copied());
+        let fixed = self.fixed.iter().map(|fixed| (fixed, 1.0));
         for (column, weight) in weighted.chain(fixed) {
             left.iter_mut().zip(column).for_each(|(value, part)| *value -= weight * part);
         }

@@ -113,7 +113,7 @@ impl Component {
     #[must_use]
     pub(crate) fn shown_um(&self, problem: &Problem, used: &[f64]) -> Option<Vec<f64>> {
         let columns = Columns::of(problem, std::slice::from_ref(self)).ok()?;
-        let missing = columns.left(&vec![0.0; problem.rows.len()], used);
+        let missing = columns.left(&vec![0.0; problem.samples.len()], used);
         Some(missing.into_iter().map(|value| -value).collect())
     }
 

@@ -1,10 +1,12 @@
 //! The samples behind those of a measurement, for what these do not stand for.
 
 use std::ops::Range;
+use std::sync::OnceLock;
 
 use helixlock_plant::{Machine, Part, Record};
 
 use crate::measurement::means;
+use crate::numerics::median;
 
 /// A record, those of its samples that were measured, and the groups of these that were averaged,
 /// or chosen as groups of one.
@@ -22,9 +24,31 @@ pub(crate) struct Finer {
     pub(crate) measured: Option<Vec<usize>>,
     /// Which measured ones make up each mean.
     pub(crate) groups: Vec<Range<usize>>,
+    interval_s: OnceLock<f64>,
+}
+
+/// Median time between neighbours of the same pass among some samples, s.
+#[must_use]
+pub(crate) fn interval_s(record: &Record, samples: impl Iterator<Item = usize> + Clone) -> f64 {
+    let pairs = samples.clone().zip(samples.skip(1));
+    let of_a_pass = pairs.filter(|&(one, next)| record.pass[one] == record.pass[next]);
+    let interval_s = |(one, next): (usize, usize)| (record.time_s[next] - record.time_s[one]).abs();
+    median(&mut of_a_pass.map(interval_s).collect::<Vec<f64>>())
 }
 
 impl Finer {
+    /// A record and the groups of its samples that were averaged.
+    #[must_use]
+    pub(crate) fn of(record: Record, groups: Vec<Range<usize>>) -> Self {
+        Self { record, measured: None, groups, interval_s: OnceLock::new() }
+    }
+
+    /// The same samples in other groups.
+    #[must_use]
+    pub(crate) fn grouped(&self, groups: Vec<Range<usize>>) -> Self {
+        Self { groups, ..self.clone() }
+    }
+
     /// A record with samples in between at every comparison; `None` if it has them, or none are
     /// to be had.
     #[must_use]
@@ -34,7 +58,16 @@ impl Finer {
         }
         let (record, measured) = record.refined(machine.turns_a_comparison())?;
         let groups = (0..measured.len()).map(|row| row..row + 1).collect();
-        Some(Self { record, measured: Some(measured), groups })
+        Some(Self { measured: Some(measured), ..Self::of(record, groups) })
+    }
+
+    /// Median time between two samples of a pass as they were measured, s; looked for once.
+    #[must_use]
+    pub(crate) fn interval_s(&self) -> f64 {
+        *self.interval_s.get_or_init(|| match &self.measured {
+            Some(measured) => interval_s(&self.record, measured.iter().copied()),
+            None => interval_s(&self.record, 0..self.record.len()),
+        })
     }
 
     /// True when the groups are the measured samples themselves, with others in between.
@@ -115,7 +148,7 @@ width = "0.8 um"
                 .iter()
                 .map(|rows| whole.predicted[rows.clone()].iter().sum::<f64>() / count(rows.len()))
                 .collect();
-            assert_eq!(small.predicted, expected);
+            assert_eq!(*small.predicted, expected);
         }
     }
 

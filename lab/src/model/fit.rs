@@ -96,8 +96,7 @@ fn adjusted_noises(problem: &Problem, left: &[f64], near: &[Noise]) -> Vec<Noise
 }
 
 fn noise_of(problem: &Problem, left: &[f64], sensor: usize, near: Option<&Noise>) -> Noise {
-    let (layout, rows) = problem.of_sensor(sensor);
-    let part: Vec<f64> = rows.iter().map(|&row| left[row]).collect();
-    let noise = fit_noise(&layout, &part, near).noise;
+    let (layout, rows) = problem.layout.of_sensor(sensor);
+    let noise = fit_noise(&layout, &left[rows], near).noise;
     Noise { white: noise.white.max(problem.least_variance[sensor]), ..noise }
 }

@@ -15,7 +15,7 @@ use crate::policy::evidence::{PARTS, TOLD};
 /// side of it. A held-out part may have its own zero, as a pass has.
 #[must_use]
 pub(crate) fn holdout_rms(problem: &Problem, columns: &Columns, noises: &[Noise]) -> f64 {
-    size(&unseen(problem, (columns, noises)), rms)
+    size(&unseen(problem, (columns, noises)), |part| part.rms)
 }
 
 /// A model as it is held out: its columns and its noise.
@@ -27,25 +27,32 @@ pub(crate) type Unseen<'a> = (&'a Columns, &'a [Noise]);
 #[must_use]
 pub(crate) fn helps_unseen(problem: &Problem, model: Unseen<'_>, without: Unseen<'_>) -> bool {
     let (model, without) = (unseen(problem, model), unseen(problem, without));
-    let better = |of: fn(&Layout, &[f64]) -> f64| size(&model, of) < size(&without, of);
-    better(rms) || better(swift_rms)
+    let better = |of: fn(&Part) -> f64| size(&model, of) < size(&without, of);
+    better(|part| part.rms) || better(|part| part.swift_rms)
 }
 
-/// What a model leaves of each part that is held out.
-fn unseen(problem: &Problem, (columns, noises): Unseen<'_>) -> Vec<(Layout, Vec<f64>)> {
+/// What a model leaves of a part that is held out.
+struct Part {
+    rms: f64,
+    swift_rms: f64,
+    rows: usize,
+}
+
+fn unseen(problem: &Problem, (columns, noises): Unseen<'_>) -> Vec<Part> {
+    let residual = problem.residual();
     let of_fold = |held: &Vec<bool>| {
-        let left = left_unseen(problem, columns, noises, held);
+        let left = left_unseen(problem, &residual, (columns, noises), held);
         let (layout, rows) = problem.layout.of_rows(held);
-        (layout, rows.iter().map(|&row| left[row]).collect())
+        let left: Vec<f64> = rows.iter().map(|&row| left[row]).collect();
+        Part { rms: rms(&layout, &left), swift_rms: swift_rms(&layout, &left), rows: rows.len() }
     };
     folds(problem, columns).par_iter().map(of_fold).collect()
 }
 
 /// Size of all parts together, `of` being that of one.
-fn size(parts: &[(Layout, Vec<f64>)], of: fn(&Layout, &[f64]) -> f64) -> f64 {
-    let weighed = parts.iter().map(|(layout, left)| (of(layout, left), left.len()));
-    let square: f64 = weighed.map(|(rms, rows)| rms * rms * count(rows)).sum();
-    let rows: usize = parts.iter().map(|(_, left)| left.len()).sum();
+fn size(parts: &[Part], of: fn(&Part) -> f64) -> f64 {
+    let square: f64 = parts.iter().map(|part| of(part) * of(part) * count(part.rows)).sum();
+    let rows: usize = parts.iter().map(|part| part.rows).sum();
     (square / count(rows.max(1))).sqrt()
 }
 
@@ -98,14 +105,21 @@ fn tells(layout: &Layout, column: &[f64], held: &[bool]) -> bool {
 }
 
 /// What a model that was fitted to the other rows leaves.
-fn left_unseen(problem: &Problem, columns: &Columns, noises: &[Noise], held: &[bool]) -> Vec<f64> {
-    let residual = problem.residual();
+fn left_unseen(
+    problem: &Problem,
+    residual: &[f64],
+    (columns, noises): Unseen<'_>,
+    held: &[bool],
+) -> Vec<f64> {
+    if columns.raw.is_empty() {
+        return columns.left(residual, &[]);
+    }
     // A held-out row gets so much noise that the fit does not see it.
     let mut layout = problem.layout.clone();
     layout.inflation.iter_mut().zip(held).filter(|(_, held)| **held).for_each(|(f, _)| *f *= 1e8);
     let whitener = Whitener::new(&layout, noises);
     let white = columns.whitened(&whitener);
     let views: Vec<&[f64]> = white.iter().map(Vec::as_slice).collect();
-    let fit = least_squares::fit(&views, &columns.target(&whitener, &residual));
-    columns.left(&residual, &fit.coefficients)
+    let fit = least_squares::fit(&views, &columns.target(&whitener, residual));
+    columns.left(residual, &fit.coefficients)
 }

@@ -9,22 +9,13 @@ use helixlock_plant::{
 };
 
 use super::designs::Designs;
-use super::finer::Finer;
+use super::finer::{Finer, interval_s};
 use crate::measurement::{Measurement, spacing};
 use crate::noise::{Block, Layout, outlier_inflation};
 use crate::numerics::{count, highest_frequency, median};
 use crate::policy::extent::MOST_BETWEEN;
 use crate::policy::reading::{MOST_TOLD, WRITTEN_INTERVAL};
 use crate::policy::size::{FINEST_SENSOR_UM, ONE_SPEED, SWINGS};
-
-/// One value of one sensor.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Row {
-    /// Which sensor.
-    pub sensor: Sensor,
-    /// Index of the sample in the measurement and in the record.
-    pub sample: usize,
-}
 
 /// All sensors of a measurement stacked, with what the model predicts taken off.
 #[derive(Debug, Clone)]
@@ -40,16 +31,16 @@ pub struct Problem {
     pub(crate) finer: Option<Arc<Finer>>,
     /// Sensors in the order of `Layout`'s numbers.
     pub sensors: Vec<Sensor>,
-    /// What each row is.
-    pub rows: Vec<Row>,
+    /// Of each row, the index of its sample in the measurement and in the record.
+    pub samples: Column<usize>,
     /// Blocks, clocks and outliers.
     pub layout: Layout,
     /// Observed values in µm (arcsec), the counter too.
-    pub observed: Vec<f64>,
+    pub observed: Column,
     /// Variance below which no sensor's noise is taken to be, µm² (arcsec²).
     pub(crate) least_variance: Vec<f64>,
     /// What the model predicts, each pass from its own zero.
-    pub(crate) predicted: Vec<f64>,
+    pub(crate) predicted: Column,
     /// Effects of the user's own to be tried beside the catalogue.
     pub extra: Vec<Term>,
     /// Highest order of the spindle that the samples resolve.
@@ -95,9 +86,9 @@ impl Problem {
         let measurement = self.measurement.averaged(&groups);
         let finer = match &self.finer {
             Some(finer) if finer.is_between() && finer.record.len() <= MOST_BETWEEN => {
-                Finer { groups, ..Finer::clone(finer) }
+                finer.grouped(groups)
             }
-            _ => Finer { record: self.record.clone(), measured: None, groups },
+            _ => Finer::of(self.record.clone(), groups),
         };
         Self::laid_out(&self.model, &measurement, Some(finer))
     }
@@ -118,11 +109,11 @@ impl Problem {
             record,
             finer: finer.map(Arc::new),
             sensors,
-            rows: Vec::new(),
+            samples: Column::default(),
             layout: Layout::default(),
-            observed: Vec::new(),
+            observed: Column::default(),
             least_variance: Vec::new(),
-            predicted: Vec::new(),
+            predicted: Column::default(),
             extra: Vec::new(),
             highest_order: 0.0,
             highest_hz: 0.0,
@@ -137,7 +128,7 @@ impl Problem {
         problem.least_variance =
             (0..problem.sensors.len()).map(|sensor| problem.finest(sensor)).collect();
         let (mut record, mut finer) = (problem.record.clone(), problem.finer.clone());
-        problem.predicted = problem.predicted(&mut record, &mut finer)?;
+        problem.predicted = problem.predicted(&mut record, &mut finer)?.into();
         (problem.record, problem.finer) = (record, finer);
         if whole {
             problem.find_start()?;
@@ -151,7 +142,8 @@ impl Problem {
     /// Weighs outliers down, as they stand out of what a model leaves.
     pub(crate) fn mark_outliers(&mut self, left: &[f64]) {
         if self.measurement.deviations.is_none() {
-            self.layout.inflation = outlier_inflation(&self.layout, left, &self.least_variance);
+            let outliers = outlier_inflation(&self.layout, left, &self.least_variance);
+            self.layout.inflation = outliers.into();
             return;
         }
         let told = self.told_variances();
@@ -164,18 +156,22 @@ impl Problem {
     /// Variance of every row against the usual one, as the file tells it, in powers of two: most
     /// neighbours then share one, which the noise works faster with.
     pub(crate) fn told_variances(&self) -> Vec<f64> {
-        let Some(told) = &self.measurement.deviations else { return vec![1.0; self.rows.len()] };
+        let Some(told) = &self.measurement.deviations else { return vec![1.0; self.samples.len()] };
         let mut finite: Vec<f64> = told.iter().copied().filter(|sd| sd.is_finite()).collect();
         let usual = median(&mut finite);
-        let variance = |row: &Row| {
-            let share = told[row.sample] / usual;
-            if row.sensor != Sensor::Recorder || !(0.0 < share && share.is_finite()) {
+        let variance = |sensor: Sensor, sample: usize| {
+            let share = told[sample] / usual;
+            if sensor != Sensor::Recorder || !(0.0 < share && share.is_finite()) {
                 return 1.0;
             }
             let share = share.clamp(1.0 / MOST_TOLD, MOST_TOLD);
             libm::exp2(libm::round(2.0 * libm::log2(share)))
         };
-        self.rows.iter().map(variance).collect()
+        let of_block = |block: &Block| {
+            let sensor = self.sensors[block.sensor];
+            self.samples[block.rows.clone()].iter().map(move |&sample| variance(sensor, sample))
+        };
+        self.layout.blocks.iter().flat_map(of_block).collect()
     }
 
     /// Observed less predicted, µm (arcsec); every pass has an arbitrary zero.
@@ -184,10 +180,16 @@ impl Problem {
         self.observed.iter().zip(&self.predicted).map(|(seen, said)| seen - said).collect()
     }
 
+    /// True when every row is of the same sensor and sample as that of another problem.
+    #[must_use]
+    pub(crate) fn has_rows_of(&self, other: &Self) -> bool {
+        self.sensors == other.sensors && self.samples == other.samples
+    }
+
     /// What a free number costs as evidence (Bayesian information criterion).
     #[must_use]
     pub(crate) fn price_of_a_number(&self) -> f64 {
-        libm::log(count(self.rows.len()).max(3.0))
+        libm::log(count(self.samples.len()).max(3.0))
     }
 
     /// Design column, row by row, of an effect whose δ at every sample is given.
@@ -211,12 +213,24 @@ impl Problem {
     /// What each sensor shows of each sample, row by row in µm.
     fn stacked(&self, shown: impl Fn(Sensor) -> Vec<f64>) -> Vec<f64> {
         let shown: Vec<Vec<f64>> = self.sensors.iter().map(|&sensor| shown(sensor)).collect();
-        let mut column = Vec::with_capacity(self.rows.len());
+        let mut column = Vec::with_capacity(self.samples.len());
         for block in &self.layout.blocks {
             let shown = &shown[block.sensor];
             let factor = self.unit(self.sensors[block.sensor]);
-            let rows = &self.rows[block.rows.clone()];
-            column.extend(rows.iter().map(|row| factor * shown[row.sample]));
+            let samples = &self.samples[block.rows.clone()];
+            column.extend(samples.iter().map(|&sample| factor * shown[sample]));
+        }
+        column
+    }
+
+    /// What one sensor shows of each sample, row by row; 0 in the rows of the others.
+    #[must_use]
+    pub(crate) fn alone(&self, sensor: usize, shown: impl Fn(usize) -> f64) -> Vec<f64> {
+        let mut column = vec![0.0; self.samples.len()];
+        for block in self.layout.blocks.iter().filter(|block| block.sensor == sensor) {
+            let samples = &self.samples[block.rows.clone()];
+            let rows = column[block.rows.clone()].iter_mut().zip(samples);
+            rows.for_each(|(value, &sample)| *value = shown(sample));
         }
         column
     }
@@ -236,7 +250,7 @@ impl Problem {
         let context =
             helixlock_plant::Context { machine: &self.model, columns: &self.record.columns };
         let basis = term.basis(&context)?;
-        let column = |unit: &dyn Effect| self.column_of(term.entry, unit);
+        let column = |unit: &dyn Effect| Column::from(self.column_of(term.entry, unit));
         let columns = basis.columns.iter().map(|unit| column(unit.as_ref())).collect();
         Ok(Design { columns, fixed: basis.fixed.map(|unit| column(unit.as_ref())) })
     }
@@ -250,12 +264,11 @@ impl Problem {
         }
     }
 
-    /// Rows of one sensor with their layout as sensor 0.
+    /// Median time between two samples of a pass as they were measured, before any means, s.
     #[must_use]
-    pub(crate) fn of_sensor(&self, sensor: usize) -> (Layout, Vec<usize>) {
-        let (mut layout, rows) = self.layout.restricted(|block| block.sensor == sensor);
-        layout.blocks.iter_mut().for_each(|block| block.sensor = 0);
-        (layout, rows)
+    pub(crate) fn interval_s(&self) -> f64 {
+        let own = || interval_s(&self.record, 0..self.record.len());
+        self.finer.as_deref().map_or_else(own, Finer::interval_s)
     }
 
     /// µm a unit of a sensor's prediction: the counter counts steps.
@@ -264,32 +277,45 @@ impl Problem {
     }
 
     fn stack_rows(&mut self) {
-        let clock = clock(&self.measurement);
+        let mut samples = Vec::with_capacity(self.sensors.len() * self.record.len());
         for (index, &sensor) in self.sensors.iter().enumerate() {
             let values = &self.measurement.observations[&sensor];
             for rows in self.record.passes() {
-                let start = self.rows.len();
-                for sample in rows.clone().filter(|&sample| values[sample].is_finite()) {
-                    self.rows.push(Row { sensor, sample });
-                    self.layout.clock.push(clock[sample]);
-                    self.observed.push(values[sample]);
-                }
-                if start < self.rows.len() {
-                    let pass = self.measurement.pass[rows.start];
-                    let rows = start..self.rows.len();
+                let start = samples.len();
+                let pass = self.measurement.pass[rows.start];
+                samples.extend(rows.filter(|&sample| values[sample].is_finite()));
+                if start < samples.len() {
+                    let rows = start..samples.len();
                     self.layout.blocks.push(Block { sensor: index, pass, rows });
                 }
             }
         }
-        self.layout.inflation = vec![1.0; self.rows.len()];
+        self.samples = samples.into();
+        self.observed = self.of_samples(|sensor| &self.measurement.observations[&sensor]);
+        let clock = clock(&self.measurement).into();
+        self.layout.clock = self.of_samples(|_| &clock);
+        self.layout.inflation = vec![1.0; self.samples.len()].into();
+    }
+
+    /// Values that belong to samples, row by row; shared where every sample is a row.
+    fn of_samples<'a>(&'a self, values: impl Fn(Sensor) -> &'a Column) -> Column {
+        if let [sensor] = *self.sensors
+            && self.samples.len() == self.record.len()
+        {
+            return values(sensor).clone();
+        }
+        let of_block = |block: &Block| {
+            let values = values(self.sensors[block.sensor]);
+            self.samples[block.rows.clone()].iter().map(|&sample| values[sample])
+        };
+        self.layout.blocks.iter().flat_map(of_block).collect()
     }
 
     /// Variance that the steps of a sensor's readings leave: a reading on a lattice of spacing q is
     /// off by q/√12, however still the digits stand.
     fn finest(&self, sensor: usize) -> f64 {
-        let (_, rows) = self.of_sensor(sensor);
-        let values: Vec<f64> = rows.iter().map(|&row| self.observed[row]).collect();
-        let step = spacing(&values).unwrap_or(0.0);
+        let (_, rows) = self.layout.of_sensor(sensor);
+        let step = spacing(&self.observed[rows]).unwrap_or(0.0);
         (FINEST_SENSOR_UM * FINEST_SENSOR_UM).max(step * step / 12.0)
     }
 
@@ -308,7 +334,7 @@ impl Problem {
         }
         let predicted = self.predicted(&mut record, &mut finer)?;
         if self.roughness(&predicted) < self.roughness(&self.predicted) {
-            (self.record, self.finer, self.predicted) = (record, finer, predicted);
+            (self.record, self.finer, self.predicted) = (record, finer, predicted.into());
         }
         Ok(())
     }
@@ -400,9 +426,9 @@ fn hunting_um(problem: &Problem, residual: &[f64]) -> f64 {
 #[derive(Debug, Clone)]
 pub(crate) struct Design {
     /// One a coefficient, row by row.
-    pub(crate) columns: Vec<Vec<f64>>,
+    pub(crate) columns: Vec<Column>,
     /// What does not scale with a coefficient.
-    pub(crate) fixed: Option<Vec<f64>>,
+    pub(crate) fixed: Option<Column>,
 }
 
 /// Clock of the noise in median intervals: time if it was logged, else the count of samples.

@@ -59,7 +59,7 @@ impl<'a> Stage<'a> {
     pub(crate) fn span(&self, columns: &Columns) -> Vec<Vec<f64>> {
         let fixed = columns.fixed.iter().filter(|_| columns.raw.is_empty());
         let views: Vec<&[f64]> =
-            columns.views().into_iter().chain(fixed.map(Vec::as_slice)).collect();
+            columns.views().into_iter().chain(fixed.map(|fixed| fixed.as_slice())).collect();
         let mut white = self.whitener.whiten_all(&views);
         for column in &mut white {
             column.resize(self.target.len(), 0.0);
@@ -72,7 +72,7 @@ impl<'a> Stage<'a> {
     /// errors a measure.
     #[must_use]
     pub(crate) fn is_noise(&self, fit: &LinearFit) -> bool {
-        fit.residual_square < MORE_THAN_NOISE * count(self.problem.rows.len())
+        fit.residual_square < MORE_THAN_NOISE * count(self.problem.samples.len())
     }
 
     /// Gains of several candidates, each by itself; their columns are whitened together.
@@ -102,7 +102,7 @@ impl<'a> Stage<'a> {
         }
         let mut target = self.target.clone();
         if let Some(fixed) = &columns.fixed {
-            let mut white = self.whitener.whiten(fixed);
+            let mut white = self.whitener.whiten(fixed.to_vec());
             white.resize(target.len(), 0.0);
             project(&self.basis, &mut white);
             target.iter_mut().zip(&white).for_each(|(value, part)| *value -= part);

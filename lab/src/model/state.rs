@@ -40,9 +40,10 @@ impl State {
         components: Vec<Component>,
         noises: &[Noise],
     ) -> Option<Self> {
-        let near = Self::of(problem, components.clone(), noises)?;
-        let anew = Self::of(problem, components, &noises_of(problem, &near.fit.left))?;
-        Some(if near.fit.log_likelihood < anew.fit.log_likelihood { anew } else { near })
+        let near = Self::of(problem, components, noises)?;
+        let anew = settle(problem, &near.columns, &noises_of(problem, &near.fit.left));
+        let likelier = near.fit.log_likelihood < anew.log_likelihood;
+        Some(if likelier { Self { fit: anew, ..near } } else { near })
     }
 
     /// The effects that are in no group.
@@ -90,9 +91,9 @@ pub(crate) fn pattern(
     whitener: &Whitener,
 ) -> Vec<f64> {
     let (coefficients, from) = state.coefficients(index);
-    let mut sum = vec![0.0; problem.rows.len()];
+    let mut sum = vec![0.0; problem.samples.len()];
     for (column, weight) in state.columns.raw[from..].iter().zip(coefficients) {
         sum.iter_mut().zip(column).for_each(|(value, part)| *value += weight * part);
     }
-    whitener.whiten(&sum)
+    whitener.whiten(sum)
 }

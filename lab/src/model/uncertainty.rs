@@ -1,12 +1,13 @@
 //! Standard errors of all parameters together, linear and nonlinear.
 
+use helixlock_plant::Column;
 use nalgebra::DMatrix;
 
 use super::columns::Columns;
 use super::component::Component;
 use super::problem::Problem;
 use super::state::State;
-use crate::noise::Whitener;
+use crate::noise::{Noise, Whitener};
 use crate::numerics::least_squares;
 
 /// Covariance of a joint fit under its noise.
@@ -26,13 +27,9 @@ pub(crate) fn joint_covariance(problem: &Problem, state: &State) -> JointCovaria
     columns.fixed = None;
     let linear_width = columns.raw.len();
     let slopes = slopes(problem, state);
-    let raw = slopes.iter().map(|slope| slope.column.clone()).collect();
+    let raw = slopes.iter().map(|slope| slope.column.clone());
     columns = columns.and(&Columns::free(raw));
-    let whitener = Whitener::new(&problem.layout, &state.fit.noises);
-    let white = columns.whitened(&whitener);
-    let views: Vec<&[f64]> = white.iter().map(Vec::as_slice).collect();
-    let nothing = vec![0.0; white.first().map_or(0, Vec::len)];
-    let covariance = least_squares::fit(&views, &nothing).covariance;
+    let covariance = covariance(problem, &columns, &state.fit.noises);
     let mut nonlinear: Vec<Vec<Option<f64>>> = state
         .components
         .iter()
@@ -46,6 +43,16 @@ pub(crate) fn joint_covariance(problem: &Problem, state: &State) -> JointCovaria
     JointCovariance { linear, nonlinear }
 }
 
+fn covariance(problem: &Problem, columns: &Columns, noises: &[Noise]) -> DMatrix<f64> {
+    if columns.raw.is_empty() {
+        return DMatrix::zeros(0, 0);
+    }
+    let white = columns.whitened(&Whitener::new(&problem.layout, noises));
+    let views: Vec<&[f64]> = white.iter().map(Vec::as_slice).collect();
+    let nothing = vec![0.0; white.first().map_or(0, Vec::len)];
+    least_squares::fit(&views, &nothing).covariance
+}
+
 /// How the fitted model changes with one nonlinear value.
 #[derive(Debug)]
 pub(crate) struct Slope {
@@ -54,7 +61,7 @@ pub(crate) struct Slope {
     /// Which of its nonlinear values.
     pub(crate) place: usize,
     /// Change of the model a unit of the value, row by row.
-    pub(crate) column: Vec<f64>,
+    pub(crate) column: Column,
 }
 
 /// A slope for every continuous nonlinear value of a model that shows in the data.
@@ -64,7 +71,7 @@ pub(crate) fn slopes(problem: &Problem, state: &State) -> Vec<Slope> {
     for (index, component) in state.components.iter().enumerate() {
         for place in 0..component.term.nonlinear_indices().len() {
             if let Some(column) = slope(problem, state, index, component, place) {
-                slopes.push(Slope { component: index, place, column });
+                slopes.push(Slope { component: index, place, column: column.into() });
             }
         }
     }

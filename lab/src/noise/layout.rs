@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use helixlock_plant::Column;
+
 use crate::numerics::rms_about_means;
 use crate::policy::size::STRETCHES;
 
@@ -19,12 +21,12 @@ pub struct Block {
 /// How the rows of a fit hang together.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Layout {
-    /// Blocks in row order, without gaps between them.
+    /// Blocks in row order, without gaps between them, those of a sensor together.
     pub blocks: Vec<Block>,
     /// Per row: clock of the noise in median sample intervals, not falling within a block.
-    pub clock: Vec<f64>,
+    pub clock: Column,
     /// Per row: factor on the white variance, 1 for an ordinary sample, more for an outlier.
-    pub inflation: Vec<f64>,
+    pub inflation: Column,
 }
 
 impl Layout {
@@ -34,10 +36,18 @@ impl Layout {
         self.clock.len()
     }
 
-    /// The layout of some blocks only, and the rows they had here.
+    /// The layout of one sensor's blocks as those of sensor 0, and the rows they had here.
     #[must_use]
-    pub(crate) fn restricted(&self, keep: impl Fn(&Block) -> bool) -> (Self, Vec<usize>) {
-        self.begun(usize::MAX, keep)
+    pub(crate) fn of_sensor(&self, sensor: usize) -> (Self, Range<usize>) {
+        let own = || self.blocks.iter().filter(|block| block.sensor == sensor);
+        let start = own().map(|block| block.rows.start).min().unwrap_or(0);
+        let rows = start..own().map(|block| block.rows.end).max().unwrap_or(start);
+        let block = |block: &Block| {
+            let own = block.rows.start - start..block.rows.end - start;
+            Block { sensor: 0, rows: own, pass: block.pass }
+        };
+        let (clock, inflation) = (self.clock.part(&rows), self.inflation.part(&rows));
+        (Self { blocks: own().map(block).collect(), clock, inflation }, rows)
     }
 
     /// The layout of some rows, each block's together, and where they are here.
@@ -59,8 +69,8 @@ impl Layout {
     pub(crate) fn stretch(&self, rows: Range<usize>, pass: usize) -> Self {
         Self {
             blocks: vec![Block { sensor: 0, pass, rows: 0..rows.len() }],
-            clock: self.clock[rows.clone()].to_vec(),
-            inflation: self.inflation[rows].to_vec(),
+            clock: self.clock.part(&rows),
+            inflation: self.inflation.part(&rows),
         }
     }
 

@@ -44,6 +44,9 @@ pub(crate) fn squares_and_log_determinants(
     all
 }
 
+/// Rows after which the ones are looked at.
+const ROWS_A_LOOK: usize = 64;
+
 struct Column<'a> {
     layout: &'a Layout,
     values: &'a [f64],
@@ -121,13 +124,25 @@ impl Column<'_> {
         state: &mut Foreseen<P, L>,
         sums: &mut Sums<L>,
     ) -> usize {
+        let stays = |row: usize| {
+            row < rows.end && factor.stays(self.interval(row), self.layout.inflation[row])
+        };
         let mut row = rows.start;
-        if row == rows.end || !factor.stays(self.interval(row), self.layout.inflation[row]) {
+        if !stays(row) {
             return row;
         }
         let mut run = Sums::new();
-        while row < rows.end && factor.stays(self.interval(row), self.layout.inflation[row]) {
+        let mut repeated = false;
+        while !repeated && stays(row) {
+            let before = (state.ones, state.one);
             state.advance(&factor.decay, &factor.gain, self.values[row]);
+            run.add(state, &[1.0; L]);
+            row += 1;
+            repeated = row.is_multiple_of(ROWS_A_LOOK) && (state.ones, state.one) == before;
+        }
+        // Ones that are as in the row before stay so: nothing else enters them.
+        while stays(row) {
+            state.advance_values(&factor.decay, &factor.gain, self.values[row]);
             run.add(state, &[1.0; L]);
             row += 1;
         }
@@ -162,18 +177,31 @@ impl<const L: usize> Sums<L> {
 impl<const P: usize, const L: usize> Foreseen<P, L> {
     #[inline]
     fn advance(&mut self, decay: &[Lanes<L>; P], gain: &[Lanes<L>; P], value: f64) {
-        let (mut now, mut one) = ([value; L], [1.0; L]);
-        for part in 0..P {
-            for lane in 0..L {
-                let carried = decay[part][lane] * gain[part][lane];
-                self.values[part][lane] =
-                    decay[part][lane] * self.values[part][lane] + carried * self.value[lane];
-                self.ones[part][lane] =
-                    decay[part][lane] * self.ones[part][lane] + carried * self.one[lane];
-                now[lane] -= self.values[part][lane];
-                one[lane] -= self.ones[part][lane];
-            }
-        }
-        (self.value, self.one) = (now, one);
+        self.one = next(&mut self.ones, [decay, gain], &self.one, 1.0);
+        self.advance_values(decay, gain, value);
     }
+
+    #[inline]
+    fn advance_values(&mut self, decay: &[Lanes<L>; P], gain: &[Lanes<L>; P], value: f64) {
+        self.value = next(&mut self.values, [decay, gain], &self.value, value);
+    }
+}
+
+/// Foresees slow parts by the last innovation, and returns that of a value.
+#[inline]
+fn next<const P: usize, const L: usize>(
+    foreseen: &mut [Lanes<L>; P],
+    [decay, gain]: [&[Lanes<L>; P]; 2],
+    last: &Lanes<L>,
+    value: f64,
+) -> Lanes<L> {
+    let mut now = [value; L];
+    for part in 0..P {
+        for lane in 0..L {
+            let carried = decay[part][lane] * gain[part][lane];
+            foreseen[part][lane] = decay[part][lane] * foreseen[part][lane] + carried * last[lane];
+            now[lane] -= foreseen[part][lane];
+        }
+    }
+    now
 }

@@ -11,16 +11,26 @@ use crate::numerics::least_squares::dot;
 #[derive(Debug, Clone)]
 pub(crate) struct Whitener {
     blocks: Vec<Part>,
-    steps: Vec<Step>,
+    runs: Vec<Run>,
     ones: Vec<f64>,
     log_determinant: f64,
 }
 
-/// A block with the number of its slow parts.
+/// A block with its runs and the number of its slow parts.
 #[derive(Debug, Clone)]
 struct Part {
     rows: Range<usize>,
+    runs: Range<usize>,
     slow: usize,
+}
+
+/// Neighbouring rows that follow from the ones before in the same way: with even sampling nearly
+/// all of a block.
+#[derive(Debug, Clone, Copy)]
+struct Run {
+    /// The first row behind them.
+    end: usize,
+    step: Step,
 }
 
 /// How a row follows from the one before: what its slow parts keep, what they take of the last
@@ -44,7 +54,7 @@ impl Whitener {
     pub(crate) fn new(layout: &Layout, noises: &[Noise]) -> Self {
         let mut whitener = Self {
             blocks: Vec::with_capacity(layout.blocks.len()),
-            steps: Vec::with_capacity(layout.len()),
+            runs: Vec::new(),
             ones: Vec::new(),
             log_determinant: 0.0,
         };
@@ -56,7 +66,7 @@ impl Whitener {
                 _ => whitener.factorise::<PARTS>(layout, block, noise),
             }
         }
-        whitener.ones = whitener.whiten_only(&vec![1.0; layout.len()]);
+        whitener.ones = whitener.whiten_only(vec![1.0; layout.len()]);
         whitener.normalise_ones();
         whitener
     }
@@ -75,7 +85,7 @@ impl Whitener {
 
     /// The column with unit, uncorrelated noise and without the part a pass offset explains.
     #[must_use]
-    pub(crate) fn whiten(&self, column: &[f64]) -> Vec<f64> {
+    pub(crate) fn whiten(&self, column: Vec<f64>) -> Vec<f64> {
         let mut white = self.whiten_only(column);
         self.clear_of_offsets(&mut white);
         white
@@ -84,14 +94,11 @@ impl Whitener {
     /// Several columns as [`Self::whiten`] does them one by one, at a fraction of the time.
     #[must_use]
     pub(crate) fn whiten_all(&self, columns: &[&[f64]]) -> Vec<Vec<f64>> {
-        let mut white = Vec::with_capacity(columns.len());
-        let (full, rest) = columns.as_chunks::<LANES>();
-        white.extend(full.iter().flat_map(|lanes| self.filtered(lanes)));
-        let (half, rest) = rest.as_chunks::<{ LANES / 2 }>();
-        white.extend(half.iter().flat_map(|lanes| self.filtered(lanes)));
-        let (pairs, rest) = rest.as_chunks::<2>();
-        white.extend(pairs.iter().flat_map(|lanes| self.filtered(lanes)));
-        white.extend(rest.iter().map(|column| self.whiten_only(column)));
+        let mut white: Vec<Vec<f64>> = columns.iter().map(|column| column.to_vec()).collect();
+        let rest = self.filter_in_lanes::<LANES>(&mut white);
+        let rest = self.filter_in_lanes::<{ LANES / 2 }>(rest);
+        let rest = self.filter_in_lanes::<2>(rest);
+        self.filter_in_lanes::<1>(rest);
         for column in &mut white {
             self.clear_of_offsets(column);
         }
@@ -100,8 +107,10 @@ impl Whitener {
 
     /// The column with unit, uncorrelated noise; offsets stay in it.
     #[must_use]
-    pub(crate) fn whiten_only(&self, column: &[f64]) -> Vec<f64> {
-        let [white] = self.filtered(&[column]);
+    pub(crate) fn whiten_only(&self, column: Vec<f64>) -> Vec<f64> {
+        let mut lane = [column];
+        self.filter_all(&mut lane);
+        let [white] = lane;
         white
     }
 
@@ -113,70 +122,87 @@ impl Whitener {
         for block in &self.blocks {
             let mut adjoint = [0.0; PARTS];
             let mut after = Step { decay: [0.0; PARTS], carried: [0.0; PARTS], inverse_root: 0.0 };
-            for row in block.rows.clone().rev() {
-                let mut value = white[row] * self.steps[row].inverse_root;
-                for (carried, part) in after.carried.iter().zip(&adjoint) {
-                    value += carried * part;
+            for (rows, step) in self.runs(block).rev() {
+                for row in rows.rev() {
+                    let mut value = white[row] * step.inverse_root;
+                    for (carried, part) in after.carried.iter().zip(&adjoint) {
+                        value += carried * part;
+                    }
+                    for (decay, part) in after.decay.iter().zip(&mut adjoint) {
+                        *part = decay * *part - value;
+                    }
+                    weighted[row] = value;
+                    after = *step;
                 }
-                for (decay, part) in after.decay.iter().zip(&mut adjoint) {
-                    *part = decay * *part - value;
-                }
-                weighted[row] = value;
-                after = self.steps[row];
             }
         }
         weighted
     }
 
-    fn filtered<const L: usize>(&self, columns: &[&[f64]; L]) -> [Vec<f64>; L] {
-        let mut white = columns.map(|column| vec![0.0; column.len()]);
+    /// The runs of a block: their rows, and how these follow.
+    fn runs(&self, block: &Part) -> impl DoubleEndedIterator<Item = (Range<usize>, &Step)> {
+        let starts = block.runs.clone().map(move |run| {
+            if run == block.runs.start { block.rows.start } else { self.runs[run - 1].end }
+        });
+        let runs = &self.runs[block.runs.clone()];
+        starts.zip(runs).map(|(start, run)| (start..run.end, &run.step))
+    }
+
+    /// Filters as many columns as fill lanes, and returns the rest.
+    fn filter_in_lanes<'a, const L: usize>(
+        &self,
+        columns: &'a mut [Vec<f64>],
+    ) -> &'a mut [Vec<f64>] {
+        let (full, rest) = columns.as_chunks_mut::<L>();
+        for lanes in full {
+            self.filter_all(lanes);
+        }
+        rest
+    }
+
+    /// Replaces columns by their whitened selves.
+    fn filter_all<const L: usize>(&self, columns: &mut [Vec<f64>; L]) {
         for block in &self.blocks {
             match block.slow {
-                0 => self.weigh(&block.rows, columns, &mut white),
-                1 => self.filter::<1, L>(&block.rows, columns, &mut white),
-                _ => self.filter::<PARTS, L>(&block.rows, columns, &mut white),
+                0 => self.weigh(block, columns),
+                1 => self.filter::<1, L>(block, columns),
+                _ => self.filter::<PARTS, L>(block, columns),
             }
         }
-        white
     }
 
     /// The same for a block of independent samples.
-    fn weigh<const L: usize>(
-        &self,
-        rows: &Range<usize>,
-        columns: &[&[f64]; L],
-        white: &mut [Vec<f64>; L],
-    ) {
-        let steps = &self.steps[rows.clone()];
-        for (column, white) in columns.iter().zip(white) {
-            let values = white[rows.clone()].iter_mut().zip(&column[rows.clone()]);
-            values.zip(steps).for_each(|((white, value), step)| *white = value * step.inverse_root);
+    fn weigh<const L: usize>(&self, block: &Part, columns: &mut [Vec<f64>; L]) {
+        for (rows, step) in self.runs(block) {
+            for column in &mut *columns {
+                column[rows.clone()].iter_mut().for_each(|value| *value *= step.inverse_root);
+            }
         }
     }
 
     /// Innovations of the columns over a block, tile by tile.
-    fn filter<const P: usize, const L: usize>(
-        &self,
-        rows: &Range<usize>,
-        columns: &[&[f64]; L],
-        white: &mut [Vec<f64>; L],
-    ) {
+    fn filter<const P: usize, const L: usize>(&self, block: &Part, columns: &mut [Vec<f64>; L]) {
         let mut foreseen = [[0.0; L]; P];
         let mut innovation = [0.0; L];
         let mut tile = [[0.0; L]; TILE];
-        let mut start = rows.start;
-        while start < rows.end {
-            let end = (start + TILE).min(rows.end);
+        let mut runs = &self.runs[block.runs.clone()];
+        for start in block.rows.clone().step_by(TILE) {
+            let end = (start + TILE).min(block.rows.end);
             for (lane, column) in columns.iter().enumerate() {
                 tile.iter_mut().zip(&column[start..end]).for_each(|(row, v)| row[lane] = *v);
             }
-            for (values, step) in tile.iter_mut().zip(&self.steps[start..end]) {
-                step.apply(&mut foreseen, &mut innovation, values);
+            let mut row = start;
+            while let Some((run, later)) = runs.split_first().filter(|_| row < end) {
+                let until = run.end.min(end);
+                for values in &mut tile[row - start..until - start] {
+                    run.step.apply(&mut foreseen, &mut innovation, values);
+                }
+                runs = if run.end == until { later } else { runs };
+                row = until;
             }
-            for (lane, column) in white.iter_mut().enumerate() {
+            for (lane, column) in columns.iter_mut().enumerate() {
                 column[start..end].iter_mut().zip(&tile).for_each(|(v, row)| *v = row[lane]);
             }
-            start = end;
         }
     }
 
@@ -192,26 +218,30 @@ impl Whitener {
     }
 
     fn factorise<const P: usize>(&mut self, layout: &Layout, block: &Block, noise: &Noise) {
-        self.blocks.push(Part { rows: block.rows.clone(), slow: P });
-        let Some(first) = block.rows.clone().next() else { return };
-        let mut factor = Factor::<P, 1>::new([noise], layout.inflation[first]);
-        let mut step = Step::new(&factor, &[[0.0]; P]);
-        self.steps.push(step);
-        let mut pivots = Pivots::new();
-        pivots.times(&factor.pivot, first);
-        for row in block.rows.clone().skip(1) {
-            let (interval, inflation) =
-                (layout.clock[row] - layout.clock[row - 1], layout.inflation[row]);
-            if !factor.stays(interval, inflation) {
-                let before = factor.gain;
-                factor.advance(interval, inflation);
-                step = Step::new(&factor, &before);
+        let first_run = self.runs.len();
+        if let Some(first) = block.rows.clone().next() {
+            let mut factor = Factor::<P, 1>::new([noise], layout.inflation[first]);
+            let mut run = Run { end: first + 1, step: Step::new(&factor, &[[0.0]; P]) };
+            let mut pivots = Pivots::new();
+            pivots.times(&factor.pivot, first);
+            for row in block.rows.clone().skip(1) {
+                let (interval, inflation) =
+                    (layout.clock[row] - layout.clock[row - 1], layout.inflation[row]);
+                if !factor.stays(interval, inflation) {
+                    let before = factor.gain;
+                    factor.advance(interval, inflation);
+                    self.runs.push(run);
+                    run.step = Step::new(&factor, &before);
+                }
+                run.end = row + 1;
+                pivots.times(&factor.pivot, row);
             }
-            pivots.times(&factor.pivot, row);
-            self.steps.push(step);
+            self.runs.push(run);
+            let [logarithm] = pivots.logarithm();
+            self.log_determinant += logarithm;
         }
-        let [logarithm] = pivots.logarithm();
-        self.log_determinant += logarithm;
+        let runs = first_run..self.runs.len();
+        self.blocks.push(Part { rows: block.rows.clone(), runs, slow: P });
     }
 
     /// Scales the whitened constants to length 1 a block and counts them in the determinant.

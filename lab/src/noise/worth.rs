@@ -9,6 +9,6 @@ use crate::numerics::least_squares::dot;
 #[must_use]
 pub(crate) fn effective_samples(layout: &Layout, noise: &Noise) -> f64 {
     let whitener = Whitener::new(layout, std::slice::from_ref(noise));
-    let ones = whitener.whiten_only(&vec![1.0; layout.len()]);
+    let ones = whitener.whiten_only(vec![1.0; layout.len()]);
     noise.variance() * dot(&ones, &ones)
 }

@@ -24,7 +24,8 @@ pub(crate) fn usual_rate(coordinate: &[f64]) -> f64 {
 #[must_use]
 pub(crate) fn highest_frequency(coordinate: &[f64]) -> f64 {
     let rate = usual_rate(coordinate);
-    let (returns, looked_at) = first_return(coordinate, 2.0 * HIGHEST_AGAINST_RATE * rate);
+    let end = 2.0 * HIGHEST_AGAINST_RATE * rate;
+    let (returns, looked_at) = first_return(coordinate, rate, end);
     returns.unwrap_or(looked_at).max(rate) * 0.5
 }
 
@@ -32,17 +33,18 @@ pub(crate) fn highest_frequency(coordinate: &[f64]) -> f64 {
 /// lies above those that are searched.
 #[must_use]
 pub(crate) fn resolves(coordinate: &[f64], frequency: f64) -> bool {
-    if frequency < 0.5 * usual_rate(coordinate) {
+    let rate = usual_rate(coordinate);
+    if frequency < 0.5 * rate {
         return true;
     }
-    let (returns, looked_at) = first_return(coordinate, 2.0 * frequency);
+    let (returns, looked_at) = first_return(coordinate, rate, 2.0 * frequency);
     // As far as was asked for, but for rounding.
     returns.is_none() && 1.999 * frequency <= looked_at
 }
 
-/// First frequency up to `end` at which the spectral window comes back, and how far was looked: at
-/// nothing where there are hardly any places.
-fn first_return(coordinate: &[f64], end: f64) -> (Option<f64>, f64) {
+/// First frequency up to `end` at which the spectral window of places that come at a usual rate
+/// comes back, and how far was looked: at nothing where there are hardly any places.
+fn first_return(coordinate: &[f64], rate: f64, end: f64) -> (Option<f64>, f64) {
     let range = spread(coordinate);
     if range <= 0.0 || coordinate.len() < 3 {
         return (None, 0.0);
@@ -55,7 +57,7 @@ fn first_return(coordinate: &[f64], end: f64) -> (Option<f64>, f64) {
         reason = "clamped to small positive numbers"
     )]
     let window = fourier::sizes(coordinate, &vec![1.0; coordinate.len()], step, points as usize);
-    let from = WINDOW_FROM * usual_rate(coordinate);
+    let from = WINDOW_FROM * rate;
     let returns = window
         .iter()
         .enumerate()

@@ -69,7 +69,7 @@ fn turns_as_well(problem: &Problem, now: &State, judged: &Judged) -> Option<Refu
     let stage = Stage::new(problem, &now.columns, &judged.fit.noises);
     let own = gain_at(&stage, &judged.component).map_or(0.0, |gain| gain.gain);
     let turns: Vec<f64> = problem.record.turns().collect();
-    let of_row: Vec<f64> = problem.rows.iter().map(|row| turns[row.sample]).collect();
+    let of_row: Vec<f64> = problem.samples.iter().map(|&sample| turns[sample]).collect();
     let scan = turn_scan(&stage, &of_row);
     let line = scan.strongest(&stage.target[..of_row.len()])?;
     let told = line.gain + TIME_LOCK < own;
@@ -113,7 +113,7 @@ fn chance_without_one_sample(problem: &Problem, now: &State, judged: &Judged) ->
 fn chance_in_slow_noise(problem: &Problem, now: &State, judged: &Judged) -> f64 {
     let sensors = 0..problem.sensors.len();
     let worth = sensors.map(|sensor| {
-        let (layout, _) = problem.of_sensor(sensor);
+        let (layout, _) = problem.layout.of_sensor(sensor);
         effective_samples(&layout, &now.fit.noises[sensor])
     });
     let Some(columns) = own_columns(problem, judged).filter(|one| !one.raw.is_empty()) else {

@@ -245,12 +245,10 @@ fn judge(problem: &Problem, now: &State, trial: &Trial, tried: f64) -> Option<Ju
 pub(super) fn plain_noises(problem: &Problem, fit: &Fit) -> Vec<Noise> {
     (0..problem.sensors.len())
         .map(|sensor| {
-            let (layout, rows) = problem.of_sensor(sensor);
-            let mut steps: Vec<f64> = layout
-                .blocks
-                .iter()
+            let blocks = problem.layout.blocks.iter().filter(|block| block.sensor == sensor);
+            let mut steps: Vec<f64> = blocks
                 .flat_map(|block| block.rows.clone().skip(1))
-                .map(|row| (fit.left[rows[row]] - fit.left[rows[row - 1]]).abs())
+                .map(|row| (fit.left[row] - fit.left[row - 1]).abs())
                 .collect();
             let deviation = (median(&mut steps) * 1.4826).max(f64::MIN_POSITIVE.sqrt());
             Noise::white().scaled(0.5 * deviation * deviation)

@@ -167,7 +167,7 @@ impl Claim<'_> {
     /// What the shape shows at its best, by itself.
     pub(crate) fn shown(&self, problem: &Problem) -> Structure {
         let placed = &self.placed;
-        let nothing = vec![0.0; problem.rows.len()];
+        let nothing = vec![0.0; problem.samples.len()];
         let shown = placed.columns.left(&nothing, &placed.coefficients);
         let shape = placed.shape.words.to_owned();
         structure(placed, shape, rms(&problem.layout, &shown), self.p_value)

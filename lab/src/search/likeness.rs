@@ -68,7 +68,7 @@ fn is_slope(problem: &Problem, state: &State, index: usize) -> bool {
     let whitener = Whitener::new(&problem.layout, &state.fit.noises);
     let shape = pattern(problem, state, index, &whitener);
     let line = problem.column(component.term.entry, &problem.record.spindle_rad);
-    let line = whitener.whiten(&line);
+    let line = whitener.whiten(line);
     let fit = least_squares::fit(&[&line], &shape);
     fit.residual_square < SHAPE * dot(&shape, &shape)
 }
@@ -137,7 +137,7 @@ pub(crate) fn turns_enough(problem: &Problem, component: &Component, used: &[f64
 
 /// Rows of each sensor from one turn of the table, or pass, to the next.
 fn legs(problem: &Problem) -> Vec<Range<usize>> {
-    let direction = |row: usize| problem.record.direction[problem.rows[row].sample];
+    let direction = |row: usize| problem.record.direction[problem.samples[row]];
     let blocks = problem.layout.blocks.iter();
     let of_block = |block: &Block| {
         let mut legs: Vec<Range<usize>> = Vec::new();
@@ -163,10 +163,10 @@ fn beyond_a_parabola(problem: &Problem, values: &[f64], rows: Range<usize>) -> f
     if values.len() < 2 * ROWS_A_COLUMN {
         return dot(values, values);
     }
-    let samples = || problem.rows[rows.clone()].iter().map(|row| row.sample);
+    let samples = &problem.samples[rows];
     let (angle, time) = (&problem.record.spindle_rad, &problem.record.time_s);
     let axes = [angle, time].map(|axis| {
-        let values: Vec<f64> = samples().map(|sample| axis[sample]).collect();
+        let values: Vec<f64> = samples.iter().map(|&sample| axis[sample]).collect();
         let mean = values.iter().sum::<f64>() / count(values.len());
         values.into_iter().map(|value| value - mean).collect::<Vec<f64>>()
     });

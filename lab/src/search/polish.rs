@@ -35,7 +35,7 @@ fn stepped(problem: &Problem, state: &State) -> Option<State> {
         return None;
     }
     let mut components = state.components.clone();
-    let raw: Vec<Vec<f64>> = slopes.iter().map(|slope| slope.column.clone()).collect();
+    let raw = slopes.iter().map(|slope| slope.column.clone());
     let columns = state.columns.and(&Columns::free(raw));
     let whitener = Whitener::new(&problem.layout, &state.fit.noises);
     let white = columns.whitened(&whitener);

@@ -85,7 +85,8 @@ fn is_exact(component: &Component) -> bool {
 /// Variance inflation of a pattern by another effect's fitted pattern: `1/(1 − R²)`.
 fn inflation(problem: &Problem, rival: &Judged, whitener: &Whitener, shape: &[f64]) -> f64 {
     let Ok((design, _)) = rival.component.design(problem) else { return 1.0 };
-    let white: Vec<Vec<f64>> = design.columns.iter().map(|c| whitener.whiten(c)).collect();
+    let columns: Vec<&[f64]> = design.columns.iter().map(|column| column.as_slice()).collect();
+    let white = whitener.whiten_all(&columns);
     let views: Vec<&[f64]> = white.iter().map(Vec::as_slice).collect();
     let fit = least_squares::fit(&views, shape);
     dot(shape, shape) / fit.residual_square.max(f64::MIN_POSITIVE)

@@ -34,7 +34,7 @@ pub(crate) fn inflation(problem: &Problem, now: &State, columns: &Columns, fit: 
             left[row] -= along * value;
         }
     }
-    let rows = problem.rows.len();
+    let rows = problem.samples.len();
     let square = dot(&curve[..rows], &curve[..rows]);
     let size = square * dot(&left[..rows], &left[..rows]);
     if size <= 0.0 {
@@ -84,7 +84,7 @@ fn ratio(problem: &Problem, scores: &[f64], window: usize) -> f64 {
 ///
 /// Elsewhere it is the median that counts, which another curve of that kind does not move.
 fn beside(problem: &Problem, block: &Block, (curve, left): (&[f64], &[f64]), rows: f64) -> f64 {
-    let noise = dot(left, left) / count(problem.rows.len());
+    let noise = dot(left, left) / count(problem.samples.len());
     let (curve, left) = (&curve[block.rows.clone()], &left[block.rows.clone()]);
     if count(curve.len()) < ROWS_A_LAG * rows {
         return 1.0;
@@ -139,7 +139,7 @@ fn gained_apart(problem: &Problem, now: &State, fit: &Fit, part: &Block) -> f64 
     let (before, after) = (&now.fit.left[part.rows.clone()], &fit.left[part.rows.clone()]);
     let whitener = Whitener::new(&layout, &fit.noises[part.sensor..=part.sensor]);
     let under_all = |left: &[f64]| {
-        let white = whitener.whiten(left);
+        let white = whitener.whiten(left.to_vec());
         -0.5 * (dot(&white, &white) + whitener.log_determinant())
     };
     let own = fit_noise(&layout, after, None).log_likelihood;
@@ -155,7 +155,7 @@ fn gained_apart(problem: &Problem, now: &State, fit: &Fit, part: &Block) -> f64 
 /// The block in which a curve is highest.
 fn block_of<'a>(problem: &'a Problem, curve: &[f64]) -> Option<&'a Block> {
     let peak = |row: &usize| curve[*row].abs();
-    let highest = (0..problem.rows.len()).max_by(|a, b| peak(a).total_cmp(&peak(b)))?;
+    let highest = (0..problem.samples.len()).max_by(|a, b| peak(a).total_cmp(&peak(b)))?;
     problem.layout.blocks.iter().find(|one| one.rows.contains(&highest))
 }
 

@@ -23,7 +23,7 @@ pub fn amplitude_spectrum(problem: &Problem, left: &[f64], sensor: usize) -> Vec
         let part = &left[block.rows.clone()];
         let mean = part.iter().sum::<f64>() / count(part.len());
         values.extend(part.iter().map(|value| value - mean));
-        let rad = |row: usize| problem.record.spindle_rad[problem.rows[row].sample];
+        let rad = |row: usize| problem.record.spindle_rad[problem.samples[row]];
         turns.extend(block.rows.clone().map(|row| rad(row) / std::f64::consts::TAU));
     }
     let range = spread(&turns);

@@ -4,7 +4,7 @@ use helixlock_plant::Machine;
 
 use super::bands::{self, Band};
 use super::order_spectrum::{Line, Scan};
-use crate::model::{Columns, Fit, Problem, Row, State, settle};
+use crate::model::{Columns, Fit, Problem, State, settle};
 use crate::noise::Whitener;
 use crate::numerics::{median, spread};
 use crate::policy::chance::{LISTED_LINE, NAME_CELL, NAME_STANDARD_ERRORS, NEARLY_WHOLE};
@@ -66,13 +66,12 @@ impl LineSearch<'_> {
 
     /// Hands a scan and the whitened residual of this sensor to a function.
     fn with_scan<T>(&self, use_scan: impl FnOnce(&Scan<'_>, &[f64]) -> T) -> T {
-        let (layout, rows) = self.problem.of_sensor(self.sensor);
-        let left: Vec<f64> = rows.iter().map(|&row| self.fit.left[row]).collect();
-        let turns: Vec<f64> =
-            rows.iter().map(|&row| self.coordinate[self.problem.rows[row].sample]).collect();
+        let (layout, rows) = self.problem.layout.of_sensor(self.sensor);
+        let samples = &self.problem.samples[rows.clone()];
+        let turns: Vec<f64> = samples.iter().map(|&sample| self.coordinate[sample]).collect();
         let noises = std::slice::from_ref(&self.fit.noises[self.sensor]);
         let whitener = Whitener::new(&layout, noises);
-        let white = whitener.whiten(&left);
+        let white = whitener.whiten(self.fit.left[rows].to_vec());
         let scan = Scan {
             layout: &layout,
             noises,
@@ -133,11 +132,9 @@ pub(crate) fn lines(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<NamedL
 #[must_use]
 pub(crate) fn wave(problem: &Problem, sensor: usize, turns: &[f64], order: f64) -> Columns {
     let of = |phase: f64| {
-        let value = |row: &Row| {
-            let angle = std::f64::consts::TAU * order * turns[row.sample] + phase;
-            if row.sensor == problem.sensors[sensor] { libm::sin(angle) } else { 0.0 }
-        };
-        problem.rows.iter().map(value).collect()
+        problem.alone(sensor, |sample| {
+            libm::sin(std::f64::consts::TAU * order * turns[sample] + phase)
+        })
     };
     Columns::free(vec![of(0.0), of(std::f64::consts::FRAC_PI_2)])
 }

@@ -239,7 +239,7 @@ impl Scan<'_> {
                 std::f64::consts::TAU * (u - middle) * (sine * c - cosine * s)
             })
             .collect();
-        let slope = self.whitener.whiten(&slope);
+        let slope = self.whitener.whiten(slope);
         let bent = least_squares::fit(&[&wave[0], &wave[1], &slope], white);
         let freedom = (count(white.len()) - 5.0 - count(self.whitener.offsets())).max(1.0);
         let scale = (flat.residual_square / freedom).max(1e-300);

@@ -18,17 +18,17 @@ impl Problem {
     /// apart from its aliases.
     #[must_use]
     pub(crate) fn thinned(&self, most: usize) -> Option<Self> {
-        let together = self.rows.len().div_ceil(most.max(1));
+        let together = self.samples.len().div_ceil(most.max(1));
         if together < 2 {
             return None;
         }
-        let turns: Vec<f64> = self.record.turns().collect();
         let fastest = self.fastest_line().map_or(0.0, |order| order * SAMPLES_A_PERIOD);
+        let turns: Vec<f64> = self.record.turns().collect();
         let allowed = usual_rate(&turns) / fastest.max(f64::MIN_POSITIVE);
         let groups = if count(together) <= allowed {
             self.measurement.groups(together)
         } else {
-            let every = self.rows.len().div_ceil(PICKED * most);
+            let every = self.samples.len().div_ceil(PICKED * most);
             if every < 2 {
                 return None;
             }
@@ -41,23 +41,22 @@ impl Problem {
 
     /// Order of the fastest clear line of any sensor.
     fn fastest_line(&self) -> Option<f64> {
-        let residual = self.residual();
-        (0..self.sensors.len())
-            .filter_map(|sensor| self.fastest_line_of(sensor, &residual))
-            .max_by(f64::total_cmp)
+        let sensors = 0..self.sensors.len();
+        sensors.filter_map(|sensor| self.fastest_line_of(sensor)).max_by(f64::total_cmp)
     }
 
-    fn fastest_line_of(&self, sensor: usize, residual: &[f64]) -> Option<f64> {
+    fn fastest_line_of(&self, sensor: usize) -> Option<f64> {
         let of_sensor = |block: &Block| block.sensor == sensor;
         let blocks = self.layout.blocks.iter().filter(|block| of_sensor(block)).count();
         let (mut layout, rows) = self.layout.begun(FAST_LINE_ROWS / blocks.max(1), of_sensor);
         layout.blocks.iter_mut().for_each(|block| block.sensor = 0);
-        let left: Vec<f64> = rows.iter().map(|&row| residual[row]).collect();
-        let all: Vec<f64> = self.record.turns().collect();
-        let turns: Vec<f64> = rows.iter().map(|&row| all[self.rows[row].sample]).collect();
+        let left = rows.iter().map(|&row| self.observed[row] - self.predicted[row]);
+        let left: Vec<f64> = left.collect();
+        let rad = |row: &usize| self.record.spindle_rad[self.samples[*row]];
+        let turns: Vec<f64> = rows.iter().map(|row| rad(row) / std::f64::consts::TAU).collect();
         let noises = [fast_noise(&left)];
         let whitener = Whitener::new(&layout, &noises);
-        let white = whitener.whiten(&left);
+        let white = whitener.whiten(left);
         let scan = Scan {
             layout: &layout,
             noises: &noises,

@@ -46,9 +46,9 @@ impl Effect for Lag {
     fn deltas_um(&self, record: &Record) -> Vec<f64> {
         let mut deltas = Vec::with_capacity(record.len());
         for rows in record.passes() {
-            let error_um = &record.error_um[rows.clone()];
-            let recorded = LowPass::new(self.time_constant_s).pass(&record.time_s[rows], error_um);
-            deltas.extend(recorded.iter().zip(error_um).map(|(shown, error)| shown - error));
+            let mut recorder = LowPass::new(self.time_constant_s);
+            let shown = record.time_s[rows.clone()].iter().zip(&record.error_um[rows]);
+            deltas.extend(shown.map(|(time_s, error)| recorder.next(*time_s, *error) - error));
         }
         deltas
     }

@@ -1,11 +1,23 @@
 //! One value a sample, shared.
 
-use std::ops::{Deref, DerefMut};
+use std::ops::{Deref, DerefMut, Range};
 use std::sync::Arc;
 
 /// One value a sample. There may be millions: clones share them until one is changed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column<T = f64>(Arc<Vec<T>>);
+
+impl<T: Clone> Column<T> {
+    /// The values of some rows; shared when these are all.
+    ///
+    /// # Panics
+    ///
+    /// When a row is not there.
+    #[must_use]
+    pub fn part(&self, rows: &Range<usize>) -> Self {
+        if *rows == (0..self.len()) { self.clone() } else { self[rows.clone()].to_vec().into() }
+    }
+}
 
 impl<T> Default for Column<T> {
     fn default() -> Self {

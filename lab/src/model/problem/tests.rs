@@ -69,7 +69,7 @@ fn stairs_of_the_compensation_are_found_wherever_it_began_to_count() {
             let whole = problem(&machine, &columns);
             let groups = whole.measurement.groups(4);
             let thinned = whole.averaged(groups.clone()).expect("no columns missing");
-            assert_eq!(thinned.predicted, means(&whole.predicted, &groups));
+            assert_eq!(*thinned.predicted, means(&whole.predicted, &groups));
             let left = whole.residual();
             let low = left.iter().copied().fold(f64::INFINITY, f64::min);
             let high = left.iter().copied().fold(f64::NEG_INFINITY, f64::max);

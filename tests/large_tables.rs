@@ -1,0 +1,56 @@
+//! Memory that a large table takes: what is held a row, held to account.
+
+use std::fmt::Write as _;
+use std::process::{Child, Command, Stdio};
+use std::thread::sleep;
+use std::time::Duration;
+
+use crate::support::command::{put, repository, scratch, word};
+
+/// A wave over 100 m of travel and something like noise.
+fn table() -> String {
+    let mut text = "position_mm,error_um\n".to_owned();
+    for row in 0..1_000_000 {
+        let wave = 0.5 * libm::sin(std::f64::consts::TAU * f64::from(row) / 60_000.0);
+        let noise = libm::sin(12.9898 * f64::from(row)) * 43_758.545_3;
+        let error_um = wave + 0.2 * (noise - libm::floor(noise));
+        writeln!(text, "{:.4},{error_um:.4}", f64::from(row) / 10_000.0).expect("text takes text");
+    }
+    text
+}
+
+/// The most memory that a process held so far, MB; nothing of one that has ended.
+fn held_mb(child: &Child) -> Option<f64> {
+    let status = std::fs::read_to_string(format!("/proc/{}/status", child.id())).ok()?;
+    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let kib: f64 = peak.trim().trim_end_matches(" kB").parse().ok()?;
+    Some(kib * 1.024e-3)
+}
+
+/// The most memory that a command on the table ever held, MB.
+fn most_mb(command: &str, data: &str) -> f64 {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_helixlock"))
+        .args([command, "templates/screw-axis.toml", data])
+        .current_dir(repository())
+        .stdout(Stdio::null())
+        .spawn()
+        .expect("the command starts");
+    let mut most: f64 = 0.0;
+    while child.try_wait().expect("it can be waited for").is_none() {
+        most = most.max(held_mb(&child).unwrap_or(0.0));
+        sleep(Duration::from_millis(2));
+    }
+    most
+}
+
+/// Five million rows take five times as much; docs/performance.md states that.
+#[test]
+fn a_million_rows_are_held_in_a_third_of_a_gigabyte() {
+    let folder = scratch();
+    let (path, data) = word(&folder, "large.csv");
+    put(&path, &table());
+    for (command, bound_mb) in [("compare", 330.0), ("diagnose", 360.0)] {
+        let most = most_mb(command, &data);
+        assert!(0.0 < most && most < bound_mb, "{command}: {most} MB");
+    }
+}
