@@ -63,6 +63,8 @@ function onPaper(root) {
     if (hides && (element.clientWidth + 1 < element.scrollWidth || element.clientHeight + 1 < element.scrollHeight)) cut.push(`${name}: ${element.scrollWidth} x ${element.scrollHeight} in ${element.clientWidth} x ${element.clientHeight}`);
   }
   const headings = shown.filter((one) => one.matches("h2, h3, caption, [open] > summary")).map((one) => one.innerText.trim());
+  const lost = [...document.querySelectorAll(`${root} .strip, ${root} .bar, ${root} textarea`)].filter((one) => !one.checkVisibility());
+  cut.push(...lost.map((one) => `${one.className} is not on paper: ${one.textContent}`));
   const colours = [...document.querySelectorAll("figure.chart")].map(({ chart }) => chart.plot.axes[0].stroke());
   return { cut, headings, colours };
 }
