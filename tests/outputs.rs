@@ -305,7 +305,7 @@ fn killed_at_any_system_call_it_leaves_all_or_nothing() {
     let read = |out: &str| names.map(|name| fs::read_to_string(folder.path().join(out).join(name)));
     let new = read("new").map(|text| text.expect("a run writes it"));
     let mut stages = [0; 3];
-    for calls in ["openat", "write", "fsync", "linkat,rename,unlink"] {
+    for calls in ["openat", "write", "fsync", "linkat", "rename", "unlink"] {
         for time in 1.. {
             let out = folder.path().join("out");
             let _ = fs::remove_dir_all(&out);
