@@ -9,7 +9,9 @@ export async function refuses(url, effect, reason) {
   const card = `li[data-effect="${effect}"]`;
   const find = async () => {
     await screen(page, "effects");
+    const told = page.waitForResponse((answer) => answer.url().includes("/api/result?"));
     await page.click("#find");
+    await told;
     await page.waitForSelector(card);
   };
   await find();
@@ -27,6 +29,7 @@ export async function refuses(url, effect, reason) {
   hold((await refused()) === reason, `${await refused()}, after the page was opened again`);
   hold((await page.$("#add-all")) === null, "what was refused is not added with the rest");
   await screen(page, "fall");
+  await page.waitForSelector("#fall #left"); // no work is under way that the next would end
   hold((await page.textContent("#fall table")).includes(reason), "the rounds have the reason");
   await find();
   await page.click(`${card} .add`);

@@ -13,7 +13,7 @@ export async function full(page, name) {
     await page.click("#find");
     await page.waitForSelector("#verdict");
     await page.click(".try");
-    await page.waitForSelector("#trial table");
+    await page.waitForSelector("#trial .scroll table");
     await page.waitForFunction(() => [...document.querySelectorAll("#diagnosis > .cards .sketch")].every((place) => place.querySelector("svg")));
   }
   if (name === "waves") {

@@ -42,14 +42,14 @@ async function tries(url, effect) {
   const falls = await page.$$eval(`${card} .sketch [data-sensor]`, (all) => all.map((one) => one.textContent.match(/[0-9.]+/g).map(Number)));
   hold(falls.length > 0 && falls.every(([before, after]) => after < before), `the error of every sensor: ${JSON.stringify(falls)}`);
   await page.click(`${card} .try`);
-  await page.waitForSelector("#trial table");
-  const sizes = () => page.textContent("#trial table");
+  await page.waitForSelector("#trial .scroll table");
+  const sizes = () => page.textContent("#trial .scroll table");
   const fitted = await sizes();
   await page.$eval("#trial input[type=range]", (slider) => {
     slider.value = slider.max;
     slider.dispatchEvent(new Event("input"));
   });
-  await page.waitForFunction((before) => document.querySelector("#trial table").textContent !== before, fitted);
+  await page.waitForFunction((before) => document.querySelector("#trial .scroll table").textContent !== before, fitted);
   await page.click("#take");
   await page.waitForSelector("#fall #left");
   const { rms, noise } = await page.$eval("#left", (left) => left.dataset);
