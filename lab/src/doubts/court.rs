@@ -196,7 +196,7 @@ fn with_the_rest_held(fit: &Fit, width: usize) -> Vec<f64> {
 
 fn predicted_by(problem: &Problem, model: &Model) -> Option<Vec<f64>> {
     let other = Problem::new(model, &problem.measurement).ok()?;
-    (other.has_rows_of(problem)).then(|| other.predicted.to_vec())
+    other.has_rows_of(problem).then(|| other.predicted.to_vec())
 }
 
 /// Columns of an effect that the file does not have, as large as the textbook says, more or less.

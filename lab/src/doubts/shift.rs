@@ -120,7 +120,7 @@ impl Zero {
 fn moved(problem: &Problem, zero: Zero, shift: f64) -> Option<Vec<f64>> {
     let mended = Problem::new(&problem.model, &zero.shifted(problem, shift)).ok()?;
     let pairs = mended.predicted.iter().zip(&problem.predicted);
-    (mended.has_rows_of(problem)).then(|| pairs.map(|(a, b)| a - b).collect())
+    mended.has_rows_of(problem).then(|| pairs.map(|(a, b)| a - b).collect())
 }
 
 /// What a shift takes away under the noise of the file as it is.

@@ -49,7 +49,7 @@ impl Quantities {
             direction: quantity("direction", Dimension::number(), record.direction.clone()),
             velocity: problem
                 .velocity_rpm()
-                .map(|values| quantity("velocity_rpm", unit("rpm"), values)),
+                .map(|values| quantity("velocity_rpm", unit("rpm"), values.clone())),
             since_reversal: quantity(
                 "since_reversal_mm",
                 unit("mm"),

@@ -365,8 +365,7 @@ fn covariates(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
         measured.covariates.iter().map(|(name, values)| (name.as_str(), values)).collect();
     columns.push(("direction", &measured.direction));
     columns.push(("speed_rpm", &measured.speed_rpm));
-    let velocity = problem.velocity_rpm();
-    columns.extend(velocity.iter().map(|values| ("velocity_rpm", values)));
+    columns.extend(problem.velocity_rpm().map(|values| ("velocity_rpm", values)));
     columns
         .into_iter()
         .filter(|(_, values)| 0.0 < spread(values))

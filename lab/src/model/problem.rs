@@ -1,7 +1,7 @@
 //! A measurement against a machine, as the rows of one least-squares problem.
 
 use std::ops::Range;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use helixlock_plant::prediction::{Sensor, gain, meter_um, observe, shown};
 use helixlock_plant::{
@@ -49,6 +49,8 @@ pub struct Problem {
     pub(crate) highest_hz: f64,
     /// Columns of effects on these samples; they depend on the machine and the record alone.
     pub(crate) designs: Designs,
+    /// See [`Self::velocity_rpm`], which asks the record once.
+    pub(crate) velocity_rpm: OnceLock<Option<Column>>,
     /// How far a closed loop whose steps are not known swings either way, µm; 0 for any other.
     pub(crate) hunting_um: f64,
 }
@@ -67,7 +69,11 @@ impl Problem {
     /// measured, or a pass has one speed: differences of neighbours then tell what its direction
     /// tells, with more noise.
     #[must_use]
-    pub(crate) fn velocity_rpm(&self) -> Option<Column> {
+    pub(crate) fn velocity_rpm(&self) -> Option<&Column> {
+        self.velocity_rpm.get_or_init(|| self.uneven_velocity_rpm()).as_ref()
+    }
+
+    fn uneven_velocity_rpm(&self) -> Option<Column> {
         if !self.measurement.timed {
             return None;
         }
@@ -118,6 +124,7 @@ impl Problem {
             highest_order: 0.0,
             highest_hz: 0.0,
             designs: Designs::default(),
+            velocity_rpm: OnceLock::new(),
             hunting_um: 0.0,
         };
         (problem.highest_order, problem.highest_hz) = rayon::join(
