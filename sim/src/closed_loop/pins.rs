@@ -29,7 +29,7 @@ const LONGEST_WAIT_CLOCKS: u64 = 1_000;
     reason = "times count from zero, and a product of 2⁵³ clocks is years of grinding"
 )]
 pub fn clock_of(time_s: f64, clock_hz: f64) -> u64 {
-    libm::floor(time_s * clock_hz) as u64
+    (time_s * clock_hz) as u64
 }
 
 /// The instant of a clock edge, s.
