@@ -5,7 +5,9 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
-use crate::support::command::{put, repository, scratch, word};
+use serde_json::Value;
+
+use crate::support::command::{helixlock, put, repository, scratch, word};
 
 /// A wave over 100 m of travel and something like noise.
 fn table() -> String {
@@ -53,4 +55,27 @@ fn a_million_rows_are_held_in_a_third_of_a_gigabyte() {
         let most = most_mb(command, &data);
         assert!(0.0 < most && most < bound_mb, "{command}: {most} MB");
     }
+}
+
+/// Means of neighbours, which are searched, scatter less than the samples of which a user reads.
+#[test]
+fn what_was_tried_is_told_with_the_scatter_of_the_samples() {
+    let folder = scratch();
+    let (path, data) = word(&folder, "waves.csv");
+    let mut text = "position_mm,error_um\n".to_owned();
+    for row in 0..30_000 {
+        let position_mm = 0.01 * f64::from(row);
+        let wave_um = 0.5 * libm::sin(std::f64::consts::TAU * position_mm / 5.0);
+        let noise = libm::sin(12.9898 * f64::from(row)) * 43_758.545_3;
+        let error_um = wave_um + 0.4 * (noise - libm::floor(noise));
+        writeln!(text, "{position_mm:.2},{error_um:.4}").expect("text takes text");
+    }
+    put(&path, &text);
+    let run = helixlock(&["diagnose", "templates/screw-axis.toml", &data, "--json"]);
+    let answer: Value = serde_json::from_str(&run.stdout).expect("JSON");
+    let noise_um = answer["noise_um"].as_f64().expect("a number");
+    let best = &answer["candidates"][0];
+    assert_eq!((&best["effect"], &best["accepted"]), (&"screw-periodic".into(), &true.into()));
+    let rms_um = best["rms_um"].as_f64().expect("a number");
+    assert!((rms_um / noise_um - 1.0).abs() < 0.01, "{rms_um} of {noise_um} µm");
 }

@@ -139,8 +139,9 @@ pub struct Diagnosis {
 /// Diagnoses a problem.
 ///
 /// Mistakes of input come first: with one of them nothing is searched for.
-/// The search works on at most a few thousand rows, means of neighbours where there are more;
-/// every figure that is reported is fitted to all rows.
+/// The search works on at most a few thousand rows, means of neighbours where there are more; effects
+/// and what they leave are fitted to all rows, and what was tried beside them is told with the
+/// scatter that means hide.
 #[must_use]
 pub fn diagnose(problem: &Problem) -> Diagnosis {
     let doubts = doubts(problem);
@@ -191,12 +192,16 @@ fn searched(problem: &Problem) -> Diagnosis {
     let last = &steps[steps.len() - 1].state;
     let experiments = experiment::advice(&small, last, &found);
     let state = &states[states.len() - 1];
+    let noise_um = rms(&problem.layout, &state.fit.left);
+    let mut candidates = ranked(state, &found, &steps[0].tried, &experiments);
+    let of_means_um = rms(&small.layout, &last.fit.left);
+    add_scatter(&mut candidates, (noise_um * noise_um - of_means_um * of_means_um).max(0.0));
     Diagnosis {
         verdict: verdict(state, &found, &residual),
         doubts: Vec::new(),
-        noise_um: rms(&problem.layout, &state.fit.left),
+        noise_um,
         rounds: rounds(&problem, &steps, &states),
-        candidates: ranked(state, &found, &steps[0].tried, &experiments),
+        candidates,
         residual,
         experiments,
         before: problem.residual(),
@@ -441,6 +446,16 @@ fn ranked(
         }
     }
     all
+}
+
+/// Candidates were tried on means, which do not scatter as the samples do: what is missing comes to
+/// their squares.
+fn add_scatter(candidates: &mut [Ranked], square_um: f64) {
+    let with_scatter = |rms_um: f64| libm::sqrt(rms_um * rms_um + square_um);
+    for one in candidates {
+        one.rms_um = with_scatter(one.rms_um);
+        one.holdout_rms_um = with_scatter(one.holdout_rms_um);
+    }
 }
 
 /// Confusion is mutual: a rival names the effect it is confused with.
