@@ -79,6 +79,22 @@ fn a_gear_is_found_under_a_slow_error_ten_times_its_size() {
     assert!(names(&diagnosis).contains(&"gear-error"), "{:?}", names(&diagnosis));
 }
 
+/// Whole waves of a turn come in numbers: a resolver shows six of its own and more.
+#[test]
+fn five_waves_of_a_turn_are_five_names() {
+    let waves =
+        [(1.0, 1.0, 0.3), (3.0, 0.7, 2.0), (5.0, 0.5, -1.1), (7.0, 0.35, 0.9), (9.0, 0.25, 2.8)];
+    let mut noise = noise(7, 0.5);
+    let rows = (0..700_u16).map(|row| {
+        let x = 0.37 * f64::from(row);
+        let sum: f64 =
+            waves.iter().map(|(k, size, phase)| size * libm::sin(TAU * k * x / 12.0 + phase)).sum();
+        [1.0, x, x, 1.0, sum + noise()]
+    });
+    let found = diagnose(&Passes::of_rows(rows).problem());
+    assert_eq!(names(&found), ["screw-periodic"; 5]);
+}
+
 /// A slope speaks through all samples a little, through none of them alone.
 #[test]
 fn a_slope_in_slow_noise_is_found() {

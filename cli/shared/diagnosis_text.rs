@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use helixlock_lab::{Diagnosis, Doubt, FittedEffect};
+use helixlock_lab::{Diagnosis, Doubt, FittedEffect, Round};
 
 use crate::shared::words::{why_left, with_error, with_p};
 
@@ -19,10 +19,10 @@ pub(crate) fn print(out: &mut impl Write, diagnosis: &Diagnosis, unit: &str) -> 
     }
     writeln!(out, "left as noise: {:.4} {unit} rms\n", diagnosis.noise_um)?;
     for round in &diagnosis.rounds {
-        let added = round.added.as_deref().unwrap_or("the model as it is");
+        let change = change(round);
         writeln!(
             out,
-            "round {}: {added}: {:.4} {unit} rms, {:.4} on held-out data",
+            "round {}: {change}: {:.4} {unit} rms, {:.4} on held-out data",
             round.round, round.rms_um, round.holdout_rms_um
         )?;
     }
@@ -44,6 +44,15 @@ pub(crate) fn print(out: &mut impl Write, diagnosis: &Diagnosis, unit: &str) -> 
         )?;
     }
     Ok(())
+}
+
+/// What a round did to the model.
+fn change(round: &Round) -> String {
+    match &round.added {
+        Some(added) => added.clone(),
+        None if round.dropped.is_empty() => "the model as it is".into(),
+        None => format!("taken out again: {}", round.dropped.join(", ")),
+    }
 }
 
 /// What looks mistaken, each with the line that mends it.

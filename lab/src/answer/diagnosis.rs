@@ -1,5 +1,7 @@
 //! The answer: what is missing in a model, how sure that is, and what would make it surer.
 
+use std::collections::BTreeSet;
+
 use helixlock_plant::{Role, Search, Term};
 use rayon::prelude::*;
 
@@ -14,8 +16,8 @@ use crate::numerics::least_squares::covariance_rows;
 use crate::policy::chance::{AT_AN_END, STANDARD_ERRORS};
 use crate::policy::extent::SEARCHED_ROWS;
 use crate::search::{
-    Dropped, Refusal, Rivals, Step, Winner, nameless_winner, nobodys, polished, pruned, rivals,
-    search,
+    Dropped, Refusal, Rivals, Step, Winner, nameless_winner, nobodys, polished, pruned_in_doubt,
+    rivals, search,
 };
 
 /// What can be said about a model and a measurement.
@@ -172,7 +174,9 @@ fn searched(problem: &Problem) -> Diagnosis {
     if let Some(last) = states.pop() {
         states.push(polished(&problem, last));
     }
-    if let Some((step, state)) = pruned_again(&problem, &small, &states[states.len() - 1]) {
+    let of_small = &steps[steps.len() - 1].state;
+    if let Some((step, state)) = pruned_again(&problem, &small, of_small, &states[states.len() - 1])
+    {
         steps.push(step);
         states.push(state);
     }
@@ -227,8 +231,13 @@ fn on_all_rows(problem: &Problem, small: &Problem, steps: &[Step]) -> (Problem, 
 }
 
 /// One more step without the effects that all rows show to be superfluous, if there are any.
-fn pruned_again(problem: &Problem, small: &Problem, last: &State) -> Option<(Step, State)> {
-    let (state, dropped) = pruned(problem, last.clone());
+fn pruned_again(
+    problem: &Problem,
+    small: &Problem,
+    of_small: &State,
+    last: &State,
+) -> Option<(Step, State)> {
+    let (state, dropped) = pruned_in_doubt(problem, last, (small, of_small));
     if dropped.is_empty() {
         return None;
     }
@@ -467,6 +476,8 @@ fn mirror(one: &mut Ranked, state: &State, found: &[Rivals], experiments: &[Advi
             .extend(found.confused.iter().filter(|name| **name != one.name).cloned());
         one.separate_by = Some(experiment::for_pair(experiments, &one.name, component));
     }
+    let mut known = BTreeSet::new();
+    one.confounded_with.retain(|name| known.insert(name.clone()));
 }
 
 fn of_judged(judged: &Judged, best: f64, accepted: bool) -> Ranked {

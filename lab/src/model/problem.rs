@@ -15,7 +15,7 @@ use crate::noise::{Block, Layout, outlier_inflation};
 use crate::numerics::{count, highest_frequency, median};
 use crate::policy::extent::MOST_BETWEEN;
 use crate::policy::reading::{MOST_TOLD, WRITTEN_INTERVAL};
-use crate::policy::size::{FINEST_SENSOR_UM, ONE_SPEED, SWINGS};
+use crate::policy::size::{FINEST_SENSOR_UM, ONE_SPEED, SAMPLES_OFF, SWINGS};
 
 /// All sensors of a measurement stacked, with what the model predicts taken off.
 #[derive(Debug, Clone)]
@@ -79,8 +79,9 @@ impl Problem {
         }
         let velocity: Column = self.record.instants().map(|now| now.velocity_rpm).collect();
         let usual = velocity.iter().zip(self.record.speed_rpm.iter());
-        let mut off: Vec<f64> = usual.map(|(now, usual)| (now.abs() / usual - 1.0).abs()).collect();
-        (ONE_SPEED < median(&mut off)).then_some(velocity)
+        let is_off = |(now, usual): &(&f64, &f64)| ONE_SPEED < (now.abs() / *usual - 1.0).abs();
+        let off = usual.filter(is_off).count();
+        (SAMPLES_OFF * count(velocity.len()) < count(off)).then_some(velocity)
     }
 
     /// The same with means of groups of neighbouring samples.

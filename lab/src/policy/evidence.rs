@@ -75,6 +75,12 @@ pub(crate) const VISITS: usize = 4;
 /// Chosen. Doubled: a shape of no catalogue may be made up of six slips.
 pub(crate) const MOST_OF_A_NAME: usize = 3;
 
+/// The same of whole waves of a turn.
+///
+/// Measured: a resolver's record carries eight, the smallest 0.12 of 20 µm, on 110 records of a world made
+/// apart from the program none is named more for it. Doubled: nothing that was met moves.
+pub(crate) const MOST_WHOLE_WAVES: usize = 8;
+
 /// Share of a column that the rows left must vary by for whole passes to be held out.
 ///
 /// Chosen: its coefficient is then good to three times its own error. Doubled: more files are held
@@ -128,3 +134,10 @@ pub(crate) const LOOSELY_KNOWN: f64 = 0.05;
 /// Source: against steel's 11.5 ppm/K, Invar has a tenth and polymers up to ten times as much.
 /// Doubled: nothing moves that is a workpiece.
 pub(crate) const ANOTHER_MATERIAL: std::ops::RangeInclusive<f64> = 0.05..=10.0;
+
+/// How many times its price an effect must be worth to means of neighbours for all rows not to be asked
+/// whether they need it.
+///
+/// Chosen: some eighty of twice the log likelihood a number. Doubled: `diagnose` of large tables
+/// takes longer, and nothing else moves.
+pub(crate) const SURE_ON_MEANS: f64 = 10.0;

@@ -2,9 +2,9 @@
 
 /// Most effects that are looked for one after the other.
 ///
-/// Chosen: challenges hide two at most. Doubled: twice the time in a record where imitators go on
-/// being accepted.
-pub(crate) const MOST_ROUNDS: usize = 5;
+/// Chosen: a resolver's record carries eight whole waves of a turn. Doubled: twice the time in a record
+/// where imitators go on being accepted.
+pub(crate) const MOST_ROUNDS: usize = 8;
 
 /// Most formulas that are looked for one after the other.
 ///

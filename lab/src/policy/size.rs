@@ -78,12 +78,18 @@ pub(crate) const WORTHWHILE_UM: f64 = 0.01;
 /// Chosen, far below any step of a gearbox. Doubled: nothing moves.
 pub(crate) const ANOTHER_SPEED: f64 = 1e-3;
 
-/// Share of the usual speed by which half of the samples of a record must be off it, for the speed to
-/// be that of every sample and not of the pass.
+/// Share of the usual speed by which samples of a record must be off it, for the speed to be that of every
+/// sample and not of the pass.
 ///
 /// Chosen: steps of travel and time that are rounded to a tenth are 0.1 off, a stroke of a sine 0.35.
 /// Doubled: of such strokes only the speed of the pass is looked at.
 pub(crate) const ONE_SPEED: f64 = 0.2;
+
+/// Share of the samples that must be.
+///
+/// Chosen: a resolver's record that stands for half of its time, between a turn out and one back, tells a
+/// reading that is late. Doubled: that one is not asked.
+pub(crate) const SAMPLES_OFF: f64 = 0.25;
 
 /// Share of a record that a pause must have to count as a dwell.
 ///

@@ -12,7 +12,7 @@ use crate::noise::{effective_samples, swift_rms};
 use crate::numerics::least_squares::covariance_rows;
 use crate::numerics::{chi_squared_tail, count};
 use crate::policy::chance::{FEW_SAMPLES, NAMED, STANDARD_ERRORS};
-use crate::policy::evidence::{MOST_OF_A_NAME, TIME_LOCK};
+use crate::policy::evidence::{MOST_OF_A_NAME, MOST_WHOLE_WAVES, TIME_LOCK};
 use crate::policy::size::SHARE_OF_NOISE;
 
 /// The clause that keeps the best effect of a round out of a model; `None` when it may join: it is
@@ -139,15 +139,19 @@ fn own_columns(problem: &Problem, judged: &Judged) -> Option<Columns> {
     Columns::of(problem, std::slice::from_ref(&judged.component)).ok()
 }
 
-/// True unless an effect that is there once would be added a second time.
+/// True unless an effect that is there would be added once too often.
 ///
-/// Lines come in numbers, and so do slips; of curves and bumps a sum can imitate anything.
+/// Lines come in numbers, and so do slips; of curves and bumps a sum can imitate anything. Whole waves
+/// of a turn are few to choose from, and a shape that they are the harmonics of stands before the
+/// same judge in their place.
 fn repeats(judged: &Judged, now: &State) -> bool {
     let term = &judged.component.term;
     let periodic =
         term.parameters.iter().any(|what| what.role == Role::Amplitude || what.name == "count");
+    let listed = term.parameters.iter().any(|what| what.search == Search::Whole);
+    let most = if listed { MOST_WHOLE_WAVES } else { MOST_OF_A_NAME };
     let before = now.components.iter().filter(|other| other.term.name == term.name).count();
-    before == 0 || (periodic && before < MOST_OF_A_NAME)
+    before == 0 || (periodic && before < most)
 }
 
 /// True when nothing in an effect's values and shape speaks against it.

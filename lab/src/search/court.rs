@@ -80,7 +80,7 @@ pub(crate) fn nobodys(problem: &Problem, steps: &[Step]) -> Vec<Structure> {
     let found = refused.filter_map(|(judged, why)| match why {
         Refusal::Clock | Refusal::Angle { .. } => wave_of_nobody(problem, judged),
         _ if why.is_of_the_name() && judged.p_value < NO_ALL_CLEAR => {
-            curve_of_nobody(problem, &last.state, judged)
+            curve_of_nobody(problem, &last.state, judged, why)
         }
         _ => None,
     });
@@ -99,11 +99,16 @@ fn wave_of_nobody(problem: &Problem, judged: &Judged) -> Option<Structure> {
 }
 
 /// A curve that is beyond chance in any noise, though its values or other data forbid the name.
-fn curve_of_nobody(problem: &Problem, now: &State, judged: &Judged) -> Option<Structure> {
+fn curve_of_nobody(
+    problem: &Problem,
+    now: &State,
+    judged: &Judged,
+    why: &Refusal,
+) -> Option<Structure> {
     let p_value = chance_in_any_noise(problem, now, judged);
     let rms_um = judged.component.size_um(problem, judged.coefficients().0);
-    let shape =
-        format!("a curve like that of {}, which may not be named", judged.component.term.name);
+    let name = &judged.component.term.name;
+    let shape = format!("a curve like that of {name}, which may not be named ({why})");
     (p_value < NO_ALL_CLEAR)
         .then(|| Structure::without_place("travel and time", &shape, rms_um, p_value))
 }

@@ -10,6 +10,7 @@ use crate::noise::swift_rms;
 use crate::numerics::least_squares::covariance_rows;
 use crate::numerics::{chi_squared_tail, count};
 use crate::policy::chance::STANDARD_ERRORS;
+use crate::policy::evidence::SURE_ON_MEANS;
 
 /// An effect taken out of a model again.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,6 +36,29 @@ pub(crate) fn pruned(problem: &Problem, state: State) -> (State, Vec<Dropped>) {
     (state, dropped)
 }
 
+/// The same for all rows behind the means that a search has worked on, where these leave a doubt.
+///
+/// All rows tell more of an effect than means do, and it takes long to ask them: one that is worth many times
+/// its price to the means stays, unless it is small beside what the rows scatter.
+pub(crate) fn pruned_in_doubt(
+    problem: &Problem,
+    state: &State,
+    (means, of_means): (&Problem, &State),
+) -> (State, Vec<Dropped>) {
+    let is_needed = |index: usize| {
+        let Some(fewer) = without(means, of_means, index) else { return false };
+        let gain = gain(means, of_means, &fewer);
+        let price = count(state.components[index].width().max(1)) * problem.price_of_a_number();
+        SURE_ON_MEANS * price < gain && too_small(problem, state, index, gain).is_none()
+    };
+    if state.components.len() == of_means.components.len()
+        && (0..state.components.len()).all(is_needed)
+    {
+        return (state.clone(), Vec::new());
+    }
+    pruned(problem, state.clone())
+}
+
 /// The model without its weakest effect, if that one is superfluous.
 fn weakest(problem: &Problem, state: &State) -> Option<(State, Dropped)> {
     let covariance = joint_covariance(problem, state);
@@ -58,10 +82,18 @@ fn without(problem: &Problem, state: &State, index: usize) -> Option<State> {
 
 /// Why an effect is not needed; `None` when it is.
 fn superfluous(problem: &Problem, state: &State, fewer: &State, index: usize) -> Option<String> {
-    let width = count(state.components[index].width().max(1));
+    too_small(problem, state, index, gain(problem, state, fewer))
+}
+
+/// What a state is better than one with fewer effects, in twice the log likelihood.
+fn gain(problem: &Problem, state: &State, fewer: &State) -> f64 {
     let fit = settle_beside(problem, &state.columns, &state.fit.noises, &fewer.fit.noises);
-    let own = fit.log_likelihood.max(state.fit.log_likelihood);
-    let gain = 2.0 * (own - fewer.fit.log_likelihood);
+    2.0 * (fit.log_likelihood.max(state.fit.log_likelihood) - fewer.fit.log_likelihood)
+}
+
+/// Why an effect that gains so much is not needed; `None` when it is.
+fn too_small(problem: &Problem, state: &State, index: usize, gain: f64) -> Option<String> {
+    let width = count(state.components[index].width().max(1));
     let size = state.components[index].size_um(problem, state.coefficients(index).0);
     let after = swift_rms(&problem.layout, &state.fit.left);
     let unit = problem.measurement.unit();
