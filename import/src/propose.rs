@@ -141,7 +141,10 @@ fn read(source: Source<'_>, decisions: &mut Decisions<'_>) -> Result<Built, Impo
         "linuxcnc-comp" => formats::linuxcnc::read_comp(&lines, decisions),
         "halsampler" => sampled(&lines, decisions),
         "camonitor" => understand(&formats::camonitor::grid(&lines, decisions)?, '.', decisions),
-        "twincat" => understand(&formats::twincat::grid(&lines, decisions)?, '.', decisions),
+        "twincat" => {
+            let (grid, origin_s) = formats::twincat::grid(&lines, decisions)?;
+            Ok(Built { origin_s, ..understand(&grid, '.', decisions)? })
+        }
         "markdown" => table(&formats::markdown::chosen(&lines, decisions)?, decisions),
         "table" => table(&lines, decisions),
         other => {

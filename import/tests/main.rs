@@ -6,3 +6,4 @@ mod guesses;
 mod properties;
 mod samples;
 mod stage;
+mod twincat;

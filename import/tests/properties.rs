@@ -4,7 +4,7 @@ use helixlock_import::{Recipe, Source, propose};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-const SAMPLES: [&[u8]; 20] = [
+const SAMPLES: [&[u8]; 22] = [
     include_bytes!("samples/german.csv"),
     include_bytes!("samples/chinese-gbk.csv"),
     include_bytes!("samples/chinese-utf16.txt"),
@@ -15,6 +15,8 @@ const SAMPLES: [&[u8]; 20] = [
     include_bytes!("samples/iso230.md"),
     include_bytes!("samples/camonitor.log"),
     include_bytes!("samples/scope.csv"),
+    include_bytes!("samples/scope-stamps.csv"),
+    include_bytes!("samples/scope-rates.csv"),
     include_bytes!("samples/guide-log.txt"),
     include_bytes!("samples/record.npy"),
     include_bytes!("samples/workbook.xlsx"),

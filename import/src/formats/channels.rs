@@ -4,7 +4,7 @@
 //! is the one at which their rates of change agree best (their cross-correlation is largest).
 
 use crate::decide::Decisions;
-use crate::error::ImportError;
+use crate::error::{ImportError, quoted};
 use crate::grid::Grid;
 use crate::limits;
 use crate::place::Place;
@@ -19,6 +19,12 @@ pub(crate) struct Channel {
 }
 
 impl Channel {
+    /// True when every sample of the one comes with one of the other.
+    fn is_sampled_with(&self, other: &Self) -> bool {
+        let mut pairs = self.time_s.iter().zip(&other.time_s);
+        self.time_s.len() == other.time_s.len() && pairs.all(|(a, b)| (a - b).abs() <= 0.0)
+    }
+
     /// The value at a time, straight between samples; NaN outside of them.
     fn at(&self, time_s: f64) -> f64 {
         let next = self.time_s.partition_point(|sample| *sample < time_s);
@@ -40,7 +46,7 @@ pub(crate) fn grid(
     decisions: &mut Decisions<'_>,
 ) -> Result<Grid, ImportError> {
     let file = decisions.file();
-    channels.retain(|channel| 2 < channel.values.len());
+    without_short(&mut channels, decisions);
     if channels.is_empty() {
         return Err(ImportError::found(
             Place::file(file),
@@ -56,34 +62,13 @@ pub(crate) fn grid(
         .enumerate()
         .max_by_key(|(index, channel)| (channel.values.len(), usize::MAX - index));
     let lead = busiest.map_or(0, |(index, _)| index);
-    let others: Vec<usize> = (0..channels.len()).filter(|index| *index != lead).collect();
-    let named = format!("the clock of `{}`", channels[lead].name);
     decisions.text("channels", "clock", || {
-        (channels[lead].name.clone(), "it has the most samples".into())
+        let one = channels.iter().all(|channel| channel.is_sampled_with(&channels[lead]));
+        let reason = if one { "all channels have its times" } else { "it has the most samples" };
+        (channels[lead].name.clone(), reason.into())
     });
-    if let [other] = others.as_slice() {
-        let found = latency_s(&channels[lead], &channels[*other]);
-        let latency = if let Some(Value::Number(latency)) = decisions.given("channels", "latency_s")
-        {
-            *latency
-        } else {
-            let (latency, likeness) = found.unwrap_or((0.0, 0.0));
-            let reason = if likeness < 0.5 {
-                "the two do not move alike: not shifted".to_owned()
-            } else {
-                format!(
-                    "`{}` comes that much later than `{}`: there their rates agree best (correlation {likeness:.3})",
-                    channels[*other].name, channels[lead].name
-                )
-            };
-            let latency = if likeness < 0.5 { 0.0 } else { latency };
-            decisions.made.set("channels", "latency_s", Value::Number(latency), reason);
-            latency
-        };
-        decisions
-            .note(format!("`{}` is taken {latency} s earlier, on {named}", channels[*other].name));
-        channels[*other].time_s.iter_mut().for_each(|time| *time -= latency);
-    }
+    shift(&mut channels, lead, decisions);
+    tell_between(&channels, lead, decisions);
     if limits::CELLS < channels[lead].values.len() * (1 + channels.len()) {
         return Err(ImportError::found(
             Place::file(file),
@@ -94,6 +79,62 @@ pub(crate) fn grid(
     side_by_side(file, &channels, lead)
 }
 
+/// Drops channels that are too short to lie beside others.
+fn without_short(channels: &mut Vec<Channel>, decisions: &mut Decisions<'_>) {
+    let is_long = |channel: &Channel| 2 < channel.values.len();
+    for channel in channels.iter().filter(|channel| !is_long(channel)) {
+        decisions.note(format!("`{}` has fewer than three samples: left out", channel.name));
+    }
+    channels.retain(is_long);
+}
+
+/// Takes the other one of two channels earlier, by what the recipe says or by how they move.
+///
+/// Channels with the same times were sampled by one clock: what one lags behind the other is real.
+fn shift(channels: &mut [Channel], lead: usize, decisions: &mut Decisions<'_>) {
+    let others: Vec<usize> = (0..channels.len()).filter(|index| *index != lead).collect();
+    let &[other] = others.as_slice() else { return };
+    let given = decisions.given("channels", "latency_s").cloned();
+    let latency = if let Some(Value::Number(latency)) = given {
+        latency
+    } else if channels[other].is_sampled_with(&channels[lead]) {
+        return;
+    } else {
+        found_latency(&channels[lead], &channels[other], decisions)
+    };
+    let named = format!("the clock of `{}`", channels[lead].name);
+    decisions.note(format!("`{}` is taken {latency} s earlier, on {named}", channels[other].name));
+    channels[other].time_s.iter_mut().for_each(|time| *time -= latency);
+}
+
+fn found_latency(lead: &Channel, other: &Channel, decisions: &mut Decisions<'_>) -> f64 {
+    let (latency, likeness) = latency_s(lead, other).unwrap_or((0.0, 0.0));
+    let reason = if likeness < 0.5 {
+        "the two do not move alike: not shifted".to_owned()
+    } else {
+        format!(
+            "`{}` comes that much later than `{}`: there their rates agree best (correlation {likeness:.3})",
+            other.name, lead.name
+        )
+    };
+    let latency = if likeness < 0.5 { 0.0 } else { latency };
+    decisions.made.set("channels", "latency_s", Value::Number(latency), reason);
+    latency
+}
+
+/// Says which channels were sampled at other times, and what becomes of them.
+fn tell_between(channels: &[Channel], lead: usize, decisions: &mut Decisions<'_>) {
+    let clock = quoted(&channels[lead].name);
+    let others = channels.iter().filter(|channel| !channel.is_sampled_with(&channels[lead]));
+    let names: Vec<String> = others.map(|channel| quoted(&channel.name)).collect();
+    if !names.is_empty() {
+        decisions.note(format!(
+            "sampled at other times than {clock}, and taken at its times, straight between two samples: {}",
+            names.join(", ")
+        ));
+    }
+}
+
 fn side_by_side(file: &str, channels: &[Channel], lead: usize) -> Result<Grid, ImportError> {
     let mut grid = Grid::of_text(file);
     grid.start_row(0, false);
@@ -101,6 +142,8 @@ fn side_by_side(file: &str, channels: &[Channel], lead: usize) -> Result<Grid, I
     for (index, channel) in channels.iter().enumerate() {
         grid.push(&channel.name, index + 2)?;
     }
+    let sampled: Vec<bool> =
+        channels.iter().map(|channel| channel.is_sampled_with(&channels[lead])).collect();
     for time in &channels[lead].time_s {
         let values: Vec<f64> = channels.iter().map(|channel| channel.at(*time)).collect();
         if values.iter().any(|value| !value.is_finite()) {
@@ -108,8 +151,10 @@ fn side_by_side(file: &str, channels: &[Channel], lead: usize) -> Result<Grid, I
         }
         grid.start_row(0, false);
         grid.push(&digits(*time), 1)?;
-        for (index, value) in values.iter().enumerate() {
-            grid.push(&digits(*value), index + 2)?;
+        for (index, (value, sampled)) in values.iter().zip(&sampled).enumerate() {
+            // A sample keeps the digits it has; those of a value between two mean nothing.
+            let text = if *sampled { value.to_string() } else { digits(*value) };
+            grid.push(&text, index + 2)?;
         }
     }
     Ok(grid)
