@@ -9,13 +9,18 @@ use serde_json::Value;
 
 use crate::support::command::{helixlock, put, repository, scratch, word};
 
+/// Something like noise between 0 and 1.
+fn scatter(row: i32) -> f64 {
+    let noise = libm::sin(12.9898 * f64::from(row)) * 43_758.545_3;
+    noise - libm::floor(noise)
+}
+
 /// A wave over 100 m of travel and something like noise.
 fn table() -> String {
     let mut text = "position_mm,error_um\n".to_owned();
     for row in 0..1_000_000 {
         let wave = 0.5 * libm::sin(std::f64::consts::TAU * f64::from(row) / 60_000.0);
-        let noise = libm::sin(12.9898 * f64::from(row)) * 43_758.545_3;
-        let error_um = wave + 0.2 * (noise - libm::floor(noise));
+        let error_um = wave + 0.2 * scatter(row);
         writeln!(text, "{:.4},{error_um:.4}", f64::from(row) / 10_000.0).expect("text takes text");
     }
     text
@@ -66,8 +71,7 @@ fn what_was_tried_is_told_with_the_scatter_of_the_samples() {
     for row in 0..30_000 {
         let position_mm = 0.01 * f64::from(row);
         let wave_um = 0.5 * libm::sin(std::f64::consts::TAU * position_mm / 5.0);
-        let noise = libm::sin(12.9898 * f64::from(row)) * 43_758.545_3;
-        let error_um = wave_um + 0.4 * (noise - libm::floor(noise));
+        let error_um = wave_um + 0.4 * scatter(row);
         writeln!(text, "{position_mm:.2},{error_um:.4}").expect("text takes text");
     }
     put(&path, &text);
