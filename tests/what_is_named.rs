@@ -68,6 +68,18 @@ fn a_step_of_any_size_is_no_slip() {
     }
 }
 
+/// A machine that stands twelve fringes off for the first five rows of a pass pulls in; for the first
+/// fifty it has lost them.
+#[test]
+fn a_pass_that_begins_elsewhere_has_lost_no_fringe() {
+    for (rows, named) in [(5.0, &[][..]), (50.0, &["fringe-slip"][..])] {
+        let late = |t: f64, _: f64, _: f64| if t < 2.5 * rows { 12.0 * FRINGE_UM } else { 0.0 };
+        let found = diagnose(&Passes::new(&late, &mut noise(5, 1.0)).problem());
+        assert_eq!(names(&found), named, "{rows} rows");
+        assert_ne!(found.verdict, Verdict::NothingMissing);
+    }
+}
+
 /// Slow and large by itself, what no effect explains is no noise for the gear.
 #[test]
 fn a_gear_is_found_under_a_slow_error_ten_times_its_size() {

@@ -199,6 +199,10 @@ fn searched(problem: &Problem) -> Diagnosis {
     let noise_um = rms(&problem.layout, &state.fit.left);
     let mut candidates = ranked(state, &found, &steps[0].tried, &experiments);
     let of_means_um = rms(&small.layout, &last.fit.left);
+    for one in &mut residual {
+        // Against slow noise a shape may be fitted larger than all that is left.
+        one.rms_um = one.rms_um.min(noise_um);
+    }
     add_scatter(&mut candidates, (noise_um * noise_um - of_means_um * of_means_um).max(0.0));
     Diagnosis {
         verdict: verdict(state, &found, &residual),

@@ -4,7 +4,8 @@ use helixlock_traces::Table;
 
 use super::Nominal;
 use super::error::LabError;
-use crate::policy::reading::CLOCK_S;
+use crate::numerics::spread;
+use crate::policy::reading::{CLOCK_S, LATE};
 
 /// Coordinates of the rows of a table, in the order of the file; NaN where unknown.
 #[derive(Debug, Clone)]
@@ -51,6 +52,7 @@ pub(crate) fn complete(table: &Table, nominal: &Nominal) -> Result<Coordinates, 
         None => scaled(&angle_rev, if nominal.rotary { 0.0 } else { nominal.lead_mm }),
     };
     let time_s = if let Some(time) = time {
+        notes.extend(late_start(time));
         from_start(time)
     } else {
         notes.push("time follows from travel and the spindle speed".to_owned());
@@ -62,10 +64,21 @@ pub(crate) fn complete(table: &Table, nominal: &Nominal) -> Result<Coordinates, 
 
 /// Time from the first sample of the record, so that clock times may be given.
 fn from_start(time: &[f64]) -> Vec<f64> {
-    let first = time.iter().copied().filter(|t| t.is_finite()).fold(f64::INFINITY, f64::min);
-    // A record that begins soon after zero keeps its own zero: effects count from there.
+    let first = first(time);
+    // A record that begins soon after zero keeps its own zero.
     let start = if first.abs() < CLOCK_S { 0.0 } else { first };
     time.iter().map(|t| t - start).collect()
+}
+
+fn first(time: &[f64]) -> f64 {
+    time.iter().copied().filter(|t| t.is_finite()).fold(f64::INFINITY, f64::min)
+}
+
+/// What to say of a record that begins clearly after zero: effects count from its first sample.
+fn late_start(time: &[f64]) -> Option<String> {
+    let first = first(time);
+    let late = LATE * spread(time) < first.abs() && first.is_finite();
+    late.then(|| format!("times of effects count from the first sample, `time_s` {first}"))
 }
 
 /// Running time when only travel is known: the way made at the nominal speed.

@@ -191,6 +191,12 @@ pub(crate) const COMMON_SAMPLES: usize = 32;
 /// check begins later.
 pub(crate) const PULLING_IN: usize = 10;
 
+/// Share of a pass that must lie on either side of a sudden change.
+///
+/// Measured: the first thousandth to half a hundredth of positioned motors' logs show them pulling in.
+/// Doubled: a slip in the first or last fiftieth of a pass has no name.
+pub(crate) const RUN_IN: f64 = 0.01;
+
 /// Cells of a window in which a shape of any kind is looked for.
 ///
 /// Chosen: a bell with both flanks shows in six. Doubled: shapes of two lobes show better, short

@@ -84,6 +84,12 @@ pub(crate) const AROUND_REVERSALS: usize = 8;
 /// Derived: a time of three digits an interval. Doubled: nothing moves but the time it takes.
 pub(crate) const WRITTEN_INTERVAL: f64 = 1e-3;
 
+/// Part of its length after zero from which on it is said that a record begins late.
+///
+/// Chosen: less is not seen in a picture. Doubled: a moment is told by a fiftieth of the record
+/// earlier than the file has it, and nothing is said.
+pub(crate) const LATE: f64 = 0.01;
+
 /// Seconds from which on a first time is a clock's, and the record begins at zero.
 ///
 /// Derived: a day. Doubled: clocks of the second day count from midnight before.

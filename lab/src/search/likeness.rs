@@ -11,7 +11,7 @@ use crate::noise::{Block, Whitener};
 use crate::numerics::least_squares::dot;
 use crate::numerics::{count, least_squares, resolves, spread};
 use crate::policy::evidence::{HIGH_HARMONIC_PRICE, SHAPE, VISITS, WAVE, WAVES_A_PASS};
-use crate::policy::extent::ROWS_A_COLUMN;
+use crate::policy::extent::{ROWS_A_COLUMN, RUN_IN};
 use crate::policy::reading::REVERSAL_REACH;
 use crate::policy::size::ANOTHER_SPEED;
 
@@ -133,6 +133,27 @@ pub(crate) fn turns_enough(problem: &Problem, component: &Component, used: &[f64
     let beyond = |rows: Range<usize>| beyond_a_parabola(problem, &shape[rows.clone()], rows);
     let left: f64 = legs(problem).into_iter().map(beyond).sum();
     WAVE * dot(&shape, &shape) < left
+}
+
+/// True unless an effect of one moment has so few rows of its pass before or behind it that they
+/// tell how a pass begins or ends, and no level that it came from or went to.
+#[must_use]
+pub(crate) fn has_both_sides(problem: &Problem, component: &Component) -> bool {
+    let term = &component.term;
+    let moments = term.nonlinear_indices();
+    let mut moments = moments.iter().filter(|&&i| term.parameters[i].search == Search::Time);
+    moments.all(|&index| RUN_IN <= smaller_share(problem, term.values[index]))
+}
+
+/// Share of a pass on the smaller side of a moment in it; 0 of a moment between two passes.
+fn smaller_share(problem: &Problem, at_s: f64) -> f64 {
+    let time = |row: usize| problem.record.time_s[problem.samples[row]];
+    let blocks = problem.layout.blocks.iter().map(|block| &block.rows);
+    let shares = blocks.map(|rows| {
+        let before = rows.clone().filter(|&row| time(row) < at_s).count();
+        count(before.min(rows.len() - before)) / count(rows.len().max(1))
+    });
+    shares.fold(0.0, f64::max)
 }
 
 /// Rows of each sensor from one turn of the table, or pass, to the next.

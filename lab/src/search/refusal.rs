@@ -25,6 +25,8 @@ pub(crate) enum Refusal {
     Flank,
     /// So small a piece of a wave that a parabola follows it.
     Piece,
+    /// A moment so near the start or end of a pass that a machine which runs in does as much.
+    Edge,
     /// A frequency in time, without a clock, a second speed, or enough waves in a pass.
     Clock,
     /// A wave shorter than what targets resolve.
@@ -58,6 +60,7 @@ impl Refusal {
                 | Self::End { .. }
                 | Self::Flank
                 | Self::Piece
+                | Self::Edge
                 | Self::Play
                 | Self::Again
         )
@@ -98,6 +101,9 @@ impl fmt::Display for Refusal {
             }
             Self::Flank => f.write_str("only one flank of the bump lies inside the travel"),
             Self::Piece => f.write_str("so small a piece of a wave that any drift follows it"),
+            Self::Edge => {
+                f.write_str("so near the start or the end that a machine runs in or out there")
+            }
             Self::Clock => f.write_str(
                 "a frequency in time needs a clock, two speeds and three waves in a pass",
             ),
