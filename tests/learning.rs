@@ -30,6 +30,24 @@ fn ledger(folder: &Path) -> Value {
     serde_json::from_str(&text).expect("JSON")
 }
 
+/// What was made up for the data, and why a candidate was not taken, stands in the report.
+#[test]
+fn a_diagnosis_says_how_the_data_were_read_and_why_names_were_not_taken() {
+    let folder = scratch();
+    let (path, data) = word(&folder, "data.csv");
+    let rows = (0..200_u32).map(|row| format!("{},0.{:02}\n", 700 + row, row * row * 37 % 100));
+    put(&path, &("time_s,error_um\n".to_owned() + &rows.collect::<String>()));
+    let run = helixlock(&["diagnose", "examples/hidden-gear/machine.toml", &data]);
+    let said = [
+        "note: angle and travel follow from `time_s` and the spindle speed\n",
+        "note: times of effects count from the first sample, `time_s` 700\n",
+        "    not taken: not beyond chance: p = ",
+    ];
+    for said in said {
+        assert!(run.stdout.contains(said), "{said}: {}", run.stdout);
+    }
+}
+
 /// `diagnose` shows what `learn` shows, and writes nothing else.
 #[test]
 fn a_diagnosis_has_the_page_of_learn() {

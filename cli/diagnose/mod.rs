@@ -53,7 +53,7 @@ impl Diagnose {
             let json = DiagnosisJson::new(&diagnosis, &problem.measurement);
             print_json(out, &in_unit(&json, problem.measurement.unit_word())?)?;
         } else {
-            print(out, &diagnosis, problem.measurement.unit())?;
+            print(out, &diagnosis, &problem.measurement)?;
             written.print(out)?;
             self.print_next(diagnosis.verdict, out)?;
         }

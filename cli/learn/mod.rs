@@ -108,7 +108,7 @@ impl Learn {
             let json = LearnJson::new(diagnosis, book, check, problem);
             print_json(out, &in_unit(&json, problem.measurement.unit_word())?)?;
         } else {
-            diagnosis_text::print(out, diagnosis, problem.measurement.unit())?;
+            diagnosis_text::print(out, diagnosis, &problem.measurement)?;
             check.print(out)?;
             print_offer(out, book)?;
             written.print(out)?;

@@ -5,6 +5,7 @@ use serde_json::Value;
 
 use crate::shared::angular::key_in;
 use crate::shared::diagnosis_page::{Left, falling};
+use crate::shared::words::change;
 
 /// The page of a ledger whose last standing round has been taken back.
 pub(crate) fn page(book: &Value) -> Page {
@@ -31,11 +32,12 @@ pub(crate) fn page(book: &Value) -> Page {
     Page { title: format!("{title}: what the model lacked"), summary, parts }
 }
 
-fn left<'a>(round: &'a Value, unit: &str) -> Left<'a> {
+fn left(round: &Value, unit: &str) -> Left {
     let unit = if unit == "arcsec" { "arcsec" } else { "um" };
     let number = |key: &str| round[key_in(key, unit)].as_f64().unwrap_or(0.0);
+    let dropped = round["dropped"].as_array().into_iter().flatten().filter_map(Value::as_str);
     Left {
-        added: round["added"].as_str(),
+        change: change(round["added"].as_str(), dropped),
         rms_um: number("rms_um"),
         holdout_rms_um: number("holdout_rms_um"),
     }
@@ -43,12 +45,12 @@ fn left<'a>(round: &'a Value, unit: &str) -> Left<'a> {
 
 fn table(rounds: &[Value], unit: &str) -> Table {
     let (seen, unseen) = (format!("rms in {unit}"), format!("held out in {unit}"));
-    let mut table = Table::new(["round", "added", seen.as_str(), unseen.as_str(), ""]);
+    let mut table = Table::new(["round", "change", seen.as_str(), unseen.as_str(), ""]);
     for round in rounds {
         let left = left(round, unit);
         table.row([
             round["round"].to_string(),
-            left.added.unwrap_or("the file's model").to_owned(),
+            left.change,
             format!("{:.4}", left.rms_um),
             format!("{:.4}", left.holdout_rms_um),
             if round["taken_back"] == true { "taken back" } else { "" }.to_owned(),

@@ -2,15 +2,22 @@
 
 use std::io::Write;
 
-use helixlock_lab::{Diagnosis, Doubt, FittedEffect, Round};
+use helixlock_lab::{Diagnosis, Doubt, FittedEffect, Measurement, Ranked};
 
-use crate::shared::words::{why_left, with_error, with_p};
+use crate::shared::words::{change, why_left, with_error, with_p};
 
 /// Standard errors below this have no digit among three decimals.
 const SMALL: f64 = 5e-4;
+/// Candidates shown; the others are in JSON.
+const MOST_CANDIDATES: usize = 8;
 
 /// The diagnosis for people: verdict, rounds, candidates, what is left, what to do next.
-pub(crate) fn print(out: &mut impl Write, diagnosis: &Diagnosis, unit: &str) -> anyhow::Result<()> {
+pub(crate) fn print(
+    out: &mut impl Write,
+    diagnosis: &Diagnosis,
+    measurement: &Measurement,
+) -> anyhow::Result<()> {
+    let unit = measurement.unit();
     writeln!(out, "verdict: {}", diagnosis.verdict.word())?;
     print_doubts(out, &diagnosis.doubts)?;
     if !diagnosis.doubts.is_empty() {
@@ -19,7 +26,8 @@ pub(crate) fn print(out: &mut impl Write, diagnosis: &Diagnosis, unit: &str) -> 
     }
     writeln!(out, "left as noise: {:.4} {unit} rms\n", diagnosis.noise_um)?;
     for round in &diagnosis.rounds {
-        let change = change(round);
+        let dropped = round.dropped.iter().map(String::as_str);
+        let change = change(round.added.as_deref(), dropped);
         writeln!(
             out,
             "round {}: {change}: {:.4} {unit} rms, {:.4} on held-out data",
@@ -43,16 +51,10 @@ pub(crate) fn print(out: &mut impl Write, diagnosis: &Diagnosis, unit: &str) -> 
             why_left(left)
         )?;
     }
-    Ok(())
-}
-
-/// What a round did to the model.
-fn change(round: &Round) -> String {
-    match &round.added {
-        Some(added) => added.clone(),
-        None if round.dropped.is_empty() => "the model as it is".into(),
-        None => format!("taken out again: {}", round.dropped.join(", ")),
+    for note in &measurement.notes {
+        writeln!(out, "note: {note}")?;
     }
+    Ok(())
 }
 
 /// What looks mistaken, each with the line that mends it.
@@ -82,7 +84,7 @@ pub(crate) fn print_effect(out: &mut impl Write, effect: &FittedEffect) -> anyho
 
 fn print_candidates(out: &mut impl Write, diagnosis: &Diagnosis) -> anyhow::Result<()> {
     writeln!(out, "\ntried:")?;
-    for candidate in diagnosis.candidates.iter().take(8) {
+    for candidate in diagnosis.candidates.iter().take(MOST_CANDIDATES) {
         let mark = if candidate.accepted { "*" } else { " " };
         writeln!(
             out,
@@ -92,6 +94,9 @@ fn print_candidates(out: &mut impl Write, diagnosis: &Diagnosis) -> anyhow::Resu
             candidate.holdout_rms_um,
             with_p(candidate.p_value)
         )?;
+        if let Some(why) = why_not(diagnosis, candidate) {
+            writeln!(out, "    not taken: {why}")?;
+        }
         if !candidate.confounded_with.is_empty() {
             writeln!(out, "    cannot be told from: {}", candidate.confounded_with.join(", "))?;
         }
@@ -100,4 +105,11 @@ fn print_candidates(out: &mut impl Write, diagnosis: &Diagnosis) -> anyhow::Resu
         }
     }
     Ok(())
+}
+
+/// Why a candidate did not come into the model, as the last round that tried it says.
+fn why_not<'a>(diagnosis: &'a Diagnosis, candidate: &Ranked) -> Option<&'a str> {
+    let rounds = diagnosis.rounds.iter().rev().filter(|_| !candidate.accepted);
+    let mut rejected = rounds.flat_map(|round| &round.rejected);
+    rejected.find(|(name, _)| *name == candidate.name).map(|(_, why)| why.as_str())
 }

@@ -33,6 +33,17 @@ pub(crate) fn why_left(left: &Structure) -> String {
     }
 }
 
+/// What a round did to the model: the effect it added, and those it took out again.
+pub(crate) fn change<'a>(added: Option<&str>, dropped: impl Iterator<Item = &'a str>) -> String {
+    let dropped = dropped.collect::<Vec<_>>().join(", ");
+    match (added, dropped.is_empty()) {
+        (Some(added), true) => added.to_owned(),
+        (Some(added), false) => format!("{added} in the place of {dropped}"),
+        (None, true) => "the model as it is".to_owned(),
+        (None, false) => format!("taken out again: {dropped}"),
+    }
+}
+
 /// What is said of a limit.
 pub(crate) fn held(holds: bool) -> &'static str {
     if holds { "holds" } else { "is exceeded" }

@@ -7,7 +7,7 @@ use helixlock_report::{Page, Part, Table};
 
 use self::pictures::before_and_after;
 pub(crate) use self::pictures::{Left, falling};
-use crate::shared::words::{chance, doubted, why_left};
+use crate::shared::words::{chance, change, doubted, why_left};
 
 /// The page, with what else is known of the model behind the pictures of the data.
 pub(crate) fn page(problem: &Problem, diagnosis: &Diagnosis, more: Vec<Part>) -> Page {
@@ -123,17 +123,16 @@ fn next(diagnosis: &Diagnosis, unit: &str) -> Vec<Part> {
 fn rounds(diagnosis: &Diagnosis, unit: &str) -> Table {
     let (seen, unseen) = (format!("rms in {unit}"), format!("held out in {unit}"));
     let mut table =
-        Table::new(["round", "added", &seen, &unseen, "chance", "dropped", "tried and not taken"]);
+        Table::new(["round", "change", &seen, &unseen, "chance", "tried and not taken"]);
     for round in &diagnosis.rounds {
         let reason = |(effect, why): &(String, String)| format!("{effect}: {why}");
         let rejected: Vec<String> = round.rejected.iter().take(3).map(reason).collect();
         table.row([
             round.round.to_string(),
-            round.added.clone().unwrap_or_else(|| "the file's model".into()),
+            change(round.added.as_deref(), round.dropped.iter().map(String::as_str)),
             format!("{:.4}", round.rms_um),
             format!("{:.4}", round.holdout_rms_um),
             round.p_value.map_or(String::new(), chance),
-            round.dropped.join(", "),
             rejected.join("; "),
         ]);
     }

@@ -6,6 +6,7 @@ use helixlock_report::{Axis, Colour, Label, Panel, Part, Series, Style};
 use crate::shared::page_pieces::{panel, picture};
 use crate::shared::residual_picture::{points, x_axis};
 use crate::shared::spectrum;
+use crate::shared::words::change;
 
 /// Samples shown closely: few enough that dots and curve stay apart.
 const CLOSE: usize = 150;
@@ -14,19 +15,20 @@ const CLOSE: usize = 150;
 pub(crate) type Spectra = (Vec<helixlock_lab::Spectra>, Vec<NamedLine>);
 
 /// What a round's model leaves.
-pub(crate) struct Left<'a> {
-    /// The effect it added.
-    pub(crate) added: Option<&'a str>,
+pub(crate) struct Left {
+    /// What it did to the model.
+    pub(crate) change: String,
     /// Root mean square, µm (arcsec).
     pub(crate) rms_um: f64,
     /// The same on held-out data.
     pub(crate) holdout_rms_um: f64,
 }
 
-impl<'a> From<&'a Round> for Left<'a> {
-    fn from(round: &'a Round) -> Self {
+impl From<&Round> for Left {
+    fn from(round: &Round) -> Self {
         let Round { rms_um, holdout_rms_um, .. } = *round;
-        Self { added: round.added.as_deref(), rms_um, holdout_rms_um }
+        let dropped = round.dropped.iter().map(String::as_str);
+        Self { change: change(round.added.as_deref(), dropped), rms_um, holdout_rms_um }
     }
 }
 
@@ -51,7 +53,7 @@ pub(crate) fn falling(rounds: &[Left], unit: &str) -> Part {
     panel.labels = rounds()
         .map(|(n, round)| Label {
             at: [n, round.rms_um.max(round.holdout_rms_um) + 0.04 * highest],
-            text: round.added.map_or("as it is".into(), |added| format!("+ {added}")),
+            text: round.change.clone(),
         })
         .collect();
     let rises = all.windows(2).any(|pair| pair[0].rms_um < pair[1].rms_um);
