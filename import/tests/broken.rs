@@ -163,7 +163,7 @@ const LOGS: &[Case] = &[
         Replace("3,9.600,\"Mount\",-0.1,0.2,", "3,9.600,\"Mount\"\n3,9.600,\"Mount\",-0.1,0.2,x"),
         "",
     ),
-    ("guide-log.txt", Cut(700), ""),
+    ("guide-log.txt", Cut(500), ""),
     ("guide-log.txt", Replace("", ""), "[phd2]\nscale_arcsec = \"big\""),
     ("guide-log.txt", Replace("", ""), "[phd2]\naxis = \"x\""),
     ("debug-log.txt", Replace("", ""), ""),

@@ -115,6 +115,25 @@ fn samples_that_need_an_answer_ask_for_it() {
     }
 }
 
+/// A guider that is switched off leaves half a row; what stood before it is whole.
+#[test]
+fn a_guide_log_that_ends_within_a_row_is_read_up_to_it() {
+    let all = bytes("guide-log.txt");
+    let end = all.windows(12).rposition(|part| part == b"20,64.000,\"M");
+    let end = end.expect("the last row") + 20;
+    let read = |bytes: &[u8]| {
+        let sources = [Source { name: "guide-log.txt", bytes }];
+        propose(&sources, &Recipe::default()).expect("the sample is whole")
+    };
+    let (whole, cut) = (read(&all), read(&all[..end]));
+    assert_eq!(cut.table.rows() + 1, whole.table.rows());
+    let said = |proposal: &helixlock_import::Proposal, note: &str| {
+        proposal.notes.iter().any(|known| known.contains(note))
+    };
+    assert!(said(&cut, "ends in the middle") && !said(&whole, "ends in the middle"));
+    assert!(said(&whole, "at a declination of 5.2°"));
+}
+
 /// Forty steps forward and 25 back, five samples of a millisecond each.
 #[test]
 fn steps_of_a_session_are_counted_with_their_direction() {

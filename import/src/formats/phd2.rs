@@ -17,6 +17,8 @@ use crate::question::Answer;
 use crate::recipe::Value;
 
 const DAY_S: f64 = 86_400.0;
+/// Below this declination sky and axis agree to a third of a per cent.
+const NEAR_THE_EQUATOR_DEG: f64 = 5.0;
 
 /// Which columns hold an axis.
 struct Axis {
@@ -44,6 +46,8 @@ struct Reader<'a> {
     passes: Vec<f64>,
     /// True when a row needed a scale and had none.
     unscaled: bool,
+    /// Declinations of the sessions, least and most of their size in degrees.
+    declination_deg: Option<[f64; 2]>,
 }
 
 /// Reads a guide log.
@@ -55,10 +59,30 @@ pub(crate) fn read(lines: &[&str], decisions: &mut Decisions<'_>) -> Result<Buil
         Axis { raw: "RARawDistance", push: "RAGuideDistance" }
     };
     let mut reader = Reader::new(decisions.file(), axis, unguided, scale);
+    let last = lines.iter().rposition(|line| !line.trim().is_empty());
     for (index, line) in lines.iter().enumerate() {
-        reader.line(index + 1, line.trim())?;
+        if Some(index) == last && reader.is_cut_off(line) {
+            decisions.note("the last row ends in the middle and is left out");
+        } else {
+            reader.line(index + 1, line.trim())?;
+        }
+    }
+    if let Some(note) = reader.declination_deg.filter(|_| !is_dec).and_then(on_the_sky) {
+        decisions.note(note);
     }
     reader.finish(decisions)
+}
+
+/// What to say of right ascension, which a star shows smaller the nearer it is to the pole.
+fn on_the_sky([least_deg, most_deg]: [f64; 2]) -> Option<String> {
+    let range = if least_deg < most_deg {
+        format!("{least_deg} to {most_deg}")
+    } else {
+        most_deg.to_string()
+    };
+    (NEAR_THE_EQUATOR_DEG < most_deg).then(|| {
+        format!("right ascension is as seen on the sky, at a declination of {range}°: the axis turns by that over its cosine")
+    })
 }
 
 /// What is wanted of a log.
@@ -115,6 +139,7 @@ impl<'a> Reader<'a> {
             error: Vec::new(),
             passes: Vec::new(),
             unscaled: false,
+            declination_deg: None,
         }
     }
 
@@ -127,6 +152,8 @@ impl<'a> Reader<'a> {
             self.names.clear();
         } else if let Some(rest) = line.split("Pixel scale =").nth(1) {
             self.pixel_scale(number, line, rest)?;
+        } else if let Some(rest) = line.strip_prefix("Dec = ") {
+            self.declination(rest);
         } else if line.starts_with("INFO: SET LOCK POSITION")
             || line.starts_with("INFO: Server received PAUSE")
             || line.starts_with("INFO: DITHER")
@@ -177,6 +204,22 @@ impl<'a> Reader<'a> {
             let place = Place::word(self.file, at, line, word);
             Err(ImportError::found(place, quoted(word), "a pixel scale in arc seconds"))
         }
+    }
+
+    /// `37.7 deg, Hour angle = …`; a mount that does not know has no number there.
+    fn declination(&mut self, rest: &str) {
+        let word = rest.split([' ', ',']).next().unwrap_or_default();
+        let Some(size) = number(word, '.').map(f64::abs).filter(|size| *size < 90.0) else {
+            return;
+        };
+        let [least, most] = self.declination_deg.unwrap_or([size, size]);
+        self.declination_deg = Some([least.min(size), most.max(size)]);
+    }
+
+    /// True for a row of fewer cells than the header has.
+    fn is_cut_off(&self, line: &str) -> bool {
+        let is_row = line.trim().starts_with(|c: char| c.is_ascii_digit());
+        is_row && 1 < self.time_s.len() && line.split(',').count() < self.names.len()
     }
 
     fn row(&mut self, line: usize, text: &str) -> Result<(), ImportError> {
