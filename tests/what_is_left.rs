@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use helixlock_lab::{Diagnosis, Verdict, compare, diagnose};
+use helixlock_lab::{Diagnosis, Found, Verdict, compare, diagnose, discover};
 
 use crate::support::passes::{Passes, noise};
 
@@ -24,6 +24,42 @@ fn a_smooth_error_of_each_pass_s_own_is_not_noise() {
     };
     let diagnosis = diagnose(&Passes::new(&turning, &mut noise(7, 5.0)).problem());
     assert_eq!(diagnosis.verdict, Verdict::Unexplained);
+}
+
+/// 366 samples of one pass with a mistake in one of them.
+fn with_a_mistake(error_um: &dyn Fn(f64) -> f64, row: u16, mistake_um: f64) -> Passes {
+    let mut noise = noise(4, 0.1);
+    Passes::of_rows((0..366_u16).map(|at| {
+        let mistake = if at == row { mistake_um } else { 0.0 };
+        let error = error_um(f64::from(at) / 366.0) + noise() + mistake;
+        [1.0, f64::from(at), 0.37 * f64::from(at), 1.0, error]
+    }))
+}
+
+/// A joint's error hardly changes within the pass, so that it is told from nothing. One wrong digit is
+/// fifty times as large, and no reason to call the rest noise.
+#[test]
+fn one_wrong_reading_is_no_all_clear() {
+    let waves = [(0.9, 0.5, 1.9), (0.3, 1.6, 0.3), (0.5, 1.7, 3.8)];
+    let of_a_joint = |u: f64| {
+        waves.iter().map(|(size, waves, phase)| size * libm::sin(waves * TAU * u + phase)).sum()
+    };
+    for mistake_um in [0.0, 60.0] {
+        let passes = with_a_mistake(&of_a_joint, 180, mistake_um);
+        let problem = passes.problem();
+        let diagnosis = diagnose(&problem);
+        let told = diagnosis.residual.iter().any(|one| one.shape.starts_with("smooth curve, or"));
+        let names = crate::support::diagnosed::names(&diagnosis);
+        assert!(told, "{mistake_um}: {:?}, {names:?}, {:?}", diagnosis.verdict, diagnosis.residual);
+        assert!(!compare(&problem).noise_only, "{mistake_um}");
+    }
+}
+
+/// One reading before anything has settled is no step that stays.
+#[test]
+fn a_first_reading_apart_is_no_step() {
+    let found = discover(&with_a_mistake(&|_| 0.0, 0, 3.0).problem());
+    assert_eq!((found.found, found.proposals.len()), (Found::Nothing, 0));
 }
 
 /// A kink, and a step at one place of every pass: a cubic with a bump follows the one, a slip in

@@ -19,4 +19,4 @@ pub(crate) use chi_squared::chi_squared_tail;
 pub(crate) use golden_section::golden_maximum;
 pub(crate) use looks::Looks;
 pub(crate) use sampling::{highest_frequency, resolves, usual_rate};
-pub(crate) use summary::{count, median, rms_about_means, spread};
+pub(crate) use summary::{count, median, one_in, rms_about_means, spread};

@@ -3,7 +3,7 @@
 use helixlock_plant::prediction::Sensor;
 
 use crate::doubts::{Doubt, doubts};
-use crate::hypotheses::{Structure, all_structures, taken_for_noise};
+use crate::hypotheses::{Structure, all_structures, no_larger_than, taken_for_noise};
 use crate::model::{Problem, State};
 use crate::noise::{Noise, effective_samples, rms};
 use crate::numerics::{count, median, spread};
@@ -87,6 +87,14 @@ pub struct Comparison {
     pub residual: Vec<f64>,
 }
 
+impl Comparison {
+    /// True when structure is beyond chance; what is not may be a curve that no noise is told from.
+    #[must_use]
+    pub fn is_beyond_chance(&self) -> bool {
+        self.noise_p_value <= SIGNIFICANCE
+    }
+}
+
 /// Compares a model with a measurement.
 ///
 /// Sizes are those of all samples; noise and structure are looked for in at most some
@@ -107,6 +115,7 @@ fn compared(problem: &Problem) -> Comparison {
     let taken = taken_for_noise(small, &state.fit, &along);
     let noise_only = SIGNIFICANCE < noise_p_value && taken.is_none();
     along.splice(..0, taken);
+    no_larger_than(rms(&small.layout, &state.fit.left), &mut along);
     let residual = problem.residual();
     let sensors = (0..problem.sensors.len())
         .map(|sensor| sensor_residual(problem, (small, &state), &residual, sensor))

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::experiment::{self, Advice};
 use crate::doubts::{Doubt, doubts};
-use crate::hypotheses::{Structure, structures};
+use crate::hypotheses::{Structure, no_larger_than, structures};
 use crate::model::{
     Component, JointCovariance, Judged, Problem, State, holdout_rms, joint_covariance,
 };
@@ -199,10 +199,7 @@ fn searched(problem: &Problem) -> Diagnosis {
     let noise_um = rms(&problem.layout, &state.fit.left);
     let mut candidates = ranked(state, &found, &steps[0].tried, &experiments);
     let of_means_um = rms(&small.layout, &last.fit.left);
-    for one in &mut residual {
-        // Against slow noise a shape may be fitted larger than all that is left.
-        one.rms_um = one.rms_um.min(noise_um);
-    }
+    no_larger_than(noise_um, &mut residual);
     add_scatter(&mut candidates, (noise_um * noise_um - of_means_um * of_means_um).max(0.0));
     Diagnosis {
         verdict: verdict(state, &found, &residual),

@@ -36,6 +36,8 @@ pub struct RunnerUp {
     pub behind: f64,
     /// True when the data cannot tell it from the proposal.
     pub alike: bool,
+    /// Why it is not proposed though it is clearly ahead.
+    pub refused: Option<&'static str>,
 }
 
 /// A formula that explains what no name does.
@@ -95,7 +97,7 @@ impl Granted {
         delta: Delta,
         state: &State,
         claim: &Claim<'_>,
-        behind: &[&Claim<'_>],
+        others: &[(&Claim<'_>, Option<&'static str>)],
     ) -> Result<Self, EffectError> {
         let shape = claim.placed.shape;
         let named = |group: &[usize]| -> Vec<String> {
@@ -103,7 +105,7 @@ impl Granted {
         };
         let mut runners_up = Vec::new();
         let mut rivals = Vec::new();
-        for other in behind.iter().take(TOLD) {
+        for (other, refused) in others.iter().take(TOLD) {
             let gap = claim.ahead - other.ahead;
             runners_up.push(RunnerUp {
                 shape: other.placed.shape.words,
@@ -111,7 +113,8 @@ impl Granted {
                 formula: formula(&other.placed, delta),
                 instead_of: named(&other.group),
                 behind: gap,
-                alike: gap < MARGIN,
+                alike: gap < MARGIN && refused.is_none(),
+                refused: *refused,
             });
             if other.group == claim.group {
                 let other = &other.placed;

@@ -105,18 +105,19 @@ impl Now {
     /// The model with the best formula that may join; `None` when none may.
     fn with_one_more(&self, problem: &Problem, shapes: &[Shape]) -> Option<Self> {
         let claims = claims(problem, &self.state, &self.found, shapes);
-        let best = simplest(&claims, |claim| may_join(problem, &self.state, claim))?;
-        let mut behind: Vec<&Claim<'_>> = Vec::new();
+        let kept_out = |claim: &Claim<'_>| kept_out(problem, &self.state, claim);
+        let best = simplest(&claims, |claim| kept_out(claim).is_none())?;
+        let mut others: Vec<(&Claim<'_>, Option<&'static str>)> = Vec::new();
         for other in &claims {
-            let same = |known: &&Claim<'_>| is_same(known, other);
-            if !is_same(best, other) && !behind.iter().any(same) {
-                behind.push(other);
+            if !is_same(best, other) && !others.iter().any(|(known, _)| is_same(known, other)) {
+                let clearer = best.ahead + MARGIN <= other.ahead;
+                others.push((other, if clearer { kept_out(other) } else { None }));
             }
         }
         let named = self.state.components.len() - self.granted.len();
         let name = format!("formula {}", self.granted.len() + 1);
         let delta = Delta::of(problem);
-        let one = Granted::new(&name, delta, &self.state, best, &behind).ok()?;
+        let one = Granted::new(&name, delta, &self.state, best, &others).ok()?;
         let mut granted: Vec<Granted> = Vec::new();
         for (place, known) in self.granted.iter().enumerate() {
             if !best.group.contains(&(named + place)) {
@@ -182,16 +183,19 @@ fn told(problem: &Problem, state: &State) -> Discovery {
     }
 }
 
-/// True for a claim that is ahead by the margin, beyond chance, large enough, and helps on unseen
-/// data.
-fn may_join(problem: &Problem, state: &State, claim: &Claim<'_>) -> bool {
+/// Why a claim may not join: it must be ahead by the margin, beyond chance, help on unseen data, and
+/// be large enough.
+fn kept_out(problem: &Problem, state: &State, claim: &Claim<'_>) -> Option<&'static str> {
     if claim.ahead <= MARGIN || SIGNIFICANCE <= claim.p_value {
-        return false;
+        return Some("not beyond chance");
     }
-    let Ok(base) = Columns::of(problem, &state.without(&claim.group)) else { return false };
+    let base = Columns::of(problem, &state.without(&claim.group)).ok()?;
     let columns = base.and(&claim.placed.columns);
-    helps_unseen(problem, (&columns, &claim.fit.noises), (&base, &state.fit.noises))
-        && is_left(problem, &state.fit, &claim.shown(problem))
+    if !helps_unseen(problem, (&columns, &claim.fit.noises), (&base, &state.fit.noises)) {
+        return Some("no better on held-out data");
+    }
+    let left = is_left(problem, &state.fit, &claim.shown(problem));
+    (!left).then_some("too small to change a figure")
 }
 
 /// The claim that is most ahead of those that may join; where others in its place cannot be told

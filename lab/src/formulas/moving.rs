@@ -8,6 +8,7 @@ use super::grammar::{periods, shape, unknown};
 use super::quantities::{Quantities, about_middle, from_start, lowest, of};
 use super::shape::Shape;
 use crate::numerics::{by_factors, count, evenly, spread};
+use crate::policy::extent::RUN_IN;
 
 /// First width of a knock, against the distance of two; it is refined.
 const KNOCK: f64 = 0.07;
@@ -15,6 +16,10 @@ const KNOCK: f64 = 0.07;
 /// Moments of a pass at which a knock is looked for, and the passes beyond which they lie wider.
 const PLACES_A_PASS: usize = 130;
 const MOST_PASSES: usize = 4;
+
+/// Share of the record that a step stands away from its ends; a refined one comes as near as
+/// [`RUN_IN`].
+const AWAY: f64 = 2.0 * RUN_IN;
 
 /// Most that a wave changes over half of the travel, as a share of its frequency in the middle.
 const CHANGE: f64 = 0.9;
@@ -160,7 +165,7 @@ pub(super) fn in_time(all: &Quantities) -> Vec<Shape> {
     let widths = by_factors(0.005 * range / count(passes), 0.1 * range / count(passes), 4);
     let mut shapes = vec![
         shape("step at one moment", "time", "something slipped or was knocked and stayed so")
-            .unknown("at_s", s, evenly(low, low + range, 200))
+            .unknown("at_s", s, evenly(low + AWAY * range, low + (1.0 - AWAY) * range, 200))
             .placed()
             .curve("size", call(Function::Step, of(t) - unknown(0))),
         shape("parabola", "time", "a load or heat that grows ever faster")

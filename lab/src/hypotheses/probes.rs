@@ -15,7 +15,7 @@ use super::waves;
 use helixlock_plant::Column;
 
 use crate::model::{Columns, Fit, Problem, Stage, settle};
-use crate::noise::{Whitener, rms, swift_rms};
+use crate::noise::{Whitener, rms, swift_rms, weighed_rms};
 use crate::numerics::{chi_squared_tail, count, spread};
 use crate::policy::chance::{MANY_COLUMNS, NAMED, PROBES, SIGNIFICANCE};
 use crate::policy::extent::{
@@ -56,6 +56,13 @@ impl Structure {
     pub(crate) fn without_place(along: &str, shape: &str, rms_um: f64, p_value: f64) -> Self {
         let (along, shape) = (along.to_owned(), shape.to_owned());
         Self { along, shape, rms_um, p_value, at: None, at_stderr: None, line: None }
+    }
+}
+
+/// Tells shapes no larger than all that is left: against slow noise they may be fitted so.
+pub(crate) fn no_larger_than(left_um: f64, told: &mut [Structure]) {
+    for one in told {
+        one.rms_um = one.rms_um.min(left_um);
     }
 }
 
@@ -130,8 +137,9 @@ fn probe(problem: &Problem, model: &Columns, fit: &Fit, raw: &[Column]) -> (f64,
     let width = count(raw.len());
     let wider = settle(problem, &model.and(&Columns::free(raw.to_vec())), &fit.noises);
     let gain = 2.0 * (wider.log_likelihood - fit.log_likelihood);
-    let before = rms(&problem.layout, &fit.left);
-    let after = rms(&problem.layout, &wider.left);
+    // A bad reading has no say in a shape's size either.
+    let before = weighed_rms(&problem.layout, &fit.left);
+    let after = weighed_rms(&problem.layout, &wider.left);
     let size = (before * before - after * after).max(0.0).sqrt();
     let mut p_value = (probes(problem) * chi_squared_tail(gain, width)).min(1.0);
     if MANY_COLUMNS <= raw.len() && matters(problem, fit, size, p_value) {

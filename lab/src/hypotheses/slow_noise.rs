@@ -5,7 +5,7 @@
 
 use super::probes::Structure;
 use crate::model::{Fit, Problem};
-use crate::noise::{effective_samples, rms};
+use crate::noise::{effective_samples, weighed_rms};
 use crate::numerics::count;
 use crate::policy::size::{SMOOTH_SHARE, WORTH_A_PASS};
 
@@ -23,7 +23,7 @@ pub(crate) fn taken_for_noise(
     if WORTH_A_PASS <= worth {
         return None;
     }
-    let least_um = SMOOTH_SHARE * rms(&problem.layout, &fit.left);
+    let least_um = SMOOTH_SHARE * weighed_rms(&problem.layout, &fit.left);
     let smooth = all.iter().filter(|one| one.shape == "smooth curve" && least_um < one.rms_um);
     let curve = smooth.max_by(|a, b| a.rms_um.total_cmp(&b.rms_um))?;
     let shape = format!("smooth curve, or noise so slow that a pass is worth {worth:.1} samples");

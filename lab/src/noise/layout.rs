@@ -97,6 +97,23 @@ pub(crate) fn rms(layout: &Layout, left: &[f64]) -> f64 {
     rms_about_means(layout.blocks.iter().map(|block| block.rows.clone()), left)
 }
 
+/// The same of rows as they weigh, so that one outlier is not most of it.
+#[must_use]
+pub(crate) fn weighed_rms(layout: &Layout, left: &[f64]) -> f64 {
+    let (mut square, mut all) = (0.0, 0.0);
+    for block in &layout.blocks {
+        let part = &left[block.rows.clone()];
+        let weights = layout.inflation[block.rows.clone()].iter().map(|by| 1.0 / by);
+        let weight: f64 = weights.clone().sum();
+        let sum: f64 = weights.clone().zip(part).map(|(by, value)| by * value).sum();
+        let mean = sum / weight.max(f64::MIN_POSITIVE);
+        let about = part.iter().map(|value| (value - mean) * (value - mean));
+        square += weights.zip(about).map(|(by, value)| by * value).sum::<f64>();
+        all += weight;
+    }
+    (square / all.max(f64::MIN_POSITIVE)).sqrt()
+}
+
 /// Root mean square about the mean of each tenth of a pass, µm: slow effects that are still to be
 /// found are no noise for a swift one.
 #[must_use]

@@ -12,8 +12,10 @@ use super::kernel::{Noise, SlowPart};
 use super::layout::{Block, Layout};
 use super::sweep::squares_and_log_determinants;
 use crate::numerics::quasi_newton::{Descent, minimise};
-use crate::numerics::{count, median};
-use crate::policy::reading::{OUTLIER_DEVIATIONS, OUTLIER_NEIGHBOURS};
+use crate::numerics::{count, median, one_in};
+use crate::policy::reading::{
+    BEYOND_ARE_OUTLIERS, BEYOND_DEVIATIONS, OUTLIER_DEVIATIONS, OUTLIER_NEIGHBOURS,
+};
 
 /// A fitted noise model with its log likelihood.
 #[derive(Debug, Clone, PartialEq)]
@@ -161,7 +163,8 @@ fn longest_block(layout: &Layout) -> f64 {
 /// A sample is judged against the median of itself and its neighbours, so a slow effect or a step,
 /// which neighbours share, is never an outlier (Hampel's identifier). Where most samples are that
 /// median themselves, as on a smooth curve or a staircase, nothing tells how far noise takes one, and
-/// none is an outlier. No deviation is taken to be less than `least_variance` says of its sensor.
+/// none is an outlier. No deviation is taken to be less than `least_variance` says of its sensor, nor
+/// than four fifths of the samples say: half of them may lie where a wave turns slowly.
 #[must_use]
 pub(crate) fn outlier_inflation(
     layout: &Layout,
@@ -180,6 +183,7 @@ pub(crate) fn outlier_inflation(
         let mut sizes: Vec<f64> = departures.iter().map(|value| value.abs()).collect();
         let told = 1.4826 * median(&mut sizes);
         if 0.0 < told {
+            let told = told.max(one_in(&mut sizes, BEYOND_ARE_OUTLIERS) / BEYOND_DEVIATIONS);
             let outlying = OUTLIER_DEVIATIONS * told.max(least.sqrt());
             for (row, value) in blocks().flat_map(|block| block.rows.clone()).zip(departures) {
                 let size = value.abs() / outlying;

@@ -149,3 +149,18 @@ fn a_constant_in_a_pass_whitens_to_nothing() {
     let white = Whitener::new(&layout, &noises).whiten(column);
     assert!(white.iter().all(|value| value.abs() < 1e-12), "{white:?}");
 }
+
+/// Where a fast wave turns its samples lie near their neighbours, and on its flanks far from them: no
+/// crest is an outlier for that. Bad readings are, one in ten.
+#[test]
+fn samples_that_scatter_by_turns_are_no_outliers() {
+    let layout = even();
+    let wave = |row: usize| if row % 10 < 4 { 1.0 } else { 0.1 } * libm::sin(7.0 * count(row));
+    let residual: Vec<f64> = (0..400).map(wave).collect();
+    let weighed = outlier_inflation(&layout, &residual, &[0.0]);
+    assert!(weighed.iter().all(|by| *by < 1.5), "{weighed:?}");
+    let with_bad = |row: usize| if row % 10 == 5 { 30.0 } else { libm::sin(7.0 * count(row)) };
+    let residual: Vec<f64> = (0..400).map(with_bad).collect();
+    let weighed = outlier_inflation(&layout, &residual, &[0.0]);
+    assert!((0..40).all(|nth| 20.0 < weighed[10 * nth + 5]), "{weighed:?}");
+}

@@ -19,11 +19,17 @@ pub(crate) fn spread(values: &[f64]) -> f64 {
 /// Median; the lower one of an even number, 0 of none.
 #[must_use]
 pub(crate) fn median(values: &mut [f64]) -> f64 {
+    one_in(values, 2)
+}
+
+/// The largest value but for one in so many; 0 of none.
+#[must_use]
+pub(crate) fn one_in(values: &mut [f64], parts: usize) -> f64 {
     if values.is_empty() {
         return 0.0;
     }
-    let middle = (values.len() - 1) / 2;
-    *values.select_nth_unstable_by(middle, f64::total_cmp).1
+    let place = (values.len() - 1) - values.len() / parts;
+    *values.select_nth_unstable_by(place, f64::total_cmp).1
 }
 
 /// Root mean square of values about the mean of each of their parts.

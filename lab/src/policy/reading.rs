@@ -22,6 +22,16 @@ pub(crate) const MOST_OFF: f64 = 1.25;
 /// JASA 88:782), three deviations. Doubled: knocks of less than six weigh fully.
 pub(crate) const OUTLIER_DEVIATIONS: f64 = 3.0;
 
+/// One sample in so many may be an outlier, and no more say nothing of how far noise takes one.
+///
+/// Chosen: a fifth of a log may be bad readings. Doubled: a tenth.
+pub(crate) const BEYOND_ARE_OUTLIERS: usize = 5;
+
+/// Deviations beyond which one sample in [`BEYOND_ARE_OUTLIERS`] lies by a normal law.
+///
+/// Derived: its upper tenth begins there. Doubled: the half alone tells, for any noise.
+pub(crate) const BEYOND_DEVIATIONS: f64 = 1.2816;
+
 /// How much longer or shorter than the usual one a standard deviation told by the file may be.
 ///
 /// Chosen: a row that weighs 4096 times another already decides alone. Doubled: 16 384 times.
