@@ -6,7 +6,7 @@ use helixlock_report::{Colour, Page, Part, Series, Style, Table};
 use crate::shared::page_pieces::{panel, picture};
 use crate::shared::residual_picture::{points, x_axis};
 use crate::shared::spectrum;
-use crate::shared::words::{chance, doubted, with_error};
+use crate::shared::words::{chance, doubted, left_over, with_error};
 
 /// The page.
 pub(crate) fn page(problem: &Problem, comparison: &Comparison) -> Page {
@@ -48,7 +48,7 @@ pub(crate) fn page(problem: &Problem, comparison: &Comparison) -> Page {
     parts.push(Part::Heading("Lines".into()));
     parts.push(Part::Table(lines(comparison, unit)));
     parts.extend(problem.measurement.notes.iter().cloned().map(Part::Text));
-    let says = if comparison.noise_only { "noise" } else { "more than noise" };
+    let says = left_over(comparison);
     Page {
         title: format!("{}: model against measurement", problem.model.title),
         summary: format!(

@@ -5,7 +5,7 @@ use std::io::Write;
 use helixlock_lab::{Comparison, Measurement, NamedLine, sensor_column};
 
 use crate::shared::diagnosis_text::print_doubts;
-use crate::shared::words::{with_error, with_p};
+use crate::shared::words::{left_over, with_error, with_p};
 
 /// Sizes, where it fails, and the lines.
 pub(crate) fn print(
@@ -25,7 +25,7 @@ pub(crate) fn print(
             sensor.effective_samples
         )?;
     }
-    let says = if comparison.noise_only { "nothing but noise" } else { "more than noise" };
+    let says = left_over(comparison);
     writeln!(out, "left: {says} ({})\n", with_p(comparison.noise_p_value))?;
     writeln!(out, "where it fails:")?;
     for one in comparison.along.iter().take(10) {
@@ -40,7 +40,7 @@ pub(crate) fn print(
         )?;
     }
     if !comparison.lines.is_empty() {
-        writeln!(out, "\nlines:")?;
+        writeln!(out, "\nlines, clearest first, ten at most:")?;
     }
     for line in &comparison.lines {
         print_line(out, line, unit)?;

@@ -52,5 +52,6 @@ keys! {
         instead_of: &'a [String] = &one.instead_of,
         evidence_behind: f64 = one.behind,
         alike: bool = one.alike,
+        refused: Option<&'a str> = one.refused,
     }
 }

@@ -110,7 +110,7 @@ fn parameters(one: &Proposal) -> Table {
 fn runners_up(all: &[RunnerUp]) -> Table {
     let mut table = Table::new(["shape", "along", "formula δ", "evidence behind", ""]);
     for one in all {
-        let alike = if one.alike { "the data cannot tell it" } else { "" };
+        let alike = if one.alike { "the data cannot tell it" } else { one.refused.unwrap_or("") };
         table.row([
             one.shape.to_owned(),
             one.along.clone(),

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use helixlock_lab::{Discovery, Found, Proposal};
+use helixlock_lab::{Discovery, Found, Proposal, RunnerUp};
 
 use crate::shared::diagnosis_text::{print_doubts, print_effect};
 use crate::shared::words::{why_left, with_error, with_p};
@@ -54,6 +54,15 @@ pub(super) fn print(out: &mut impl Write, found: &Discovery, unit: &str) -> anyh
     Ok(())
 }
 
+/// Where a runner-up stands, and why that is not in front.
+fn standing(other: &RunnerUp) -> String {
+    match other.refused {
+        Some(why) => format!("ahead, but {why}"),
+        None if other.behind < 0.0 => "ahead by more numbers".to_owned(),
+        None => "behind".to_owned(),
+    }
+}
+
 fn print_proposal(out: &mut impl Write, one: &Proposal) -> anyhow::Result<()> {
     writeln!(out, "\nproposal: {} along {}", one.shape, one.along)?;
     writeln!(out, "  δ = {}", one.formula)?;
@@ -83,7 +92,7 @@ fn print_proposal(out: &mut impl Write, one: &Proposal) -> anyhow::Result<()> {
             other.shape,
             other.along,
             other.behind.abs(),
-            if other.behind < 0.0 { "ahead by more numbers" } else { "behind" },
+            standing(other),
             other.formula
         )?;
     }

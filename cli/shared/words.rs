@@ -2,7 +2,7 @@
 
 use std::process::ExitCode;
 
-use helixlock_lab::{Doubt, Structure, Verdict};
+use helixlock_lab::{Comparison, Doubt, Structure, Verdict};
 
 /// Chances below this come from rounding, and say no more than that it is very small.
 const SMALLEST: f64 = 1e-99;
@@ -22,6 +22,15 @@ pub(crate) fn chance(p_value: f64) -> String {
 pub(crate) fn with_p(p_value: f64) -> String {
     let chance = chance(p_value);
     if chance.starts_with('<') { format!("p {chance}") } else { format!("p = {chance}") }
+}
+
+/// What is left, in words.
+pub(crate) fn left_over(comparison: &Comparison) -> &'static str {
+    match (comparison.noise_only, comparison.is_beyond_chance()) {
+        (true, _) => "nothing but noise",
+        (false, true) => "more than noise",
+        (false, false) => "a curve that cannot be told from noise",
+    }
 }
 
 /// Why structure is told of: its chance in noise, or that there is none.
