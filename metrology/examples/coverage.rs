@@ -28,7 +28,7 @@ fn of_straightness(out: &mut impl Write) -> Printed {
     writeln!(out, "| bar | Fourier | least squares |")?;
     writeln!(out, "|---|---|---|")?;
     for bar in straightness::coverage::Bar::ALL {
-        let found = straightness::coverage::coverage(bar, 300, 1)?;
+        let found = straightness::coverage::coverage(bar, 2000, 1)?;
         let held = [found.fourier, found.least_squares]
             .map(|share| format!("{:.1} %", 100.0 * share))
             .join(" | ");
