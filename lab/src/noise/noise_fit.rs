@@ -14,7 +14,7 @@ use super::sweep::squares_and_log_determinants;
 use crate::numerics::quasi_newton::{Descent, minimise};
 use crate::numerics::{count, median, one_in};
 use crate::policy::reading::{
-    BEYOND_ARE_OUTLIERS, BEYOND_DEVIATIONS, OUTLIER_DEVIATIONS, OUTLIER_NEIGHBOURS,
+    BEYOND_ARE_OUTLIERS, BEYOND_DEVIATIONS, NO_LAW, OUTLIER_DEVIATIONS, OUTLIER_NEIGHBOURS,
 };
 
 /// A fitted noise model with its log likelihood.
@@ -163,8 +163,9 @@ fn longest_block(layout: &Layout) -> f64 {
 /// A sample is judged against the median of itself and its neighbours, so a slow effect or a step,
 /// which neighbours share, is never an outlier (Hampel's identifier). Where most samples are that
 /// median themselves, as on a smooth curve or a staircase, nothing tells how far noise takes one, and
-/// none is an outlier. No deviation is taken to be less than `least_variance` says of its sensor, nor
-/// than four fifths of the samples say: half of them may lie where a wave turns slowly.
+/// none is an outlier. No deviation is taken to be less than `least_variance` says of its sensor. Where
+/// four fifths of the samples say far more than half of them, as no law of noise does, those are
+/// believed: half may lie where a wave turns slowly.
 #[must_use]
 pub(crate) fn outlier_inflation(
     layout: &Layout,
@@ -183,7 +184,8 @@ pub(crate) fn outlier_inflation(
         let mut sizes: Vec<f64> = departures.iter().map(|value| value.abs()).collect();
         let told = 1.4826 * median(&mut sizes);
         if 0.0 < told {
-            let told = told.max(one_in(&mut sizes, BEYOND_ARE_OUTLIERS) / BEYOND_DEVIATIONS);
+            let most = one_in(&mut sizes, BEYOND_ARE_OUTLIERS) / BEYOND_DEVIATIONS;
+            let told = if NO_LAW * told < most { most } else { told };
             let outlying = OUTLIER_DEVIATIONS * told.max(least.sqrt());
             for (row, value) in blocks().flat_map(|block| block.rows.clone()).zip(departures) {
                 let size = value.abs() / outlying;

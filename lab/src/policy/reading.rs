@@ -32,6 +32,12 @@ pub(crate) const BEYOND_ARE_OUTLIERS: usize = 5;
 /// Derived: its upper tenth begins there. Doubled: the half alone tells, for any noise.
 pub(crate) const BEYOND_DEVIATIONS: f64 = 1.2816;
 
+/// How many times the deviation that half of the samples tell four fifths must tell to be believed.
+///
+/// Derived: by Cauchy's law, heavier than any noise that was met, it is 1.6 times. Doubled: a wave that
+/// four in ten samples turn slowly on is told as bad readings.
+pub(crate) const NO_LAW: f64 = 2.0;
+
 /// How much longer or shorter than the usual one a standard deviation told by the file may be.
 ///
 /// Chosen: a row that weighs 4096 times another already decides alone. Doubled: 16 384 times.
