@@ -48,9 +48,8 @@ fn one_wrong_reading_is_no_all_clear() {
         let passes = with_a_mistake(&of_a_joint, 180, mistake_um);
         let problem = passes.problem();
         let diagnosis = diagnose(&problem);
-        let told = diagnosis.residual.iter().any(|one| one.shape.starts_with("smooth curve, or"));
-        let names = crate::support::diagnosed::names(&diagnosis);
-        assert!(told, "{mistake_um}: {:?}, {names:?}, {:?}", diagnosis.verdict, diagnosis.residual);
+        let told = shows(&diagnosis, "position", "smooth curve, or noise");
+        assert!(told, "{mistake_um}: {:?}", diagnosis.residual);
         assert!(!compare(&problem).noise_only, "{mistake_um}");
     }
 }

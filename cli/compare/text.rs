@@ -4,7 +4,7 @@ use std::io::Write;
 
 use helixlock_lab::{Comparison, Measurement, NamedLine, sensor_column};
 
-use crate::shared::diagnosis_text::print_doubts;
+use crate::shared::diagnosis_text::{print_doubts, print_notes};
 use crate::shared::words::{left_over, with_error, with_p};
 
 /// Sizes, where it fails, and the lines.
@@ -46,10 +46,7 @@ pub(crate) fn print(
         print_line(out, line, unit)?;
     }
     print_doubts(out, &comparison.doubts)?;
-    for note in &measurement.notes {
-        writeln!(out, "note: {note}")?;
-    }
-    Ok(())
+    print_notes(out, measurement)
 }
 
 fn print_line(out: &mut impl Write, line: &NamedLine, unit: &str) -> anyhow::Result<()> {

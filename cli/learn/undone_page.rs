@@ -35,9 +35,10 @@ pub(crate) fn page(book: &Value) -> Page {
 fn left(round: &Value, unit: &str) -> Left {
     let unit = if unit == "arcsec" { "arcsec" } else { "um" };
     let number = |key: &str| round[key_in(key, unit)].as_f64().unwrap_or(0.0);
-    let dropped = round["dropped"].as_array().into_iter().flatten().filter_map(Value::as_str);
+    let dropped = round["dropped"].as_array().into_iter().flatten();
+    let dropped: Vec<&str> = dropped.filter_map(Value::as_str).collect();
     Left {
-        change: change(round["added"].as_str(), dropped),
+        change: change(round["added"].as_str(), &dropped),
         rms_um: number("rms_um"),
         holdout_rms_um: number("holdout_rms_um"),
     }

@@ -26,8 +26,7 @@ pub(crate) fn print(
     }
     writeln!(out, "left as noise: {:.4} {unit} rms\n", diagnosis.noise_um)?;
     for round in &diagnosis.rounds {
-        let dropped = round.dropped.iter().map(String::as_str);
-        let change = change(round.added.as_deref(), dropped);
+        let change = change(round.added.as_deref(), &round.dropped);
         writeln!(
             out,
             "round {}: {change}: {:.4} {unit} rms, {:.4} on held-out data",
@@ -51,6 +50,11 @@ pub(crate) fn print(
             why_left(left)
         )?;
     }
+    print_notes(out, measurement)
+}
+
+/// How the data were read.
+pub(crate) fn print_notes(out: &mut impl Write, measurement: &Measurement) -> anyhow::Result<()> {
     for note in &measurement.notes {
         writeln!(out, "note: {note}")?;
     }

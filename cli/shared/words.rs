@@ -1,5 +1,6 @@
 //! Numbers in the words of a report, and a verdict as an exit status.
 
+use std::borrow::Borrow;
 use std::process::ExitCode;
 
 use helixlock_lab::{Comparison, Doubt, Structure, Verdict};
@@ -43,8 +44,8 @@ pub(crate) fn why_left(left: &Structure) -> String {
 }
 
 /// What a round did to the model: the effect it added, and those it took out again.
-pub(crate) fn change<'a>(added: Option<&str>, dropped: impl Iterator<Item = &'a str>) -> String {
-    let dropped = dropped.collect::<Vec<_>>().join(", ");
+pub(crate) fn change<S: Borrow<str>>(added: Option<&str>, dropped: &[S]) -> String {
+    let dropped = dropped.join(", ");
     match (added, dropped.is_empty()) {
         (Some(added), true) => added.to_owned(),
         (Some(added), false) => format!("{added} in the place of {dropped}"),

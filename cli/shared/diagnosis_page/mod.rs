@@ -129,7 +129,7 @@ fn rounds(diagnosis: &Diagnosis, unit: &str) -> Table {
         let rejected: Vec<String> = round.rejected.iter().take(3).map(reason).collect();
         table.row([
             round.round.to_string(),
-            change(round.added.as_deref(), round.dropped.iter().map(String::as_str)),
+            change(round.added.as_deref(), &round.dropped),
             format!("{:.4}", round.rms_um),
             format!("{:.4}", round.holdout_rms_um),
             round.p_value.map_or(String::new(), chance),

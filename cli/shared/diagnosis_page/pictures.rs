@@ -27,8 +27,7 @@ pub(crate) struct Left {
 impl From<&Round> for Left {
     fn from(round: &Round) -> Self {
         let Round { rms_um, holdout_rms_um, .. } = *round;
-        let dropped = round.dropped.iter().map(String::as_str);
-        Self { change: change(round.added.as_deref(), dropped), rms_um, holdout_rms_um }
+        Self { change: change(round.added.as_deref(), &round.dropped), rms_um, holdout_rms_um }
     }
 }
 

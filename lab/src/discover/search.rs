@@ -189,9 +189,11 @@ fn kept_out(problem: &Problem, state: &State, claim: &Claim<'_>) -> Option<&'sta
     if claim.ahead <= MARGIN || SIGNIFICANCE <= claim.p_value {
         return Some("not beyond chance");
     }
-    let base = Columns::of(problem, &state.without(&claim.group)).ok()?;
-    let columns = base.and(&claim.placed.columns);
-    if !helps_unseen(problem, (&columns, &claim.fit.noises), (&base, &state.fit.noises)) {
+    let helps = Columns::of(problem, &state.without(&claim.group)).is_ok_and(|base| {
+        let columns = base.and(&claim.placed.columns);
+        helps_unseen(problem, (&columns, &claim.fit.noises), (&base, &state.fit.noises))
+    });
+    if !helps {
         return Some("no better on held-out data");
     }
     let left = is_left(problem, &state.fit, &claim.shown(problem));

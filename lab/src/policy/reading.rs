@@ -22,7 +22,7 @@ pub(crate) const MOST_OFF: f64 = 1.25;
 /// JASA 88:782), three deviations. Doubled: knocks of less than six weigh fully.
 pub(crate) const OUTLIER_DEVIATIONS: f64 = 3.0;
 
-/// One sample in so many may be an outlier, and no more say nothing of how far noise takes one.
+/// One sample in so many may be a bad reading, which says nothing of how far noise takes one.
 ///
 /// Chosen: a fifth of a log may be bad readings. Doubled: a tenth.
 pub(crate) const BEYOND_ARE_OUTLIERS: usize = 5;
