@@ -3,7 +3,7 @@
 use super::acceptance::plausible;
 use super::analysis::tried;
 use super::likeness::{by_physics, far_fetched};
-use crate::model::{Component, Judged, Problem, State, pattern};
+use crate::model::{Columns, Component, Judged, Problem, State, pattern, settle};
 use crate::noise::Whitener;
 use crate::numerics::least_squares;
 use crate::numerics::least_squares::dot;
@@ -66,6 +66,10 @@ fn confused(problem: &Problem, state: &State, index: usize, tried: &[Judged]) ->
         .filter(|judged| !far_fetched(&judged.component, component, &state.components))
         .filter(|judged| {
             let behind = own.evidence - judged.evidence;
+            if CLEAR_MARGIN <= behind {
+                return false;
+            }
+            let behind = behind + evidence_beside(problem, state, judged);
             behind < MARGIN
                 || (behind < CLEAR_MARGIN
                     && judged.looks < COINCIDENCE * own.looks
@@ -74,6 +78,15 @@ fn confused(problem: &Problem, state: &State, index: usize, tried: &[Judged]) ->
         })
         .map(|judged| judged.component.term.name.clone())
         .collect()
+}
+
+/// Evidence of a rival beside the whole model, none where it is not worth its price: what it
+/// explains there is no part of what it stands in for.
+fn evidence_beside(problem: &Problem, state: &State, rival: &Judged) -> f64 {
+    let Ok(own) = Columns::of(problem, std::slice::from_ref(&rival.component)) else { return 0.0 };
+    let fit = settle(problem, &state.columns.and(&own), &state.fit.noises);
+    let gain = 2.0 * (fit.log_likelihood - state.fit.log_likelihood);
+    (gain - (rival.gain - rival.evidence)).max(0.0)
 }
 
 /// True for a number of the file, and for a count: that it fits exactly is evidence of its own, and
