@@ -7,6 +7,7 @@
 use crate::noise::{Layout, Noise, SlowPart, Whitener};
 use crate::numerics::least_squares::dot;
 use crate::numerics::{count, fourier, golden_maximum, least_squares, spread, usual_rate};
+use crate::policy::extent::{ALIKE_WINDOW, WINDOW_FROM};
 
 /// Coordinate, noise and whitened residual of a search for lines.
 #[derive(Debug, Clone)]
@@ -57,6 +58,9 @@ pub(crate) struct Point {
 
 /// Scan points a frequency resolution cell; three lose at most a tenth of a peak's gain.
 const POINTS_A_CELL: f64 = 3.0;
+
+/// Frequencies on either side up to the lowest at which a wave is compared with slow ones.
+const SLOW_STEPS: i8 = 2;
 
 /// Share of the best gain below which a peak of the scan is not settled.
 const HOPELESS: f64 = 0.5;
@@ -159,10 +163,13 @@ impl Scan<'_> {
     fn strongest_in_band(&self, white: &[f64]) -> Option<Line> {
         let spectrum = self.spectrum(white);
         let peaks = strongest_first(spectrum);
+        let swift = WINDOW_FROM * usual_rate(self.turns);
+        let is_slow = |frequency| swift < frequency && self.is_a_slow_curve(frequency);
         let mut tried: Vec<f64> = Vec::new();
         let mut best: Option<(f64, f64)> = None;
         for peak in peaks {
-            if tried.iter().any(|known| (known - peak.frequency).abs() < self.resolution()) {
+            let known = |other: &f64| (other - peak.frequency).abs() < self.resolution();
+            if tried.iter().any(known) || is_slow(peak.frequency) {
                 continue;
             }
             // A scan shows every peak at nine tenths of its gain at least.
@@ -179,6 +186,28 @@ impl Scan<'_> {
             }
         }
         best.map(|(frequency, _)| self.line(white, frequency))
+    }
+
+    /// True when a frequency as high as the sampling's shows in every block what a wave slower than
+    /// the lowest shows there: blocks that begin at different places tell the two apart, but each
+    /// has its own zero, which takes the wave away.
+    fn is_a_slow_curve(&self, frequency: f64) -> bool {
+        let alike = |at: f64| ALIKE_WINDOW < self.window(at);
+        (-SLOW_STEPS..=SLOW_STEPS)
+            .any(|step| alike(frequency + self.lowest * f64::from(step) / f64::from(SLOW_STEPS)))
+    }
+
+    /// Spectral window of the blocks, each by itself.
+    fn window(&self, frequency: f64) -> f64 {
+        let size = |rows: &[f64]| {
+            let waves = rows.iter().map(|u| libm::sincos(std::f64::consts::TAU * frequency * u));
+            let (sine, cosine) =
+                waves.fold((0.0, 0.0), |sum, wave| (sum.0 + wave.0, sum.1 + wave.1));
+            libm::hypot(sine, cosine)
+        };
+        let blocks = self.layout.blocks.iter();
+        blocks.map(|block| size(&self.turns[block.rows.clone()])).sum::<f64>()
+            / count(self.turns.len().max(1))
     }
 
     /// Frequency and gain of the peak near a scan point, by golden section.
