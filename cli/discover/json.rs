@@ -20,6 +20,7 @@ keys! {
         rms_um: f64 = found.rms_um[1],
         holdout_rms_before_um: f64 = found.holdout_rms_um[0],
         holdout_rms_um: f64 = found.holdout_rms_um[1],
+        samples_a_pass: f64 = found.samples_a_pass,
         residual: Vec<StructureJson<'a>> = found.residual.iter().map(StructureJson::new).collect(),
         experiments: Vec<ExperimentJson<'a>> =
             found.experiments.iter().take(5).map(ExperimentJson::new).collect(),

@@ -5,7 +5,7 @@ use std::io::Write;
 use helixlock_lab::{Discovery, Found, Proposal, RunnerUp};
 
 use crate::shared::diagnosis_text::{print_doubts, print_effect};
-use crate::shared::words::{why_left, with_error, with_p};
+use crate::shared::words::{why_left, with_error, with_p, worth_of_a_pass};
 
 /// Verdict, formulas with their numbers, what else could stand there, what to do next.
 pub(super) fn print(out: &mut impl Write, found: &Discovery, unit: &str) -> anyhow::Result<()> {
@@ -18,6 +18,7 @@ pub(super) fn print(out: &mut impl Write, found: &Discovery, unit: &str) -> anyh
     writeln!(out, "error:     {:.4} → {:.4} {unit} rms", found.rms_um[0], found.rms_um[1])?;
     let unseen = found.holdout_rms_um;
     writeln!(out, "held out:  {:.4} → {:.4} {unit} rms", unseen[0], unseen[1])?;
+    writeln!(out, "{}", worth_of_a_pass(found.samples_a_pass))?;
     for proposal in &found.proposals {
         print_proposal(out, proposal)?;
     }

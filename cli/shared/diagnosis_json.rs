@@ -15,6 +15,7 @@ keys! {
         doubts: Vec<DoubtJson<'a>> = found.doubts.iter().map(DoubtJson::new).collect(),
         unit: &'static str = measurement.unit_word(),
         noise_um: f64 = found.noise_um,
+        samples_a_pass: f64 = found.samples_a_pass,
         rounds: Vec<RoundJson<'a>> = found.rounds.iter().map(RoundJson::new).collect(),
         effects: Option<Vec<EffectJson<'a>>> = found.rounds.last().map(|last| effects(&last.effects)),
         candidates: Vec<CandidateJson<'a>> =

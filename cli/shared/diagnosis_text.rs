@@ -2,9 +2,9 @@
 
 use std::io::Write;
 
-use helixlock_lab::{Diagnosis, Doubt, FittedEffect, Measurement, Ranked};
+use helixlock_lab::{Diagnosis, Doubt, FittedEffect, Measurement, Ranked, Round};
 
-use crate::shared::words::{change, why_left, with_error, with_p};
+use crate::shared::words::{change, why_left, with_error, with_p, worth_of_a_pass};
 
 /// Standard errors below this have no digit among three decimals.
 const SMALL: f64 = 5e-4;
@@ -24,7 +24,8 @@ pub(crate) fn print(
         writeln!(out, "no effect is named, and none is added, before this is settled")?;
         return Ok(());
     }
-    writeln!(out, "left as noise: {:.4} {unit} rms\n", diagnosis.noise_um)?;
+    writeln!(out, "left as noise: {:.4} {unit} rms", diagnosis.noise_um)?;
+    writeln!(out, "{}\n", worth_of_a_pass(diagnosis.samples_a_pass))?;
     for round in &diagnosis.rounds {
         let change = change(round.added.as_deref(), &round.dropped);
         writeln!(
@@ -98,8 +99,8 @@ fn print_candidates(out: &mut impl Write, diagnosis: &Diagnosis) -> anyhow::Resu
             candidate.holdout_rms_um,
             with_p(candidate.p_value)
         )?;
-        if let Some(why) = why_not(diagnosis, candidate) {
-            writeln!(out, "    not taken: {why}")?;
+        if let Some((round, why)) = why_not(diagnosis, candidate) {
+            writeln!(out, "    not taken{}: {why}", beside(round))?;
         }
         if !candidate.confounded_with.is_empty() {
             writeln!(out, "    cannot be told from: {}", candidate.confounded_with.join(", "))?;
@@ -111,9 +112,17 @@ fn print_candidates(out: &mut impl Write, diagnosis: &Diagnosis) -> anyhow::Resu
     Ok(())
 }
 
-/// Why a candidate did not come into the model, as the last round that tried it says.
-fn why_not<'a>(diagnosis: &'a Diagnosis, candidate: &Ranked) -> Option<&'a str> {
+/// Why a candidate did not come into the model, and the last round that tried it.
+fn why_not<'a>(diagnosis: &'a Diagnosis, candidate: &Ranked) -> Option<(&'a Round, &'a str)> {
     let rounds = diagnosis.rounds.iter().rev().filter(|_| !candidate.accepted);
-    let mut rejected = rounds.flat_map(|round| &round.rejected);
-    rejected.find(|(name, _)| *name == candidate.name).map(|(_, why)| why.as_str())
+    let mut rejected =
+        rounds.flat_map(|round| round.rejected.iter().map(move |(name, why)| (round, name, why)));
+    let (round, _, why) = rejected.find(|(_, name, _)| **name == candidate.name)?;
+    Some((round, why))
+}
+
+/// What a round had found already: the figures of a candidate are those without.
+fn beside(round: &Round) -> String {
+    let names: Vec<&str> = round.effects.iter().map(|effect| effect.name.as_str()).collect();
+    if names.is_empty() { String::new() } else { format!(" beside {}", names.join(", ")) }
 }

@@ -43,6 +43,11 @@ pub(crate) fn why_left(left: &Structure) -> String {
     }
 }
 
+/// How slow what is left is: noise of few independent samples a pass may have slow causes in it.
+pub(crate) fn worth_of_a_pass(samples: f64) -> String {
+    format!("a pass of that is worth {samples:.1} independent samples")
+}
+
 /// What a round did to the model: the effect it added, and those it took out again.
 pub(crate) fn change<S: Borrow<str>>(added: Option<&str>, dropped: &[S]) -> String {
     let dropped = dropped.join(", ");

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::experiment::{self, Advice};
 use crate::doubts::{Doubt, doubts};
-use crate::hypotheses::{Structure, no_larger_than, structures};
+use crate::hypotheses::{Structure, no_larger_than, samples_a_pass, structures};
 use crate::model::{
     Component, JointCovariance, Judged, Problem, State, holdout_rms, joint_covariance,
 };
@@ -124,6 +124,8 @@ pub struct Diagnosis {
     pub doubts: Vec<Doubt>,
     /// Size of what the final model leaves as noise, µm (arcsec).
     pub noise_um: f64,
+    /// Independent samples that a pass of that noise is worth: few, and slow causes may be in it.
+    pub samples_a_pass: f64,
     /// Rounds of the search, the first without any effect.
     pub rounds: Vec<Round>,
     /// Effects tried, those of the final model first.
@@ -158,6 +160,7 @@ fn doubtful(problem: &Problem, doubts: Vec<Doubt>) -> Diagnosis {
         verdict: Verdict::DoubtfulInput,
         doubts,
         noise_um: rms(&problem.layout, &state.fit.left),
+        samples_a_pass: samples_a_pass(problem, &state.fit),
         rounds: rounds(problem, &steps, std::slice::from_ref(&state)),
         candidates: Vec::new(),
         residual: Vec::new(),
@@ -205,6 +208,7 @@ fn searched(problem: &Problem) -> Diagnosis {
         verdict: verdict(state, &found, &residual),
         doubts: Vec::new(),
         noise_um,
+        samples_a_pass: samples_a_pass(&problem, &state.fit),
         rounds: rounds(&problem, &steps, &states),
         candidates,
         residual,

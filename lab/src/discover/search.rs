@@ -5,7 +5,7 @@ use super::proposal::{Granted, Proposal};
 use crate::answer::{Advice, FittedEffect, apart, effects};
 use crate::doubts::{Doubt, doubts};
 use crate::formulas::{Delta, Shape, formulas};
-use crate::hypotheses::{Structure, is_left, structures};
+use crate::hypotheses::{Structure, is_left, samples_a_pass, structures};
 use crate::model::{Columns, Component, Problem, State, helps_unseen, holdout_rms};
 use crate::noise::rms;
 use crate::policy::chance::SIGNIFICANCE;
@@ -60,6 +60,8 @@ pub struct Discovery {
     pub rms_um: [f64; 2],
     /// The same on held-out data.
     pub holdout_rms_um: [f64; 2],
+    /// Independent samples that a pass of what is left is worth: few, and slow causes may be in it.
+    pub samples_a_pass: f64,
     /// What is left that is not noise.
     pub residual: Vec<Structure>,
     /// Experiments that would tell the proposals from their runners-up, best first.
@@ -178,6 +180,7 @@ fn told(problem: &Problem, state: &State) -> Discovery {
         effects: effects(problem, state),
         rms_um: [size(&bare), size(state)],
         holdout_rms_um: [unseen(&bare), unseen(state)],
+        samples_a_pass: samples_a_pass(problem, &state.fit),
         residual: Vec::new(),
         experiments: Vec::new(),
     }

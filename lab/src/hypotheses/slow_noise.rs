@@ -17,9 +17,7 @@ pub(crate) fn taken_for_noise(
     fit: &Fit,
     all: &[Structure],
 ) -> Option<Structure> {
-    let worth = (0..problem.sensors.len())
-        .map(|sensor| samples_a_pass(problem, fit, sensor))
-        .fold(f64::INFINITY, f64::min);
+    let worth = samples_a_pass(problem, fit);
     if WORTH_A_PASS <= worth {
         return None;
     }
@@ -30,8 +28,12 @@ pub(crate) fn taken_for_noise(
     Some(Structure { shape, ..curve.clone() })
 }
 
-/// Independent samples' worth of a pass of a sensor about its mean.
-fn samples_a_pass(problem: &Problem, fit: &Fit, sensor: usize) -> f64 {
-    let (layout, _) = problem.layout.of_sensor(sensor);
-    effective_samples(&layout, &fit.noises[sensor]) / count(layout.blocks.len().max(1))
+/// Independent samples that a pass is worth about its mean, of the sensor that has the fewest.
+#[must_use]
+pub(crate) fn samples_a_pass(problem: &Problem, fit: &Fit) -> f64 {
+    let of_sensor = |sensor: usize| {
+        let (layout, _) = problem.layout.of_sensor(sensor);
+        effective_samples(&layout, &fit.noises[sensor]) / count(layout.blocks.len().max(1))
+    };
+    (0..problem.sensors.len()).map(of_sensor).fold(f64::INFINITY, f64::min)
 }
