@@ -13,6 +13,7 @@ mod judged;
 mod problem;
 mod stage;
 mod state;
+mod targets;
 mod uncertainty;
 
 pub(crate) use columns::Columns;

@@ -76,6 +76,13 @@ impl Unit {
             .unwrap_or(self)
     }
 
+    /// True of what cannot be told without a clock: a time, a frequency, a rate.
+    #[must_use]
+    pub fn is_of_time(&self) -> bool {
+        use Dimension::{Drift, Frequency, RelativeDrift, Time};
+        matches!(self.dimension, Time | Frequency | Drift | RelativeDrift)
+    }
+
     /// The unit as the tail of a column or key name, such as `um_per_m`; empty for a number.
     #[must_use]
     pub fn suffix(&self) -> String {

@@ -7,7 +7,9 @@ use rayon::prelude::*;
 
 use super::experiment::{self, Advice};
 use crate::doubts::{Doubt, doubts};
-use crate::hypotheses::{Structure, no_larger_than, samples_a_pass, structures};
+use crate::hypotheses::{
+    Structure, at_targets, is_left, no_larger_than, samples_a_pass, structures,
+};
 use crate::model::{
     Component, JointCovariance, Judged, Problem, State, holdout_rms, joint_covariance,
 };
@@ -173,6 +175,11 @@ fn doubtful(problem: &Problem, doubts: Vec<Doubt>) -> Diagnosis {
 fn searched(problem: &Problem) -> Diagnosis {
     let mut small = problem.thinned(SEARCHED_ROWS).unwrap_or_else(|| problem.clone());
     let mut steps = search(&mut small);
+    let of_targets = left_at_targets(problem, &small, &steps);
+    if of_targets.is_some() {
+        small = small.with_targets_free();
+        steps = search(&mut small);
+    }
     let (problem, mut states) = on_all_rows(problem, &small, &steps);
     if let Some(last) = states.pop() {
         states.push(polished(&problem, last));
@@ -203,6 +210,7 @@ fn searched(problem: &Problem) -> Diagnosis {
     let mut candidates = ranked(state, &found, &steps[0].tried, &experiments);
     let of_means_um = rms(&small.layout, &last.fit.left);
     no_larger_than(noise_um, &mut residual);
+    residual.extend(of_targets);
     add_scatter(&mut candidates, (noise_um * noise_um - of_means_um * of_means_um).max(0.0));
     Diagnosis {
         verdict: verdict(state, &found, &residual),
@@ -216,6 +224,15 @@ fn searched(problem: &Problem) -> Diagnosis {
         before: problem.residual(),
         left: states.pop().map(|state| state.fit.left).unwrap_or_default(),
     }
+}
+
+/// What targets show at every visit and no effect explains; of means, none.
+fn left_at_targets(problem: &Problem, small: &Problem, steps: &[Step]) -> Option<Structure> {
+    if !small.has_rows_of(problem) {
+        return None;
+    }
+    let State { columns, fit, .. } = &steps[steps.len() - 1].state;
+    at_targets(small, columns, fit).filter(|structure| is_left(small, fit, structure))
 }
 
 /// Every state of a search fitted to all rows, outliers marked as the last one leaves them.

@@ -23,7 +23,7 @@ pub(super) fn errors(problem: &Problem, state: &State, index: usize) -> Vec<Opti
     let component = &state.components[index];
     let mut others = state.components.clone();
     others.remove(index);
-    let Ok(base) = Columns::of(problem, &others) else { return Vec::new() };
+    let Ok(base) = Columns::of_model(problem, &others) else { return Vec::new() };
     let before = Stage::new(problem, &base, &state.fit.noises);
     let Some(best) = gain_at(&before, component) else { return Vec::new() };
     let likelihood = Likelihood { stage: before, component, best };

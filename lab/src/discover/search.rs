@@ -192,7 +192,7 @@ fn kept_out(problem: &Problem, state: &State, claim: &Claim<'_>) -> Option<&'sta
     if claim.ahead <= MARGIN || SIGNIFICANCE <= claim.p_value {
         return Some("not beyond chance");
     }
-    let helps = Columns::of(problem, &state.without(&claim.group)).is_ok_and(|base| {
+    let helps = Columns::of_model(problem, &state.without(&claim.group)).is_ok_and(|base| {
         let columns = base.and(&claim.placed.columns);
         helps_unseen(problem, (&columns, &claim.fit.noises), (&base, &state.fit.noises))
     });

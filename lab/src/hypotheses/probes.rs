@@ -66,6 +66,9 @@ pub(crate) fn no_larger_than(left_um: f64, told: &mut [Structure]) {
     }
 }
 
+/// Words for what targets show.
+const AT_TARGETS: &str = "another error at each target, the same at every visit";
+
 /// Number of probes, for they are counted together: every logged column is one more, and a speed
 /// that changes within a pass.
 pub(super) fn probes(problem: &Problem) -> f64 {
@@ -105,6 +108,7 @@ pub(crate) fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> V
     let mut all = smooth(problem, model, fit);
     all.extend(cyclic_shapes(problem, model, fit));
     all.extend(repeats(problem, fit));
+    all.extend(at_targets(problem, model, fit));
     all.extend(jumping(problem, fit));
     all.extend(one_way_jumps(problem, fit));
     all.extend(local_shapes(problem, fit));
@@ -155,7 +159,7 @@ fn far_above(rms_um: f64, noise_um: f64) -> bool {
 
 fn smooth(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
     let record = &problem.record;
-    let noise = rms(&problem.layout, &fit.left);
+    let noise = weighed_rms(&problem.layout, &fit.left);
     let passes = record.passes().len();
     let position = &record.position_mm;
     let orders = [CURVE_ORDER, BUMP_ORDER, WAVE_ORDER];
@@ -201,7 +205,7 @@ fn smooth_in_passes(problem: &Problem, model: &Columns, fit: &Fit) -> Option<Str
         }
     }
     let (rms_um, chance) = probe(problem, model, fit, &stacked(problem, &raw));
-    let p_value = if far_above(rms_um, rms(&problem.layout, &fit.left)) { chance } else { 1.0 };
+    let p_value = if far_above(rms_um, weighed_rms(&problem.layout, &fit.left)) { chance } else { 1.0 };
     let shape = "smooth curve, another in each pass";
     Some(Structure::without_place("position", shape, rms_um, p_value))
 }
@@ -212,6 +216,17 @@ fn repeats(problem: &Problem, fit: &Fit) -> Option<Structure> {
     let rms_um = rms(&problem.layout, &fit.left) * correlation.max(0.0).sqrt();
     let p_value = (probes(problem) * chance).min(1.0);
     Some(Structure::without_place("position", "repeats from pass to pass", rms_um, p_value))
+}
+
+/// What targets show at every visit, whatever the shape from one to the next.
+#[must_use]
+pub(crate) fn at_targets(problem: &Problem, model: &Columns, fit: &Fit) -> Option<Structure> {
+    let raw: Vec<Column> = problem.columns_of_targets().into_iter().map(Column::from).collect();
+    if raw.is_empty() || !problem.free.raw.is_empty() {
+        return None;
+    }
+    let (rms_um, p_value) = probe(problem, model, fit, &raw);
+    Some(Structure::without_place("position", AT_TARGETS, rms_um, p_value))
 }
 
 /// Several jumps, wherever they are.

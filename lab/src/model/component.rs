@@ -39,6 +39,18 @@ impl Columns {
         }
         Ok(all)
     }
+
+    /// The columns of a model: those of its effects, and what belongs to none behind them.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::of`].
+    pub(crate) fn of_model(
+        problem: &Problem,
+        components: &[Component],
+    ) -> Result<Self, EffectError> {
+        Ok(Self::of(problem, components)?.and(&problem.free))
+    }
 }
 
 impl Component {

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::columns::Columns;
 use super::problem::Problem;
-use crate::noise::{Layout, Noise, Whitener, rms, swift_rms};
+use crate::noise::{Layout, Noise, Whitener, rms, swift_rms, weighed_rms};
 use crate::numerics::{count, least_squares};
 use crate::policy::evidence::{PARTS, TOLD};
 
@@ -23,17 +23,19 @@ pub(crate) type Unseen<'a> = (&'a Columns, &'a [Noise]);
 
 /// True when one model does better on unseen data than another: in all, or in what is swift.
 ///
-/// Slow effects that both lack may lie in the way of a swift one, and weigh more than it does.
+/// Slow effects that both lack may lie in the way of a swift one, and weigh more than it does. An
+/// outlier has no say.
 #[must_use]
 pub(crate) fn helps_unseen(problem: &Problem, model: Unseen<'_>, without: Unseen<'_>) -> bool {
     let (model, without) = (unseen(problem, model), unseen(problem, without));
     let better = |of: fn(&Part) -> f64| size(&model, of) < size(&without, of);
-    better(|part| part.rms) || better(|part| part.swift_rms)
+    better(|part| part.weighed_rms) || better(|part| part.swift_rms)
 }
 
 /// What a model leaves of a part that is held out.
 struct Part {
     rms: f64,
+    weighed_rms: f64,
     swift_rms: f64,
     rows: usize,
 }
@@ -44,7 +46,12 @@ fn unseen(problem: &Problem, (columns, noises): Unseen<'_>) -> Vec<Part> {
         let left = left_unseen(problem, &residual, (columns, noises), held);
         let (layout, rows) = problem.layout.of_rows(held);
         let left: Vec<f64> = rows.iter().map(|&row| left[row]).collect();
-        Part { rms: rms(&layout, &left), swift_rms: swift_rms(&layout, &left), rows: rows.len() }
+        Part {
+            rms: rms(&layout, &left),
+            weighed_rms: weighed_rms(&layout, &left),
+            swift_rms: swift_rms(&layout, &left),
+            rows: rows.len(),
+        }
     };
     folds(problem, columns).par_iter().map(of_fold).collect()
 }

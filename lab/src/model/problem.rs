@@ -8,6 +8,7 @@ use helixlock_plant::{
     Column, Effect, EffectError, Entry, Machine, Model, Part, Record, Samples, Term,
 };
 
+use super::columns::Columns;
 use super::designs::Designs;
 use super::finer::{Finer, interval_s};
 use crate::measurement::{Measurement, spacing};
@@ -53,6 +54,8 @@ pub struct Problem {
     pub(crate) velocity_rpm: OnceLock<Option<Column>>,
     /// How far a closed loop whose steps are not known swings either way, µm; 0 for any other.
     pub(crate) hunting_um: f64,
+    /// What belongs to no effect and every model may follow: see [`Self::with_targets_free`].
+    pub(crate) free: Columns,
 }
 
 impl Problem {
@@ -127,6 +130,7 @@ impl Problem {
             designs: Designs::default(),
             velocity_rpm: OnceLock::new(),
             hunting_um: 0.0,
+            free: Columns::default(),
         };
         (problem.highest_order, problem.highest_hz) = rayon::join(
             || highest_frequency(&problem.record.turns().collect::<Vec<_>>()),

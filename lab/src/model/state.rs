@@ -25,7 +25,7 @@ impl State {
         components: Vec<Component>,
         noises: &[Noise],
     ) -> Option<Self> {
-        let columns = Columns::of(problem, &components).ok()?;
+        let columns = Columns::of_model(problem, &components).ok()?;
         let fit = settle(problem, &columns, noises);
         Some(Self { components, columns, fit })
     }
@@ -60,7 +60,7 @@ impl State {
     /// them, a slow noise may take their place.
     #[must_use]
     pub(crate) fn on(&self, problem: &Problem) -> Option<Self> {
-        let columns = Columns::of(problem, &self.components).ok()?;
+        let columns = Columns::of_model(problem, &self.components).ok()?;
         let left = columns.left(&problem.residual(), &self.fit.linear.coefficients);
         Self::of(problem, self.components.clone(), &noises_of(problem, &left))
     }
@@ -68,9 +68,14 @@ impl State {
     /// The model with nothing added; its noise explains all there is.
     #[must_use]
     pub(crate) fn bare(problem: &Problem) -> Self {
+        let columns = problem.free.clone();
         let noises = noises_of(problem, &problem.residual());
-        let columns = Columns::default();
-        let fit = settle(problem, &columns, &noises);
+        let near = settle(problem, &columns, &noises);
+        let fit = if columns.raw.is_empty() {
+            near
+        } else {
+            settle(problem, &columns, &noises_of(problem, &near.left))
+        };
         Self { components: Vec::new(), columns, fit }
     }
 

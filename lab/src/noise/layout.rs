@@ -100,10 +100,15 @@ pub(crate) fn rms(layout: &Layout, left: &[f64]) -> f64 {
 /// The same of rows as they weigh, so that one outlier is not most of it.
 #[must_use]
 pub(crate) fn weighed_rms(layout: &Layout, left: &[f64]) -> f64 {
+    weighed(layout, layout.blocks.iter().map(|block| block.rows.clone()), left)
+}
+
+/// Root mean square about the mean of each stretch, rows as they weigh.
+fn weighed(layout: &Layout, stretches: impl Iterator<Item = Range<usize>>, left: &[f64]) -> f64 {
     let (mut square, mut all) = (0.0, 0.0);
-    for block in &layout.blocks {
-        let part = &left[block.rows.clone()];
-        let weights = layout.inflation[block.rows.clone()].iter().map(|by| 1.0 / by);
+    for rows in stretches {
+        let part = &left[rows.clone()];
+        let weights = layout.inflation[rows].iter().map(|by| 1.0 / by);
         let weight: f64 = weights.clone().sum();
         let sum: f64 = weights.clone().zip(part).map(|(by, value)| by * value).sum();
         let mean = sum / weight.max(f64::MIN_POSITIVE);
@@ -114,8 +119,8 @@ pub(crate) fn weighed_rms(layout: &Layout, left: &[f64]) -> f64 {
     (square / all.max(f64::MIN_POSITIVE)).sqrt()
 }
 
-/// Root mean square about the mean of each tenth of a pass, µm: slow effects that are still to be
-/// found are no noise for a swift one.
+/// Root mean square about the mean of each tenth of a pass, µm, rows as they weigh: slow effects
+/// that are still to be found are no noise for a swift one.
 #[must_use]
 pub(crate) fn swift_rms(layout: &Layout, left: &[f64]) -> f64 {
     let stretches = layout.blocks.iter().flat_map(|block| {
@@ -123,5 +128,5 @@ pub(crate) fn swift_rms(layout: &Layout, left: &[f64]) -> f64 {
         let length = (end - start).div_ceil(STRETCHES).max(1);
         (start..end).step_by(length).map(move |from| from..(from + length).min(end))
     });
-    rms_about_means(stretches, left)
+    weighed(layout, stretches, left)
 }

@@ -126,7 +126,7 @@ fn known_together(problem: &Problem, now: &State, tried: &[Judged]) -> Option<Ve
                 .map(|index| known[index].clone())
                 .collect();
             let all = [now.components.clone(), members.clone()].concat();
-            let columns = Columns::of(problem, &all).ok()?;
+            let columns = Columns::of_model(problem, &all).ok()?;
             let rough = with_noise(
                 &problem.layout,
                 &columns,

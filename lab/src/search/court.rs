@@ -204,7 +204,7 @@ impl<'a> Court<'a> {
 
     /// Columns of the effects that are in no group.
     fn without(&self, group: &[usize]) -> Option<Columns> {
-        Columns::of(self.problem, &self.state.without(group)).ok()
+        Columns::of_model(self.problem, &self.state.without(group)).ok()
     }
 
     /// The shape that explains more than a group of effects in their place, and by how much.

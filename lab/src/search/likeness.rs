@@ -10,7 +10,7 @@ use crate::model::{Component, Problem, State, pattern};
 use crate::noise::{Block, Whitener};
 use crate::numerics::least_squares::dot;
 use crate::numerics::{count, least_squares, resolves, spread};
-use crate::policy::evidence::{HIGH_HARMONIC_PRICE, SHAPE, VISITS, WAVE, WAVES_A_PASS};
+use crate::policy::evidence::{HIGH_HARMONIC_PRICE, SHAPE, WAVE, WAVES_A_PASS};
 use crate::policy::extent::{ROWS_A_COLUMN, RUN_IN};
 use crate::policy::reading::REVERSAL_REACH;
 use crate::policy::size::ANOTHER_SPEED;
@@ -217,6 +217,14 @@ pub(crate) fn by_the_clock(problem: &Problem, component: &Component) -> bool {
         && WAVES_A_PASS <= longest_s * term.values[hertz]
 }
 
+/// True unless an effect runs by the clock where nobody measured it and the axis stands at targets:
+/// the time that follows from the travel is none then.
+#[must_use]
+pub(crate) fn has_its_time(problem: &Problem, component: &Component) -> bool {
+    let by_time = component.term.parameters.iter().any(|what| what.unit.is_of_time());
+    !by_time || problem.measurement.timed || problem.targets().is_none()
+}
+
 /// True unless all samples stand at targets that do not tell a wave over the travel from a longer
 /// one, as even ones with less than two in a wave: what it shows there is each target's own.
 #[must_use]
@@ -224,14 +232,7 @@ pub(crate) fn resolved(problem: &Problem, component: &Component) -> bool {
     if component.term.parameters.iter().all(|what| what.role != Role::Amplitude) {
         return true;
     }
-    let mut turns: Vec<f64> = problem.record.turns().collect();
-    let samples = turns.len();
-    turns.sort_by(f64::total_cmp);
-    let apart = 1e-6 * spread(&turns);
-    turns.dedup_by(|next, before| *next - *before <= apart);
-    if samples < VISITS * turns.len() {
-        return true;
-    }
+    let Some(turns) = problem.targets() else { return true };
     let context = Context { machine: &problem.model, columns: &problem.record.columns };
     let basis = component.term.basis(&context).map(|basis| basis.columns).unwrap_or_default();
     let turn_mm = problem.model.workpiece.lead.mm();

@@ -29,6 +29,8 @@ pub(crate) enum Refusal {
     Edge,
     /// A frequency in time, without a clock, a second speed, or enough waves in a pass.
     Clock,
+    /// A time, at targets that nobody measured the time of.
+    Untimed,
     /// A wave shorter than what targets resolve.
     Targets,
     /// A play wider than every move of the motor.
@@ -61,6 +63,7 @@ impl Refusal {
                 | Self::Flank
                 | Self::Piece
                 | Self::Edge
+                | Self::Untimed
                 | Self::Play
                 | Self::Again
         )
@@ -107,6 +110,7 @@ impl fmt::Display for Refusal {
             Self::Clock => f.write_str(
                 "a frequency in time needs a clock, two speeds and three waves in a pass",
             ),
+            Self::Untimed => f.write_str("the axis stands at targets, and no time was measured"),
             Self::Targets => f.write_str("not told by the targets from a longer wave"),
             Self::Play => f.write_str("a play wider than every move of the motor"),
             Self::Again => f.write_str("it is in the model already"),
