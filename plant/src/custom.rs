@@ -4,6 +4,7 @@ mod bound;
 mod memory;
 mod mistakes;
 mod operators;
+mod powers;
 
 use exmex::{Express, FlatEx};
 
@@ -133,8 +134,8 @@ impl Custom {
         if let Some(mistake) = mistakes::first(&text) {
             return Err(refuse(mistake));
         }
-        let expression =
-            Expression::parse(&text).map_err(|error| refuse(error.msg().to_lowercase()))?;
+        let expression = Expression::parse(&powers::in_brackets(&text))
+            .map_err(|error| refuse(error.msg().to_lowercase()))?;
         let memories: Vec<Memory> = calls
             .iter()
             .map(|call| read_memory(call, parameters).map_err(&refuse))

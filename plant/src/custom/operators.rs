@@ -10,13 +10,14 @@ pub(super) struct Operators;
 
 impl MakeOperators<f64> for Operators {
     fn make<'a>() -> Vec<Operator<'a, f64>> {
-        let binary = |apply, prio, is_commutative| BinOp { apply, prio, is_commutative };
+        // Of operators that it may turn round, the library draws numbers out of brackets.
+        let binary = |apply, prio| BinOp { apply, prio, is_commutative: false };
         let mut operators = vec![
-            Operator::make_bin("^", binary(libm::pow, 4, false)),
-            Operator::make_bin("*", binary(|a, b| a * b, 2, true)),
-            Operator::make_bin("/", binary(|a, b| a / b, 3, false)),
-            Operator::make_bin_unary("+", binary(|a, b| a + b, 0, true), |a| a),
-            Operator::make_bin_unary("-", binary(|a, b| a - b, 1, false), |a| -a),
+            Operator::make_bin("^", binary(libm::pow, 4)),
+            Operator::make_bin("*", binary(|a, b| a * b, 2)),
+            Operator::make_bin("/", binary(|a, b| a / b, 3)),
+            Operator::make_bin_unary("+", binary(|a, b| a + b, 0), |a| a),
+            Operator::make_bin_unary("-", binary(|a, b| a - b, 1), |a| -a),
             Operator::make_constant("pi", std::f64::consts::PI),
             Operator::make_constant("π", std::f64::consts::PI),
         ];
