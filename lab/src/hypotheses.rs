@@ -22,7 +22,7 @@ pub(crate) use calibration::chance as chance_in_noise;
 pub(crate) use candidates::{Candidate, as_it_stands, candidate, candidates, turn_scan};
 pub(crate) use flaws::{above_hunting, least_above_hunting};
 pub use probes::Structure;
-pub(crate) use probes::{all_structures, is_left, matters, at_targets, no_larger_than, structures};
+pub(crate) use probes::{all_structures, at_targets, is_left, matters, no_larger_than, structures};
 pub(crate) use setting_trial::setting_trials;
 pub(crate) use slow_noise::{samples_a_pass, taken_for_noise};
 pub(crate) use tails::chance_with_tails;

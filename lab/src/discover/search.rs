@@ -4,11 +4,11 @@
 use super::proposal::{Granted, Proposal};
 use crate::answer::{Advice, FittedEffect, apart, effects};
 use crate::doubts::{Doubt, doubts};
-use crate::formulas::{Delta, Shape, formulas};
+use crate::formulas::{Delta, Part, Shape, formulas};
 use crate::hypotheses::{Structure, is_left, samples_a_pass, structures};
 use crate::model::{Columns, Component, Problem, State, helps_unseen, holdout_rms};
 use crate::noise::rms;
-use crate::policy::chance::SIGNIFICANCE;
+use crate::policy::chance::{SIGNIFICANCE, STANDARD_ERRORS};
 use crate::policy::evidence::MARGIN;
 use crate::policy::extent::{MOST_FORMULAS, SEARCHED_ROWS};
 use crate::search::{Claim, Rivals, claims, polished, rivals, search};
@@ -192,6 +192,9 @@ fn kept_out(problem: &Problem, state: &State, claim: &Claim<'_>) -> Option<&'sta
     if claim.ahead <= MARGIN || SIGNIFICANCE <= claim.p_value {
         return Some("not beyond chance");
     }
+    if !is_held(claim) {
+        return Some("the data do not hold its numbers");
+    }
     let helps = Columns::of_model(problem, &state.without(&claim.group)).is_ok_and(|base| {
         let columns = base.and(&claim.placed.columns);
         helps_unseen(problem, (&columns, &claim.fit.noises), (&base, &state.fit.noises))
@@ -201,6 +204,26 @@ fn kept_out(problem: &Problem, state: &State, claim: &Claim<'_>) -> Option<&'sta
     }
     let left = is_left(problem, &state.fit, &claim.shown(problem));
     (!left).then_some("too small to change a figure")
+}
+
+/// True unless the size of a wave is lost in its error, as where the samples always meet it at the
+/// same two phases.
+fn is_held(claim: &Claim<'_>) -> bool {
+    let linear = &claim.fit.linear;
+    let mut at = linear.coefficients.len() - claim.placed.columns.raw.len();
+    claim.placed.shape.parts.iter().all(|part| {
+        let Part::Wave { .. } = part else {
+            at += 1;
+            return true;
+        };
+        let [sine, cosine] = [linear.coefficients[at], linear.coefficients[at + 1]];
+        let variance = sine * sine * linear.covariance[(at, at)]
+            + 2.0 * sine * cosine * linear.covariance[(at, at + 1)]
+            + cosine * cosine * linear.covariance[(at + 1, at + 1)];
+        at += 2;
+        let power = sine * sine + cosine * cosine;
+        STANDARD_ERRORS * variance.max(0.0).sqrt() < power
+    })
 }
 
 /// The claim that is most ahead of those that may join; where others in its place cannot be told

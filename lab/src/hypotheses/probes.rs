@@ -67,7 +67,7 @@ pub(crate) fn no_larger_than(left_um: f64, told: &mut [Structure]) {
 }
 
 /// Words for what targets show.
-const AT_TARGETS: &str = "another error at each target, the same at every visit";
+const AT_TARGETS: &str = "own error of each target, at every visit";
 
 /// Number of probes, for they are counted together: every logged column is one more, and a speed
 /// that changes within a pass.
@@ -205,7 +205,8 @@ fn smooth_in_passes(problem: &Problem, model: &Columns, fit: &Fit) -> Option<Str
         }
     }
     let (rms_um, chance) = probe(problem, model, fit, &stacked(problem, &raw));
-    let p_value = if far_above(rms_um, weighed_rms(&problem.layout, &fit.left)) { chance } else { 1.0 };
+    let p_value =
+        if far_above(rms_um, weighed_rms(&problem.layout, &fit.left)) { chance } else { 1.0 };
     let shape = "smooth curve, another in each pass";
     Some(Structure::without_place("position", shape, rms_um, p_value))
 }

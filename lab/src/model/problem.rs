@@ -81,9 +81,12 @@ impl Problem {
             return None;
         }
         let velocity: Column = self.record.instants().map(|now| now.velocity_rpm).collect();
-        let usual = velocity.iter().zip(self.record.speed_rpm.iter());
-        let is_off = |(now, usual): &(&f64, &f64)| ONE_SPEED < (now.abs() / *usual - 1.0).abs();
-        let off = usual.filter(is_off).count();
+        let off_in = |rows: Range<usize>| {
+            let mut speeds: Vec<f64> = velocity[rows].iter().map(|now| now.abs()).collect();
+            let usual = median(&mut speeds);
+            speeds.iter().filter(|speed| ONE_SPEED * usual < (*speed - usual).abs()).count()
+        };
+        let off: usize = self.record.passes().into_iter().map(off_in).sum();
         (SAMPLES_OFF * count(velocity.len()) < count(off)).then_some(velocity)
     }
 

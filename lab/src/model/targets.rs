@@ -35,12 +35,13 @@ impl Problem {
         let turns: Vec<f64> = self.record.turns().collect();
         let target_of = |turn: f64| targets.partition_point(|target| *target <= turn + apart);
         let of: Vec<usize> = turns.into_iter().map(target_of).collect();
-        let one = |sensor, target| {
-            self.alone(sensor, |sample| f64::from(u8::from(of[sample] == target)))
-        };
+        let one =
+            |sensor, target| self.alone(sensor, |sample| f64::from(u8::from(of[sample] == target)));
         // The zero of a pass stands for the first.
         let sensors = 0..self.sensors.len();
-        sensors.flat_map(|sensor| (2..=targets.len()).map(move |target| one(sensor, target))).collect()
+        sensors
+            .flat_map(|sensor| (2..=targets.len()).map(move |target| one(sensor, target)))
+            .collect()
     }
 
     /// The same problem with what each target shows at every visit left free, so that what happens

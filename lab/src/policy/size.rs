@@ -87,9 +87,16 @@ pub(crate) const ONE_SPEED: f64 = 0.2;
 
 /// Share of the samples that must be.
 ///
-/// Chosen: a resolver's record that stands for half of its time, between a turn out and one back, tells a
-/// reading that is late. Doubled: that one is not asked.
-pub(crate) const SAMPLES_OFF: f64 = 0.25;
+/// Chosen: an axis that goes and stands by turns, 12 % of its samples off its speed, tells a reading
+/// that is late. Doubled: that one is not asked.
+pub(crate) const SAMPLES_OFF: f64 = 0.1;
+
+/// Of so many moving samples, one slower or faster than the others has no say in how many speeds
+/// there are.
+///
+/// Chosen: of an axis that goes and stands, fewer are on the way to its speed. Doubled: one pass of
+/// forty at another speed is a second one.
+pub(crate) const ON_THE_WAY: usize = 20;
 
 /// Share of a record that a pause must have to count as a dwell.
 ///

@@ -9,11 +9,11 @@ use helixlock_plant::{CATALOGUE, Context, Entry, Role, Search, Smoothness, Term}
 use crate::model::{Component, Problem, State, pattern};
 use crate::noise::{Block, Whitener};
 use crate::numerics::least_squares::dot;
-use crate::numerics::{count, least_squares, resolves, spread};
+use crate::numerics::{count, least_squares, one_in, resolves, spread};
 use crate::policy::evidence::{HIGH_HARMONIC_PRICE, SHAPE, WAVE, WAVES_A_PASS};
 use crate::policy::extent::{ROWS_A_COLUMN, RUN_IN};
 use crate::policy::reading::REVERSAL_REACH;
-use crate::policy::size::ANOTHER_SPEED;
+use crate::policy::size::{ANOTHER_SPEED, ON_THE_WAY};
 
 /// True for a high harmonic, such as one of the machine's screw, of which the lower ones are not in
 /// the model; a shaft that the machine file lists runs out once a turn.
@@ -208,13 +208,22 @@ pub(crate) fn by_the_clock(problem: &Problem, component: &Component) -> bool {
         return true;
     };
     let record = &problem.record;
-    let (speeds, passes) = (&record.speed_rpm, record.passes());
-    let fastest = speeds.iter().copied().fold(0.0, f64::max);
-    let seconds = passes.into_iter().map(|rows| spread(&record.time_s[rows]));
+    let seconds = record.passes().into_iter().map(|rows| spread(&record.time_s[rows]));
     let longest_s = seconds.fold(0.0, f64::max);
     problem.measurement.timed
-        && ANOTHER_SPEED * fastest < spread(speeds)
+        && has_two_speeds(&record.speed_rpm)
         && WAVES_A_PASS <= longest_s * term.values[hertz]
+}
+
+/// True when enough samples that move go at another speed than the others.
+fn has_two_speeds(speed_rpm: &[f64]) -> bool {
+    let fastest = speed_rpm.iter().copied().fold(0.0, f64::max);
+    let moves = |speed: &f64| ANOTHER_SPEED * fastest < *speed;
+    let mut moving: Vec<f64> = speed_rpm.iter().copied().filter(moves).collect();
+    let fast = one_in(&mut moving, ON_THE_WAY);
+    moving.iter_mut().for_each(|speed| *speed = -*speed);
+    let slow = -one_in(&mut moving, ON_THE_WAY);
+    ANOTHER_SPEED * fastest < fast - slow
 }
 
 /// True unless an effect runs by the clock where nobody measured it and the axis stands at targets:

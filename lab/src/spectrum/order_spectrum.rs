@@ -164,12 +164,15 @@ impl Scan<'_> {
         let spectrum = self.spectrum(white);
         let peaks = strongest_first(spectrum);
         let swift = WINDOW_FROM * usual_rate(self.turns);
-        let is_slow = |frequency| swift < frequency && self.is_a_slow_curve(frequency);
+        let is_untold = |frequency: f64| {
+            (swift < frequency && self.is_a_slow_curve(frequency))
+                || (swift < 2.0 * frequency && self.has_one_phase(frequency))
+        };
         let mut tried: Vec<f64> = Vec::new();
         let mut best: Option<(f64, f64)> = None;
         for peak in peaks {
             let known = |other: &f64| (other - peak.frequency).abs() < self.resolution();
-            if tried.iter().any(known) || is_slow(peak.frequency) {
+            if tried.iter().any(known) || is_untold(peak.frequency) {
                 continue;
             }
             // A scan shows every peak at nine tenths of its gain at least.
@@ -195,6 +198,12 @@ impl Scan<'_> {
         let alike = |at: f64| ALIKE_WINDOW < self.window(at);
         (-SLOW_STEPS..=SLOW_STEPS)
             .any(|step| alike(frequency + self.lowest * f64::from(step) / f64::from(SLOW_STEPS)))
+    }
+
+    /// True when every sample of a block meets a wave at the same phase or half a turn from it, as at
+    /// half the rate of even samples: its size depends on a phase that nothing tells.
+    fn has_one_phase(&self, frequency: f64) -> bool {
+        ALIKE_WINDOW < self.window(2.0 * frequency)
     }
 
     /// Spectral window of the blocks, each by itself.
