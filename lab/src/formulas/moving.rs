@@ -175,8 +175,7 @@ pub(super) fn in_time(all: &Quantities) -> Vec<Shape> {
             .unknown("peak_s", s, peaks)
             .curve("size", share.clone() * call(Function::Exp, number(1.0) - share)),
     ];
-    // In one pass it stands at one place as well.
-    if 1 < passes {
+    if all.tell_moments_from_places() {
         let moments = evenly(low, low + range, PLACES_A_PASS * passes.min(MOST_PASSES));
         let off = (of(t) - unknown(0)) / unknown(1);
         shapes.push(
@@ -189,6 +188,14 @@ pub(super) fn in_time(all: &Quantities) -> Vec<Shape> {
             .unknown("width_s", s, widths)
             .placed()
             .curve("size", bell(off)),
+        );
+        let off = call(Function::Abs, of(t) - unknown(0));
+        shapes.push(
+            shape("spell at another level", "time", "something gave way and came back")
+                .unknown("at_s", s, evenly(low, low + range, 48 * passes.min(MOST_PASSES)))
+                .unknown("half_s", s, by_factors(0.02 * range, 0.22 * range, 8))
+                .placed()
+                .curve("size", call(Function::Step, unknown(1) - off)),
         );
     }
     shapes

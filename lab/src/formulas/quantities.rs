@@ -65,6 +65,13 @@ impl Quantities {
         }
     }
 
+    /// True unless a moment is a place as well, as in one pass that does not turn back.
+    pub(crate) fn tell_moments_from_places(&self) -> bool {
+        1 < self.passes
+            || spread(&self.position.values) <= 0.0
+            || 0.0 < spread(&self.direction.values)
+    }
+
     /// Shafts whose turns the samples resolve, by name and turns a turn of the spindle.
     pub(crate) fn shafts(&self, problem: &Problem) -> Vec<(String, f64)> {
         let mut shafts = vec![("spindle angle".to_owned(), 1.0)];

@@ -4,11 +4,13 @@
 //! there, and nothing is known between. A straight line from reading to reading is as true to the
 //! log as the staircase, and does not lag behind the truth by half a tick.
 
+use std::f64::consts::TAU;
+
 use helixlock_plant::{Bridging, LOGGED_COLUMNS, LoggedColumn};
 
 use super::Measurement;
 use crate::numerics::count;
-use crate::policy::reading::{AT_A_TICK, FEWEST_TICKS, ROWS_A_READING};
+use crate::policy::reading::{AT_A_TICK, BY_ACCIDENT, ROWS_A_READING};
 
 /// How well a tick is known, in intervals of rows.
 const SLACK: f64 = 0.25;
@@ -51,6 +53,19 @@ impl Measurement {
 /// Most ticks from one change to the next that changes usually: a reading may equal the last.
 const MOST_TICKS: u8 = 4;
 
+/// Changes that a clock is looked for in before the others settle it.
+const FIRST: usize = 64;
+
+/// Clocks tried where two of them come apart by a tick over those changes, and most of all.
+const STEPS_A_CELL: f64 = 8.0;
+const MOST_STEPS: f64 = 1e5;
+
+/// Share of the highest peak that a slower one needs.
+const AS_HIGH: f64 = 0.9;
+
+/// Ticks before the fit is better than the first guess.
+const ENOUGH: usize = 4;
+
 impl Clock {
     /// The clock that a column follows; `None` when it changes at other times, or at every row.
     fn of(time: &[f64], values: &[f64]) -> Option<Self> {
@@ -64,47 +79,82 @@ impl Clock {
             return None;
         }
         let interval = (time[time.len() - 1] - time[0]) / count(time.len());
-        let mut gaps: Vec<f64> =
-            changes.windows(2).map(|pair| middle(&pair[1]) - middle(&pair[0])).collect();
-        gaps.sort_by(f64::total_cmp);
-        let usual = gaps[gaps.len() / 4];
-        (1..=MOST_TICKS)
-            .filter_map(|ticks| Self::near(&changes, usual / f64::from(ticks)))
-            .find(|clock| clock.explains(&changes, interval))
+        Self::of_changes(&changes).filter(|clock| clock.explains(&changes, interval))
     }
 
-    /// The clock of about this period that the changes follow best, found from one to the next.
-    fn near(changes: &[Change], period: f64) -> Option<Self> {
-        let told = changes.iter().filter(|[before, after]| after - before <= 0.5 * period);
-        let ticks: Vec<f64> = told.map(middle).collect();
-        let mut clock = Self { start: *ticks.first()?, period };
-        // Sums of number, number², instant and number × instant, against the first.
+    /// The clock whose ticks the first changes lie closest to, found from them on.
+    fn of_changes(changes: &[Change]) -> Option<Self> {
+        let first: Vec<f64> = changes.iter().take(FIRST).map(middle).collect();
+        let mut gaps: Vec<f64> = first.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        gaps.sort_by(f64::total_cmp);
+        let usual = *gaps.get(gaps.len() / 4)?;
+        let lasts = first[first.len() - 1] - first[0];
+        let step = STEPS_A_CELL.recip() / lasts;
+        let (low, high) = (0.8 / usual, f64::from(MOST_TICKS) / usual);
+        if !(0.0 < step && (high - low) / step < MOST_STEPS) {
+            return None;
+        }
+        let together = |frequency: f64| {
+            let waves = first.iter().map(|at| libm::sincos(TAU * frequency * (at - first[0])));
+            waves.fold([0.0, 0.0], |sum, (sine, cosine)| [sum[0] + sine, sum[1] + cosine])
+        };
+        let steps = std::iter::successors(Some(low), |last| Some(last + step));
+        let tried: Vec<f64> = steps.take_while(|frequency| *frequency <= high).collect();
+        let size = |frequency: &f64| {
+            let [sine, cosine] = together(*frequency);
+            libm::hypot(sine, cosine)
+        };
+        let sizes: Vec<f64> = tried.iter().map(size).collect();
+        let best = tried[slowest_peak(&sizes)?];
+        let [sine, cosine] = together(best);
+        let start = first[0] + libm::atan2(sine, cosine) / (TAU * best);
+        Self { start, period: best.recip() }.near(changes)
+    }
+
+    /// The clock near this one that the changes follow best, found from one to the next; each
+    /// counts as it is known.
+    fn near(self, changes: &[Change]) -> Option<Self> {
+        let told = changes.iter().filter(|[before, after]| after - before <= 0.5 * self.period);
+        let mut clock = self;
+        // Sums of weight, number, number², instant and number × instant, against the start.
         let (mut n, mut k, mut kk, mut t, mut kt) = (0.0, 0.0, 0.0, 0.0, 0.0);
-        for tick in &ticks {
-            let (number, since) = (clock.number(*tick).round(), tick - ticks[0]);
-            (n, k, kk) = (n + 1.0, k + number, kk + number * number);
-            (t, kt) = (t + since, kt + number * since);
+        for (place, change) in told.enumerate() {
+            let weight = (change[1] - change[0]).max(f64::MIN_POSITIVE).powi(-2);
+            let (number, since) =
+                (clock.number(middle(change)).round(), middle(change) - self.start);
+            (n, k, kk) = (n + weight, k + weight * number, kk + weight * number * number);
+            (t, kt) = (t + weight * since, kt + weight * number * since);
             let spread = n * kk - k * k;
-            if 0.0 < spread {
+            if ENOUGH <= place + 1 && 0.0 < spread {
                 clock.period = (n * kt - k * t) / spread;
-                clock.start = ticks[0] + (t - clock.period * k) / n;
+                clock.start = self.start + (t - clock.period * k) / n;
             }
         }
         (0.0 < clock.period).then_some(clock)
     }
 
-    /// True when hardly a change lies anywhere but at a tick, of those that might.
+    /// True when hardly a change lies anywhere but at a tick, of those that might, and changes at
+    /// any time would not.
     fn explains(&self, changes: &[Change], interval: f64) -> bool {
         let (mut might, mut elsewhere) = (0.0, 0.0);
+        let mut chances: Vec<f64> = Vec::new();
         for change in changes {
             let reach = 0.5 * (change[1] - change[0]) + SLACK * interval;
             let number = self.number(middle(change));
-            might += (1.0 - 2.0 * reach / self.period).max(0.0);
+            let chance = (2.0 * reach / self.period).min(1.0);
+            might += 1.0 - chance;
             if reach < self.period * (number - number.round()).abs() {
                 elsewhere += 1.0;
+            } else {
+                chances.push(libm::log(chance));
             }
         }
-        FEWEST_TICKS <= might && elsewhere < (1.0 - AT_A_TICK) * might
+        chances.sort_by(f64::total_cmp);
+        // Start and period suit two changes at least.
+        let by_accident: f64 = chances.iter().skip(2).sum();
+        let looks =
+            libm::log(f64::from(MOST_TICKS) * STEPS_A_CELL * count(changes.len().min(FIRST)));
+        by_accident + looks < libm::log(BY_ACCIDENT) && elsewhere < (1.0 - AT_A_TICK) * might
     }
 
     /// Ticks since the start, and parts of one.
@@ -144,6 +194,16 @@ impl Clock {
     }
 }
 
+/// The first peak that is nearly as high as any: a clock of half the period ticks at each tick, too.
+fn slowest_peak(sizes: &[f64]) -> Option<usize> {
+    let highest = sizes.iter().copied().fold(0.0, f64::max);
+    let mut at = sizes.iter().position(|size| AS_HIGH * highest <= *size)?;
+    while sizes.get(at + 1).is_some_and(|next| sizes[at] < *next) {
+        at += 1;
+    }
+    Some(at)
+}
+
 fn middle([before, after]: &Change) -> f64 {
     0.5 * (before + after)
 }
@@ -179,6 +239,37 @@ mod tests {
         assert!(0.2 < worst(&time, &held));
         let worst = worst(&time[..until], &joined[..until]);
         assert!(worst < 0.03, "{worst}");
+    }
+
+    /// A reading every 300 s, one of which equals the last and one of which comes while the table
+    /// returns, is told by six changes.
+    #[test]
+    fn few_readings_are_held_all_the_same() {
+        let time: Vec<f64> = (0..480)
+            .map(|i| 5.6 * f64::from(i) + 0.9 * libm::sin(1.7 * f64::from(i)))
+            .filter(|t| !(601.0..670.0).contains(t))
+            .collect();
+        let levels = [20.3, 20.5, 20.7, 20.8, 20.8, 20.6, 20.4, 20.2, 20.0];
+        let reading = |t: &f64| levels.iter().zip(1_u8..).find(|(_, k)| *t < 300.0 * f64::from(*k));
+        let held: Vec<f64> = time.iter().map(|t| *reading(t).expect("a level").0).collect();
+        let clock = Clock::of(&time, &held).expect("a clock");
+        assert!((clock.period - 300.0).abs() < 3.0, "{clock:?}");
+    }
+
+    /// Changes at any time follow a clock once in 2000 logs.
+    #[test]
+    fn changes_at_any_time_follow_no_clock() {
+        let time: Vec<f64> = (0..500).map(f64::from).collect();
+        let follows = |seed: u32| {
+            let at = |k: u32| {
+                500.0 * f64::from((seed * 7919 + k * k * 104_729 + k * 31) % 9973) / 9973.0
+            };
+            let changes = 5 + seed % 20;
+            let value = |t: &f64| f64::from((0..changes).filter(|k| at(*k) <= *t).sum::<u32>());
+            Clock::of(&time, &time.iter().map(value).collect::<Vec<_>>()).is_some()
+        };
+        let accidents = (0..2000).filter(|seed| follows(*seed)).count();
+        assert!(accidents < 8, "{accidents}");
     }
 
     #[test]
