@@ -10,6 +10,7 @@ mod along;
 mod column;
 mod common;
 mod court;
+mod direction;
 mod dividers;
 mod doubt;
 mod factor;
@@ -58,6 +59,7 @@ pub fn doubts(problem: &Problem) -> Vec<Doubt> {
 fn hypotheses(problem: &Problem) -> Vec<Hypothesis> {
     let mut all = column::units(problem);
     all.extend(swap::swaps(problem));
+    all.extend(direction::turned(problem));
     all.extend(shift::shifts(problem));
     all.extend(dividers::other_dividers(problem));
     if !follows_steps(problem) {

@@ -109,6 +109,10 @@ pub enum Search {
 /// values of a rotary chain are those of a servo as well as those of a telescope.
 const ARCSEC_A_UM: f64 = 36.0;
 
+/// How far off a coarse sensor of a rotary chain may be, a resolver or the poles of a magnet: ten
+/// degrees.
+const COARSE_ARCSEC: f64 = 36_000.0;
+
 /// A number an effect needs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
@@ -217,7 +221,14 @@ impl Parameter {
         let angular = self.unit.on_rotary_chain();
         if !self.of_part && angular != self.unit {
             self.unit = angular;
-            let wider = |bound: &f64| ARCSEC_A_UM * bound;
+            let least = if self.is_nonlinear() { 0.0 } else { COARSE_ARCSEC };
+            let wider = |bound: &f64| {
+                if *bound == 0.0 {
+                    0.0
+                } else {
+                    (ARCSEC_A_UM * bound.abs()).max(least).copysign(*bound)
+                }
+            };
             self.range = wider(self.range.start())..=wider(self.range.end());
         }
         self

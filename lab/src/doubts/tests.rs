@@ -87,6 +87,27 @@ fn a_sign_and_a_unit_are_told_by_what_the_file_predicts() {
     assert!(what == "unit" && mend.ends_with("unit = \"nm\"\nsign = -1"), "{what} {mend}");
 }
 
+/// The way there and back with play and waves, its direction told the other way round.
+#[test]
+fn a_direction_is_told_by_the_travel_and_the_play_of_the_file() {
+    let known = machine(150, &format!("{WAVES}[[effect]]\nkind = 'backlash'\nwidth = '4 um'\n"));
+    let there_and_back = |error_um: &[f64], way: f64| {
+        let mut table = table(error_um);
+        let places = (0..600_u32).map(|row| 0.5 * f64::from(row.min(600 - row)));
+        table.columns[0].values = places.collect();
+        let directions = (0..600).map(|row| if row < 300 { way } else { -way });
+        table.columns.push(Column { name: "direction".to_owned(), values: directions.collect() });
+        table
+    };
+    let clean = problem(&known, &there_and_back(&[0.0; 600], 1.0)).predicted;
+    let mut chance = ChaCha8Rng::seed_from_u64(7);
+    let mut noise = || -> f64 { StandardNormal.sample(&mut chance) };
+    let shown: Vec<f64> = clean.iter().map(|value| value + 0.05 * noise()).collect();
+    assert_eq!(doubted(&known, &there_and_back(&shown, 1.0)), None);
+    let (what, mend) = doubted(&known, &there_and_back(&shown, -1.0)).expect("a doubt");
+    assert!(what == "sign" && mend.contains("to = \"direction\"\nsign = -1"), "{what} {mend}");
+}
+
 #[test]
 fn a_slipped_decimal_point_is_told_where_every_effect_grew() {
     let known = machine(150, WAVES);

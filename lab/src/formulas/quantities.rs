@@ -37,8 +37,9 @@ impl Quantities {
         };
         let unit = Dimension::unit;
         let covariates = problem.measurement.covariates.iter();
+        // What the motor was told follows from the error, and is taken off.
         let columns = covariates
-            .filter(|(_, values)| 0.0 < spread(values))
+            .filter(|(name, values)| *name != "steps" && 0.0 < spread(values))
             .map(|(name, values)| quantity(name, Dimension::of_column(name), values.clone()));
         Self {
             position: quantity("position_mm", unit("mm"), record.position_mm.clone()),

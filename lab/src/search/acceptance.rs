@@ -25,7 +25,7 @@ pub(crate) fn refusal(problem: &Problem, now: &State, judged: &Judged) -> Option
         .or_else(|| no_better_unseen(problem, now, judged))
         .or_else(|| implausible(problem, judged))
         .or_else(|| (!likeness::turns_enough(problem, component, used)).then_some(Refusal::Piece))
-        .or_else(|| (!likeness::has_both_sides(problem, component)).then_some(Refusal::Edge))
+        .or_else(|| (!likeness::has_both_sides(problem, component, used)).then_some(Refusal::Edge))
         .or_else(|| (!likeness::by_the_clock(problem, component)).then_some(Refusal::Clock))
         .or_else(|| (!likeness::has_its_time(problem, component)).then_some(Refusal::Untimed))
         .or_else(|| (!likeness::resolved(problem, component)).then_some(Refusal::Targets))

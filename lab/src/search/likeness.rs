@@ -79,6 +79,7 @@ fn slopes_like(problem: &Problem, component: &Component) -> Vec<String> {
     cards
         .iter()
         .filter_map(|kind| Term::card(kind))
+        .filter(|card| problem.model.lacks(card.parts).is_none())
         .filter(|card| seen_alike(problem, component.term.entry, card.entry))
         .map(|card| card.kind.to_owned())
         .collect()
@@ -136,13 +137,31 @@ pub(crate) fn turns_enough(problem: &Problem, component: &Component, used: &[f64
 }
 
 /// True unless an effect of one moment has so few rows of its pass before or behind it that they
-/// tell how a pass begins or ends, and no level that it came from or went to.
+/// tell how a pass begins or ends, and no level that it came from or went to; unless it tilts other
+/// passes, too, before or behind it.
 #[must_use]
-pub(crate) fn has_both_sides(problem: &Problem, component: &Component) -> bool {
+pub(crate) fn has_both_sides(problem: &Problem, component: &Component, used: &[f64]) -> bool {
     let term = &component.term;
     let moments = term.nonlinear_indices();
     let mut moments = moments.iter().filter(|&&i| term.parameters[i].search == Search::Time);
-    moments.all(|&index| RUN_IN <= smaller_share(problem, term.values[index]))
+    moments.all(|&index| {
+        let at_s = term.values[index];
+        RUN_IN <= smaller_share(problem, at_s) || parts_passes(problem, component, used, at_s)
+    })
+}
+
+/// True when whole passes lie before and behind a moment, and its effect shows in one or the other.
+fn parts_passes(problem: &Problem, component: &Component, used: &[f64], at_s: f64) -> bool {
+    let Some(shown) = component.shown_um(problem, used) else { return false };
+    let shape = about_passes(problem, shown);
+    let time = |row: usize| problem.record.time_s[problem.samples[row]];
+    let passes = problem.layout.blocks.iter().map(|block| block.rows.clone());
+    let behind = passes.clone().filter(|rows| at_s <= time(rows.start));
+    let before: Vec<_> = passes.filter(|rows| time(rows.end - 1) < at_s).collect();
+    let (first, then) = (before.len(), behind.clone().count());
+    let others = before.into_iter().chain(behind);
+    let elsewhere: f64 = others.map(|rows| dot(&shape[rows.clone()], &shape[rows])).sum();
+    0 < first && 0 < then && WAVE * dot(&shape, &shape) < elsewhere
 }
 
 /// Share of a pass on the smaller side of a moment in it; 0 of a moment between two passes.
