@@ -14,6 +14,6 @@ mod uneven;
 pub(crate) use analysis::{Step, search};
 pub(crate) use court::{Claim, Winner, claims, nameless_winner, nobodys};
 pub(crate) use polish::polished;
-pub(crate) use pruning::{Dropped, pruned_in_doubt};
+pub(crate) use pruning::{Dropped, pruned, pruned_in_doubt};
 pub(crate) use refusal::Refusal;
 pub(crate) use rivals::{Rivals, rivals};

@@ -18,8 +18,8 @@ use crate::numerics::least_squares::covariance_rows;
 use crate::policy::chance::{AT_AN_END, STANDARD_ERRORS};
 use crate::policy::extent::SEARCHED_ROWS;
 use crate::search::{
-    Dropped, Refusal, Rivals, Step, Winner, nameless_winner, nobodys, polished, pruned_in_doubt,
-    rivals, search,
+    Dropped, Refusal, Rivals, Step, Winner, nameless_winner, nobodys, polished, pruned,
+    pruned_in_doubt, rivals, search,
 };
 
 /// What can be said about a model and a measurement.
@@ -196,10 +196,11 @@ fn searched(problem: &Problem) -> Diagnosis {
     let winner = nameless_winner(&small, last, &found);
     residual.extend(nobodys(&small, &steps));
     if let Some(winner) = winner {
-        if let Some((step, state)) = beaten(&problem, &small, &states[states.len() - 1], &winner) {
+        let last = &states[states.len() - 1];
+        if let Some((step, state)) = beaten(&problem, &small, last, &winner) {
+            found = besides(found, &out_of(last, &state));
             steps.push(step);
             states.push(state);
-            found = besides(found, &winner.beaten);
         }
         residual.push(winner.shown);
     }
@@ -271,7 +272,8 @@ fn without_dropped(small: &Problem, state: State, dropped: Vec<Dropped>) -> Opti
     Some((Step::to(state.on(small)?, None, dropped), state))
 }
 
-/// One more step without the effects in whose place a shape without a name explains more.
+/// One more step without the effects in whose place a shape without a name explains more, and
+/// without those that are superfluous then.
 fn beaten(
     problem: &Problem,
     small: &Problem,
@@ -286,7 +288,16 @@ fn beaten(
         reason: "a shape without a name explains more in its place".to_owned(),
     });
     let state = State::settled(problem, last.without(&winner.beaten), &last.fit.noises)?;
-    without_dropped(small, state, dropped.collect())
+    let (state, useless) = pruned(problem, state);
+    without_dropped(small, state, dropped.chain(useless).collect())
+}
+
+/// Places of the effects of a state that another one has no more.
+fn out_of(before: &State, after: &State) -> Vec<usize> {
+    let known = |component: &Component| (component.term.name.clone(), component.term.nonlinear());
+    let mut left = after.components.iter().map(known).peekable();
+    let all = before.components.iter().map(known).enumerate();
+    all.filter_map(|(index, one)| left.next_if_eq(&one).is_none().then_some(index)).collect()
 }
 
 /// The rivals of the effects that stay when some are taken out.
