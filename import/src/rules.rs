@@ -11,7 +11,7 @@ use crate::header::{self, Header};
 use crate::place::Place;
 use crate::question::Answer;
 use crate::recipe::ColumnRule;
-use crate::runs::counts_rows;
+use crate::runs::{counts, counts_rows};
 use crate::samples::{Holds, Samples};
 use runs::{run_columns, run_values};
 use units::units;
@@ -112,7 +112,7 @@ fn by_content(candidate: &mut Candidate<'_>) {
         Holds::Instants => candidate.decide("time_s", "it holds instants"),
         Holds::Words if told => {}
         Holds::Words => candidate.decide(NONE, "it holds words"),
-        Holds::Numbers if name == "pass" && counts_rows(&candidate.samples.values) => {
+        Holds::Numbers if name == "pass" && counts(&candidate.samples.values) => {
             candidate.decide(NONE, "it counts the rows");
         }
         Holds::Numbers if known && candidate.rule.to.is_none() => {
@@ -245,10 +245,11 @@ fn by_word(candidate: &mut Candidate<'_>) {
     let meaning = match word.meaning {
         "error" if angle => "angular error",
         "position" | "actual" if angle => "angle",
-        "pass" if counts_rows(&candidate.samples.values) => {
+        "pass" | "number" if counts(&candidate.samples.values) => {
             return candidate.decide(NONE, "it counts the rows");
         }
-        "number" => return candidate.decide(NONE, "it counts the rows"),
+        // Neither the number of a row nor that of a run, whatever its name holds.
+        "pass" if counts_rows(&candidate.samples.values) => return,
         "date" | "clock" if candidate.samples.holds == Holds::Instants => "time",
         meaning => meaning,
     };

@@ -148,6 +148,21 @@ fn run_number(token: &str) -> Option<i64> {
     token.parse().ok().filter(|number| (0..100_000).contains(number)).or_else(spelled)
 }
 
+/// True for a count: whole numbers that rise by one step, or by several where rows were lost, and may
+/// begin anew where the first one did.
+pub(crate) fn counts(values: &[f64]) -> bool {
+    let values: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
+    let mut steps: Vec<f64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    steps.sort_by(f64::total_cmp);
+    let Some(usual) = steps.get(steps.len() / 2).filter(|step| 0.0 < **step) else { return false };
+    let whole = |value: f64| value.fract().abs() <= 0.0;
+    values.iter().all(|value| whole(*value))
+        && values.windows(2).all(|pair| {
+            let anew = pair[1] < pair[0] && (pair[1] - values[0]).abs() <= 0.0;
+            anew || pair[0] < pair[1] && whole((pair[1] - pair[0]) / usual)
+        })
+}
+
 /// True where more than half of the runs have a single row: such numbers count rows.
 pub(crate) fn counts_rows(numbers: &[f64]) -> bool {
     let mut rows = BTreeMap::<u64, usize>::new();
@@ -161,6 +176,27 @@ pub(crate) fn counts_rows(numbers: &[f64]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A temperature in whole degrees rests and falls; one that was measured has fractions.
+    #[test]
+    fn a_count_rises_steadily() {
+        let counted: [&[f64]; 4] = [
+            &[0.0, 1.0, 2.0, 3.0],
+            &[5.0, 15.0, 35.0, 45.0, 55.0],
+            &[1.0, 2.0, 3.0, 1.0, 2.0, 3.0],
+            &[7.0, f64::NAN, 9.0, 10.0, 11.0],
+        ];
+        let measured: [&[f64]; 6] = [
+            &[21.0, 21.0, 22.0, 22.0, 23.0],
+            &[21.0, 22.0, 23.0, 22.0, 23.0],
+            &[0.5, 1.5, 2.5, 3.5],
+            &[100.0, 105.0, 111.0, 115.0],
+            &[105.0, 105.0, 105.0],
+            &[3.0, 2.0, 1.0],
+        ];
+        assert!(counted.into_iter().all(counts));
+        assert!(!measured.into_iter().any(counts));
+    }
 
     #[test]
     fn runs_are_told_in_three_languages() {

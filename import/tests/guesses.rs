@@ -270,3 +270,27 @@ fn rows_that_come_evenly_have_a_time() {
         "data.csv: found a column of times, while the recipe says `period_s`, expected one of the two"
     );
 }
+
+/// A name may hold the word for a counter; its values tell whether it counts.
+#[test]
+fn only_what_counts_is_left_out_as_a_counter() {
+    for name in ["Sample", "frame", "Cycle"] {
+        let header = format!("Position (mm),Error (um),{name}");
+        let text = file(&header, |row| format!("{}.5,{},{}", 10 * row, row % 7, 3 + row + row / 9));
+        let proposal = proposed(&text, "");
+        let rule = proposal.recipe.column(name).expect("a rule for each");
+        assert_eq!((rule.to.as_deref(), rule.reason.as_str()), (Some("none"), "it counts the rows"));
+    }
+    for (name, kept) in [
+        ("frame_temperature_c", "frame_temperature_c"),
+        ("DownSample", "down_sample"),
+        ("cycle temperature", "cycle_temperature"),
+    ] {
+        let header = format!("Position (mm),Error (um),{name}");
+        let text = file(&header, |row| {
+            format!("{}.5,{},{}.{row}", 10 * row, row % 7, 21 + row * row % 11)
+        });
+        let values = column(&proposed(&text, ""), kept);
+        assert!((values[3] - 30.3).abs() < 1e-12, "{name}: {values:?}");
+    }
+}
