@@ -279,7 +279,10 @@ fn only_what_counts_is_left_out_as_a_counter() {
         let text = file(&header, |row| format!("{}.5,{},{}", 10 * row, row % 7, 3 + row + row / 9));
         let proposal = proposed(&text, "");
         let rule = proposal.recipe.column(name).expect("a rule for each");
-        assert_eq!((rule.to.as_deref(), rule.reason.as_str()), (Some("none"), "it counts the rows"));
+        assert_eq!(
+            (rule.to.as_deref(), rule.reason.as_str()),
+            (Some("none"), "it counts the rows")
+        );
     }
     for (name, kept) in [
         ("frame_temperature_c", "frame_temperature_c"),

@@ -1,7 +1,10 @@
 //! Channels with clocks of their own, laid side by side.
 //!
 //! Two channels of one motion that were stamped by different clocks are shifted against each other. The shift
-//! is the one at which their rates of change agree best (their cross-correlation is largest).
+//! is the one at which their rates of change agree best, but for a factor and a sign: where their
+//! cross-correlation is largest. It has to stand alone. A motion that repeats agrees with itself once a
+//! period; and a speed agrees with its integral, which lags by nothing, at two shifts of opposite sign, as
+//! the correlation of a rate with what it is the rate of is odd.
 
 use crate::decide::Decisions;
 use crate::error::{ImportError, quoted};
@@ -102,22 +105,27 @@ fn shift(channels: &mut [Channel], lead: usize, decisions: &mut Decisions<'_>) {
     } else {
         found_latency(&channels[lead], &channels[other], decisions)
     };
+    if latency.abs() <= 0.0 {
+        return;
+    }
     let named = format!("the clock of `{}`", channels[lead].name);
     decisions.note(format!("`{}` is taken {latency} s earlier, on {named}", channels[other].name));
     channels[other].time_s.iter_mut().for_each(|time| *time -= latency);
 }
 
 fn found_latency(lead: &Channel, other: &Channel, decisions: &mut Decisions<'_>) -> f64 {
-    let (latency, likeness) = latency_s(lead, other).unwrap_or((0.0, 0.0));
-    let reason = if likeness < 0.5 {
-        "the two do not move alike: not shifted".to_owned()
-    } else {
-        format!(
-            "`{}` comes that much later than `{}`: there their rates agree best (correlation {likeness:.3})",
-            other.name, lead.name
-        )
+    let (latency, reason) = match latency_s(lead, other) {
+        Some((latency, likeness)) => (
+            latency,
+            format!(
+                "`{}` comes that much later than `{}`: there their rates agree best (correlation {likeness:.3})",
+                other.name, lead.name
+            ),
+        ),
+        None => {
+            (0.0, "no one shift stands out at which the two move alike: not shifted".to_owned())
+        }
     };
-    let latency = if likeness < 0.5 { 0.0 } else { latency };
     decisions.made.set("channels", "latency_s", Value::Number(latency), reason);
     latency
 }
@@ -175,7 +183,8 @@ fn sort(channel: &mut Channel) {
     channel.values = values;
 }
 
-/// How much later `other` comes than `lead`, and how alike they are then (−1 to 1).
+/// How much later `other` comes than `lead`, and how alike they are then (−1 to 1); nothing where no one
+/// shift stands out.
 fn latency_s(lead: &Channel, other: &Channel) -> Option<(f64, f64)> {
     const GRID: usize = 2048;
     let start = lead.time_s.first()?.max(*other.time_s.first()?);
@@ -195,12 +204,31 @@ fn latency_s(lead: &Channel, other: &Channel) -> Option<(f64, f64)> {
             .collect()
     };
     let (first, second) = (centred(rates(lead)), centred(rates(other)));
-    let likeness = |shift: isize| correlation(&first, &second, shift);
     let most = isize::try_from(GRID / 8).ok()?;
-    let best = (-most..=most).max_by(|a, b| likeness(*a).total_cmp(&likeness(*b)))?;
+    let likeness: Vec<f64> =
+        (-most..=most).map(|shift| correlation(&first, &second, shift)).collect();
+    let best = standing_out(&likeness)?;
     #[expect(clippy::cast_precision_loss, reason = "a few hundred steps")]
-    let coarse_s = step * best as f64;
-    Some(((refined_s(lead, other, coarse_s) * 1e6).round() / 1e6, likeness(best)))
+    let coarse_s = step * (best as f64 - most as f64);
+    Some(((refined_s(lead, other, coarse_s) * 1e6).round() / 1e6, likeness[best]))
+}
+
+/// Where the one peak is, of either sign, that stands clearly above all others.
+///
+/// The square of a correlation is the share of the one that the other explains. A peak ends where it has
+/// fallen to half, and stands out where it leaves at most half of what is left anywhere beside it; of all
+/// there is, where nothing beside it explains anything. A hundredth is always left: so well the line from one
+/// sample to the next is known.
+fn standing_out(likeness: &[f64]) -> Option<usize> {
+    const LEFT: f64 = 0.01;
+    let explained: Vec<f64> = likeness.iter().map(|likeness| likeness * likeness).collect();
+    let best = (0..explained.len()).max_by(|a, b| explained[*a].total_cmp(&explained[*b]))?;
+    let fallen = |at: &usize| explained[*at] < 0.5 * explained[best];
+    let before = (0..best).rev().find(fallen).map_or(0, |at| at + 1);
+    let behind = (best..explained.len()).find(fallen).unwrap_or(explained.len());
+    let beside = explained[..before].iter().chain(&explained[behind..]);
+    let rival = beside.copied().fold(0.0, f64::max);
+    ((1.0 - explained[best]).max(LEFT) <= 0.5 * (1.0 - rival)).then_some(best)
 }
 
 /// The shift near `coarse_s` at which one channel is best a straight function of the other.
@@ -217,7 +245,7 @@ fn refined_s(lead: &Channel, other: &Channel, coarse_s: f64) -> f64 {
             .map(|(time, value)| (*value, other.at(time + shift_s)));
         let (first, second): (Vec<f64>, Vec<f64>) =
             pairs.filter(|(_, value)| value.is_finite()).unzip();
-        1.0 - correlation(&centred(first), &centred(second), 0)
+        1.0 - correlation(&centred(first), &centred(second), 0).abs()
     };
     let best = (-STEPS..=STEPS).min_by(|a, b| unlike(*a).total_cmp(&unlike(*b))).unwrap_or(0);
     let (before, at, after) = (unlike(best - 1), unlike(best), unlike(best + 1));
@@ -258,18 +286,36 @@ fn correlation(first: &[f64], second: &[f64], shift: isize) -> f64 {
 mod tests {
     use super::*;
 
-    /// A sine that comes 0.125 s late is found late by that.
+    /// Twenty seconds of what is moved by `value`, that comes `late` seconds late.
+    fn channel(late: f64, rate: f64, value: impl Fn(f64) -> f64) -> Channel {
+        let time_s: Vec<f64> = (0..2000).map(|n| f64::from(n) / rate).collect();
+        let values = time_s.iter().map(|time| value(time - late)).collect();
+        Channel { name: String::new(), time_s, values }
+    }
+
+    fn moved(t: f64) -> f64 {
+        libm::sin(3.0 * t) + 0.3 * libm::sin(7.3 * t)
+    }
+
+    /// A motion that comes 0.125 s late is found late by that, whichever way and in whatever unit it counts.
     #[test]
     fn a_known_latency_is_found() {
-        let channel = |late: f64, rate: f64| {
-            let time_s: Vec<f64> = (0..2000).map(|n| f64::from(n) / rate).collect();
-            let values = time_s
-                .iter()
-                .map(|t| libm::sin(3.0 * (t - late)) + 0.3 * libm::sin(7.3 * (t - late)))
-                .collect();
-            Channel { name: String::new(), time_s, values }
-        };
-        let (latency, likeness) = latency_s(&channel(0.0, 100.0), &channel(0.125, 83.0)).unwrap();
-        assert!((latency - 0.125).abs() < 0.002 && likeness > 0.99, "{latency} {likeness}");
+        for factor in [1.0, -1.0, -1000.0] {
+            let other = channel(0.125, 83.0, |t| factor * moved(t));
+            let (latency, likeness) = latency_s(&channel(0.0, 100.0, moved), &other).unwrap();
+            assert!((latency - 0.125).abs() < 0.002, "{factor}: {latency}");
+            assert!(0.99 < likeness * factor.signum(), "{factor}: {likeness}");
+        }
+    }
+
+    /// A speed is the rate of its position, and neither is late; a sine is itself again a period later.
+    #[test]
+    fn nothing_is_late_where_several_shifts_fit_as_well() {
+        let speed = |t: f64| 3.0 * libm::cos(3.0 * t) + 2.19 * libm::cos(7.3 * t);
+        assert!(latency_s(&channel(0.0, 100.0, moved), &channel(0.0, 83.0, speed)).is_none());
+        let sine = |t: f64| libm::sin(10.0 * t);
+        assert!(latency_s(&channel(0.0, 100.0, sine), &channel(0.125, 83.0, sine)).is_none());
+        let other = |t: f64| libm::sin(1.3 * t * t);
+        assert!(latency_s(&channel(0.0, 100.0, moved), &channel(0.0, 83.0, other)).is_none());
     }
 }
