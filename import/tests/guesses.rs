@@ -297,3 +297,63 @@ fn only_what_counts_is_left_out_as_a_counter() {
         assert!((values[3] - 30.3).abs() < 1e-12, "{name}: {values:?}");
     }
 }
+
+/// A log of a stage that goes from target to target: its position every 0.1 s, target and run when they
+/// change, and a sensor that is read twice as often as it changes.
+fn monitored() -> String {
+    let line = |name: &str, tick: u32, value: f64| {
+        let (minute, second) = (tick / 6000, f64::from(tick % 6000) / 100.0);
+        format!("IOC:{name} 2024-03-10 10:{minute:02}:{second:09.6} {value}\n")
+    };
+    let target = |leg: u32| f64::from(5 * (leg % 6).min(6 - leg % 6));
+    let mut log = String::new();
+    for tick in (0..12_000_u32).step_by(5) {
+        let (leg, within) = (tick / 500, f64::from(tick % 500) / 300.0);
+        let from = target(leg.saturating_sub(1));
+        let moved = from + (target(leg) - from) * within.min(1.0);
+        if tick % 500 == 0 {
+            log += &line("PosCmd", tick, target(leg));
+        }
+        if tick % 3000 == 0 {
+            log += &line("Run", tick, f64::from(1 + tick / 3000));
+        }
+        if tick % 10 == 0 {
+            log += &line("PosAct", tick, moved + 1e-6 * f64::from(tick * 7 % 11));
+        }
+        log += &line("Sensor", tick, f64::from(tick / 10 * 7 % 1009));
+    }
+    log
+}
+
+const MONITORED: &str = "[[column]]\nfrom = \"IOC:PosAct\"\nto = \"position_mm\"\nunit = \"mm\"\n\
+     [[column]]\nfrom = \"IOC:PosCmd\"\nto = \"target\"\n\
+     [[column]]\nfrom = \"IOC:Sensor\"\nto = \"error_um\"\nunit = \"um\"\n";
+
+/// What a setpoint was between two of its changes is the earlier one, and the last one holds on; so do counts.
+#[test]
+fn setpoints_and_counts_are_held_until_they_change() {
+    let proposal = proposed(&monitored(), MONITORED);
+    let target = column(&proposal, "target");
+    assert!(target.iter().all(|value| (value % 5.0).abs() <= 0.0), "{target:?}");
+    assert_eq!(target.len(), 1200);
+    assert_eq!([target[49], target[50]].map(f64::to_bits), [0.0_f64, 5.0].map(f64::to_bits));
+    let pass = column(&proposal, "pass");
+    assert_eq!(
+        [pass[299], pass[300], pass[1199]].map(f64::to_bits),
+        [1.0_f64, 2.0, 4.0].map(f64::to_bits)
+    );
+}
+
+/// Rows are those of the channel that a recipe names; of itself none that only repeats.
+#[test]
+fn the_clock_is_the_channel_that_tells_most_or_the_one_named() {
+    let rows = |clock: &str| proposed(&monitored(), &format!("{clock}{MONITORED}")).table.rows();
+    assert_eq!(rows(""), 1200);
+    assert_eq!(rows("[channels]\nclock = \"IOC:PosCmd\"\n"), 24);
+    assert_eq!(rows("[channels]\nclock = \"IOC:Sensor\"\n"), 2399);
+    assert_eq!(
+        refused(&monitored(), &format!("[channels]\nclock = \"nonsense\"\n{MONITORED}")),
+        "data.csv: found no channel `nonsense` for `clock`, expected one of `IOC:PosAct`, \
+         `IOC:PosCmd`, `IOC:Run`, `IOC:Sensor`"
+    );
+}
