@@ -87,7 +87,8 @@ impl Understood<'_> {
         let mut values = self.numbers(index)?.to_vec();
         if let Some(minus) = &rule.minus {
             let other = self.find(minus, &rule.from)?;
-            let scale = self.scale_between(other, index, rule);
+            let turned = if self.rules[other].sign == Some(-1) { -1.0 } else { 1.0 };
+            let scale = turned * self.scale_between(other, index, rule);
             for (value, subtract) in values.iter_mut().zip(self.numbers(other)?) {
                 *value = difference(*value, rounded(subtract * scale));
             }

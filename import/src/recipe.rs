@@ -182,7 +182,7 @@ pub struct ColumnRule {
     pub unit: Option<String>,
     /// −1 turns the sign.
     pub sign: Option<i64>,
-    /// A column subtracted from it first, such as the target.
+    /// A column subtracted from it first, such as the target: in the unit and with the sign of its own rule.
     pub minus: Option<String>,
     /// A column with the time of day that belongs to a date.
     pub with: Option<String>,

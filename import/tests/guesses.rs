@@ -223,6 +223,25 @@ fn two_positions_are_asked_which_is_aimed_at() {
     }
 }
 
+/// A sensor that counts against the axis: the sign of the position holds where it is subtracted, too.
+#[test]
+fn a_position_is_turned_wherever_it_is_used() {
+    let text = file("Axis Pos [mm],Distance [mm]", |row| format!("{row}.0,{}.00{row}", 70 - row));
+    let recipe = |sign: &str| {
+        format!(
+            "[[column]]\nfrom = \"Axis Pos [mm]\"\nto = \"position_mm\"\nunit = \"mm\"\n{sign}\n\
+             [[column]]\nfrom = \"Distance [mm]\"\nto = \"error_um\"\nunit = \"mm\"\n\
+             minus = \"Axis Pos [mm]\"\n"
+        )
+    };
+    let seventh = |sign: &str| {
+        let proposal = proposed(&text, &recipe(sign));
+        [column(&proposal, "position_mm")[7], column(&proposal, "error_um")[7]].map(f64::to_bits)
+    };
+    assert_eq!(seventh(""), [7.0, 56_007.0].map(f64::to_bits));
+    assert_eq!(seventh("sign = -1"), [-7.0, 70_007.0].map(f64::to_bits));
+}
+
 /// Where several columns say where the axis came to, each answer takes one of them.
 #[test]
 fn several_readings_of_one_target_are_asked_about() {

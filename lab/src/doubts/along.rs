@@ -55,7 +55,7 @@ fn said(column: &'static str, share: f64, evidence: f64) -> Doubt {
     let mend = if near(1.0) {
         recipe(column, "minus = \"the column of the position aimed at\"\nsign = -1")
     } else if near(2.0) {
-        "turn the sign of one of the two positions: they count in opposite directions".to_owned()
+        "turn one of the two positions, as they count in opposite directions: `sign = -1` for the position in the recipe that made the table".to_owned()
     } else {
         let times = (1.0 - share).abs();
         format!(
