@@ -119,7 +119,8 @@ pub(crate) fn read_name(name: &str) -> Header {
     Header { name: name.to_owned(), run: runs::run_of(&bare), bare, unit, place }
 }
 
-/// What a name means: the longest known word in it; `Error Position` is an error, whatever is longer.
+/// What a name means: the longest known word in it; `Error Position` is an error, whatever is longer, and
+/// `Target Velocity` is no position.
 pub(crate) fn meaning(bare: &str) -> Option<Word> {
     let plain = spaced(bare);
     let whole = data::words().iter().find(|word| word.spelling == plain);
@@ -127,8 +128,14 @@ pub(crate) fn meaning(bare: &str) -> Option<Word> {
         .or_else(|| {
             let within = data::words().iter().filter(|word| contains(&plain, word.spelling));
             let is_error = |word: &Word| word.meaning.ends_with("error");
-            within.max_by_key(|word| (is_error(word), word.spelling.chars().count()))
+            let is_another = |word: &Word| {
+                let meaning = word.meaning;
+                [data::OTHER, "speed"].contains(&meaning) || meaning.ends_with("temperature")
+            };
+            let length = |word: &Word| word.spelling.chars().count();
+            within.max_by_key(|word| (is_error(word), is_another(word), length(word)))
         })
+        .filter(|word| word.meaning != data::OTHER)
         .copied()
 }
 
@@ -220,9 +227,12 @@ mod tests {
             ("时间", "time"),
             ("Goal Position", "target"),
             ("Present Position", "actual"),
+            ("bed temperature target", "bed temperature"),
         ] {
             assert_eq!(meaning(bare).map(|word| word.meaning), Some(expected), "{bare}");
         }
-        assert!(meaning("voltage").is_none() && meaning("status").is_none());
+        for bare in ["voltage", "status", "Rotation-VelLastSector", "target velocity", "Temp Act"] {
+            assert!(meaning(bare).is_none(), "{bare}");
+        }
     }
 }
