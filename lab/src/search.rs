@@ -11,7 +11,7 @@ mod refusal;
 mod rivals;
 mod uneven;
 
-pub(crate) use analysis::{Step, search};
+pub(crate) use analysis::{Step, search, take_for_a_shape};
 pub(crate) use court::{Claim, Winner, claims, nameless_winner, nobodys};
 pub(crate) use polish::polished;
 pub(crate) use pruning::{Dropped, pruned, pruned_in_doubt};

@@ -19,7 +19,7 @@ use crate::policy::chance::{AT_AN_END, STANDARD_ERRORS};
 use crate::policy::extent::SEARCHED_ROWS;
 use crate::search::{
     Dropped, Refusal, Rivals, Step, Winner, nameless_winner, nobodys, polished, pruned,
-    pruned_in_doubt, rivals, search,
+    pruned_in_doubt, rivals, search, take_for_a_shape,
 };
 
 /// What can be said about a model and a measurement.
@@ -180,6 +180,7 @@ fn searched(problem: &Problem) -> Diagnosis {
         small = small.with_targets_free();
         steps = search(&mut small);
     }
+    take_for_a_shape(&mut small, &mut steps);
     let (problem, mut states) = on_all_rows(problem, &small, &steps);
     if let Some(last) = states.pop() {
         states.push(polished(&problem, last));

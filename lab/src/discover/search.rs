@@ -1,10 +1,13 @@
 //! The search for formulas: named effects first, then the grammar in their place and beside them,
 //! one formula a round until what is left is noise.
 
+use helixlock_plant::Role;
+
+use super::errors::errors;
 use super::proposal::{Granted, Proposal};
 use crate::answer::{Advice, FittedEffect, apart, effects};
 use crate::doubts::{Doubt, doubts};
-use crate::formulas::{Delta, Part, Shape, formulas};
+use crate::formulas::{Delta, Shape, formulas};
 use crate::hypotheses::{Structure, is_left, samples_a_pass, structures};
 use crate::model::{Columns, Component, Problem, State, helps_unseen, holdout_rms};
 use crate::noise::rms;
@@ -104,16 +107,29 @@ struct Now {
 }
 
 impl Now {
-    /// The model with the best formula that may join; `None` when none may.
+    /// The model with the best formula that may join, and whose size the data hold; `None` when none
+    /// may.
     fn with_one_more(&self, problem: &Problem, shapes: &[Shape]) -> Option<Self> {
-        let claims = claims(problem, &self.state, &self.found, shapes);
-        let kept_out = |claim: &Claim<'_>| kept_out(problem, &self.state, claim);
-        let best = simplest(&claims, |claim| kept_out(claim).is_none())?;
+        let mut claims = claims(problem, &self.state, &self.found, shapes);
+        loop {
+            let may_join = |claim: &Claim<'_>| kept_out(problem, &self.state, claim).is_none();
+            let best = simplest(&claims, may_join)?;
+            let next = self.with(problem, &claims, &claims[best])?;
+            if is_held(problem, &next.state) {
+                return Some(next);
+            }
+            claims.remove(best);
+        }
+    }
+
+    /// The model with one formula more, all others of a list its runners-up.
+    fn with(&self, problem: &Problem, claims: &[Claim<'_>], best: &Claim<'_>) -> Option<Self> {
         let mut others: Vec<(&Claim<'_>, Option<&'static str>)> = Vec::new();
-        for other in &claims {
+        for other in claims {
             if !is_same(best, other) && !others.iter().any(|(known, _)| is_same(known, other)) {
                 let clearer = best.ahead + MARGIN <= other.ahead;
-                others.push((other, if clearer { kept_out(other) } else { None }));
+                let why = if clearer { kept_out(problem, &self.state, other) } else { None };
+                others.push((other, why));
             }
         }
         let named = self.state.components.len() - self.granted.len();
@@ -192,9 +208,6 @@ fn kept_out(problem: &Problem, state: &State, claim: &Claim<'_>) -> Option<&'sta
     if claim.ahead <= MARGIN || SIGNIFICANCE <= claim.p_value {
         return Some("not beyond chance");
     }
-    if !is_held(claim) {
-        return Some("the data do not hold its numbers");
-    }
     let helps = Columns::of_model(problem, &state.without(&claim.group)).is_ok_and(|base| {
         let columns = base.and(&claim.placed.columns);
         helps_unseen(problem, (&columns, &claim.fit.noises), (&base, &state.fit.noises))
@@ -206,38 +219,29 @@ fn kept_out(problem: &Problem, state: &State, claim: &Claim<'_>) -> Option<&'sta
     (!left).then_some("too small to change a figure")
 }
 
-/// True unless the size of a wave is lost in its error, as where the samples always meet it at the
-/// same two phases.
-fn is_held(claim: &Claim<'_>) -> bool {
-    let linear = &claim.fit.linear;
-    let mut at = linear.coefficients.len() - claim.placed.columns.raw.len();
-    claim.placed.shape.parts.iter().all(|part| {
-        let Part::Wave { .. } = part else {
-            at += 1;
-            return true;
-        };
-        let [sine, cosine] = [linear.coefficients[at], linear.coefficients[at + 1]];
-        let variance = sine * sine * linear.covariance[(at, at)]
-            + 2.0 * sine * cosine * linear.covariance[(at, at + 1)]
-            + cosine * cosine * linear.covariance[(at + 1, at + 1)];
-        at += 2;
-        let power = sine * sine + cosine * cosine;
-        STANDARD_ERRORS * variance.max(0.0).sqrt() < power
+/// True unless every size of the last component is lost in its error, as where the samples meet a
+/// wave always at the same two phases.
+fn is_held(problem: &Problem, state: &State) -> bool {
+    let last = state.components.len() - 1;
+    let term = state.components[last].valued(state.coefficients(last).0);
+    let sizes = term.parameters.iter().zip(&term.values).zip(errors(problem, state, last));
+    let mut sizes =
+        sizes.filter(|((what, _), _)| matches!(what.role, Role::Linear | Role::Amplitude));
+    sizes.any(|((_, value), stderr)| {
+        stderr.is_some_and(|stderr| STANDARD_ERRORS * stderr < value.abs())
     })
 }
 
 /// The claim that is most ahead of those that may join; where others in its place cannot be told
 /// from it, the one of the fewest numbers: a late relation with hardly any lateness is a straight
 /// one.
-fn simplest<'a, 'b>(
-    claims: &'b [Claim<'a>],
-    may_join: impl Fn(&Claim<'_>) -> bool,
-) -> Option<&'b Claim<'a>> {
+fn simplest(claims: &[Claim<'_>], may_join: impl Fn(&Claim<'_>) -> bool) -> Option<usize> {
     let best = claims.iter().find(|claim| may_join(claim))?;
-    let alike = claims.iter().filter(|claim| {
+    let alike = claims.iter().enumerate().filter(|(_, claim)| {
         claim.group == best.group && best.ahead - claim.ahead < MARGIN && may_join(claim)
     });
-    alike.min_by(|a, b| a.placed.shape.numbers().total_cmp(&b.placed.shape.numbers()))
+    let numbers = |claim: &Claim<'_>| claim.placed.shape.numbers();
+    alike.min_by(|a, b| numbers(a.1).total_cmp(&numbers(b.1))).map(|(place, _)| place)
 }
 
 fn is_same(a: &Claim<'_>, b: &Claim<'_>) -> bool {

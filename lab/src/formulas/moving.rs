@@ -130,12 +130,12 @@ pub(super) fn again_and_again(all: &Quantities) -> Vec<Shape> {
         again(
             "triangles",
             "a guide ground in strokes, supports at even distances",
-            0.8,
+            1.0,
             4.0,
             [16, 12],
         )
         .curve("size", triangle(waves())),
-        again("half waves", "contact at one side only: what lifts off", 0.8, 4.0, [16, 12])
+        again("half waves", "contact at one side only: what lifts off", 1.0, 4.0, [16, 12])
             .curve("size", ramp(call(Function::Sin, turns(waves())))),
         wave_of_changing_length(x),
     ]

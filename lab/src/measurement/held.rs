@@ -96,18 +96,18 @@ impl Clock {
         }
         let together = |frequency: f64| {
             let waves = first.iter().map(|at| libm::sincos(TAU * frequency * (at - first[0])));
-            waves.fold([0.0, 0.0], |sum, (sine, cosine)| [sum[0] + sine, sum[1] + cosine])
+            waves.fold((0.0, 0.0), |sum, wave| (sum.0 + wave.0, sum.1 + wave.1))
         };
         let steps = std::iter::successors(Some(low), |last| Some(last + step));
         let tried: Vec<f64> = steps.take_while(|frequency| *frequency <= high).collect();
         let size = |frequency: &f64| {
-            let [sine, cosine] = together(*frequency);
-            libm::hypot(sine, cosine)
+            let (across, along) = together(*frequency);
+            libm::hypot(across, along)
         };
         let sizes: Vec<f64> = tried.iter().map(size).collect();
         let best = tried[slowest_peak(&sizes)?];
-        let [sine, cosine] = together(best);
-        let start = first[0] + libm::atan2(sine, cosine) / (TAU * best);
+        let (across, along) = together(best);
+        let start = first[0] + libm::atan2(across, along) / (TAU * best);
         Self { start, period: best.recip() }.near(changes)
     }
 
@@ -137,7 +137,7 @@ impl Clock {
     /// any time would not.
     fn explains(&self, changes: &[Change], interval: f64) -> bool {
         let (mut might, mut elsewhere) = (0.0, 0.0);
-        let mut chances: Vec<f64> = Vec::new();
+        let mut logs: Vec<f64> = Vec::new();
         for change in changes {
             let reach = 0.5 * (change[1] - change[0]) + SLACK * interval;
             let number = self.number(middle(change));
@@ -146,12 +146,12 @@ impl Clock {
             if reach < self.period * (number - number.round()).abs() {
                 elsewhere += 1.0;
             } else {
-                chances.push(libm::log(chance));
+                logs.push(libm::log(chance));
             }
         }
-        chances.sort_by(f64::total_cmp);
+        logs.sort_by(f64::total_cmp);
         // Start and period suit two changes at least.
-        let by_accident: f64 = chances.iter().skip(2).sum();
+        let by_accident: f64 = logs.iter().skip(2).sum();
         let looks =
             libm::log(f64::from(MOST_TICKS) * STEPS_A_CELL * count(changes.len().min(FIRST)));
         by_accident + looks < libm::log(BY_ACCIDENT) && elsewhere < (1.0 - AT_A_TICK) * might

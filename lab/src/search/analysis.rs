@@ -6,6 +6,7 @@ use helixlock_plant::Role;
 use rayon::prelude::*;
 
 use super::acceptance::refusal;
+use super::court::shape_beside;
 use super::likeness;
 use super::pruning::{Dropped, pruned};
 use super::refusal::Refusal;
@@ -17,7 +18,7 @@ use crate::model::{
 use crate::noise::{Noise, rms};
 use crate::numerics::{chi_squared_tail, count, median};
 use crate::policy::chance::NAMED;
-use crate::policy::evidence::SET_MARGIN;
+use crate::policy::evidence::{MARGIN, SET_MARGIN};
 use crate::policy::extent::{KNOWN_IN_SETS, MOST_ROUNDS, NEAR_THE_BEST, SHORTLIST};
 
 /// Everything that happened in one round.
@@ -49,6 +50,47 @@ impl Step {
 pub(crate) fn search(problem: &mut Problem) -> Vec<Step> {
     let bare = State::bare(problem);
     let mut steps = vec![Step::to(bare, None, Vec::new())];
+    go_on(problem, &mut steps);
+    steps
+}
+
+/// Takes the effect that noise might do as much as, where it explains more than a shape without a
+/// name that noise does not, and goes on.
+///
+/// Such a shape says that something is there: what remains to be asked is what it is.
+pub(crate) fn take_for_a_shape(problem: &mut Problem, steps: &mut Vec<Step>) {
+    let end = steps.len() - 1;
+    let last = &steps[end];
+    let by_chance = last.tried.iter().zip(&last.refused).position(|(judged, why)| {
+        matches!(why, Refusal::Chance { .. }) && MARGIN < judged.evidence
+    });
+    let Some(place) = by_chance else { return };
+    let Some(shape) = shape_beside(problem, &last.state) else { return };
+    let best = Judged { p_value: shape.shown.p_value, ..last.tried[place].clone() };
+    if best.evidence <= shape.ahead {
+        return;
+    }
+    if let Some(step) = with_one_more(problem, &last.state, &best) {
+        steps[end].tried[place] = best;
+        steps.push(step);
+        go_on(problem, steps);
+    }
+}
+
+/// The step from a model to the one with one effect more.
+fn with_one_more(problem: &mut Problem, now: &State, best: &Judged) -> Option<Step> {
+    let mut components = now.components.clone();
+    components.push(best.component.clone());
+    problem.mark_outliers(&best.fit.left);
+    let state = State::settled(problem, components, &best.fit.noises)?;
+    let (state, dropped) = pruned(problem, state);
+    let name = &best.component.term.name;
+    // What is dropped at once would only be found again.
+    let again = dropped.iter().any(|one| one.name == *name);
+    (!again).then(|| Step::to(state, Some(name.clone()), dropped))
+}
+
+fn go_on(problem: &mut Problem, steps: &mut Vec<Step>) {
     for _ in 0..MOST_ROUNDS {
         let last = steps.len() - 1;
         let now = &steps[last].state;
@@ -62,25 +104,15 @@ pub(crate) fn search(problem: &mut Problem) -> Vec<Step> {
         if let Some(members) = known_together(problem, now, &tried) {
             steps[last].tried = tried;
             steps[last].refused = refused;
-            add_together(problem, &mut steps, members);
+            add_together(problem, steps, members);
             continue;
         }
-        let mut components = now.components.clone();
+        let next = best.and_then(|best| with_one_more(problem, now, &best));
         steps[last].tried = tried;
         steps[last].refused = refused;
-        let Some(best) = best else { break };
-        components.push(best.component.clone());
-        problem.mark_outliers(&best.fit.left);
-        let Some(state) = State::settled(problem, components, &best.fit.noises) else { break };
-        let (state, dropped) = pruned(problem, state);
-        if dropped.iter().any(|one| one.name == best.component.term.name) {
-            // It would only be found again.
-            break;
-        }
-        let added = Some(best.component.term.name.clone());
-        steps.push(Step::to(state, added, dropped));
+        let Some(next) = next else { break };
+        steps.push(next);
     }
-    steps
 }
 
 /// Adds the members of a set one a step.

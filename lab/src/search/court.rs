@@ -38,6 +38,8 @@ pub(crate) struct Winner {
     pub(crate) shown: Structure,
     /// The effects in whose place it stands, by their places in the model.
     pub(crate) beaten: Vec<usize>,
+    /// By how much it is ahead of them, or of nothing.
+    pub(crate) ahead: f64,
 }
 
 /// The shape without a name that is farthest ahead of the effects in whose place it stands.
@@ -50,7 +52,14 @@ pub(crate) fn nameless_winner(
     let shapes = nameless(problem);
     let court = Court::new(problem, state, found, &shapes, (SHORTLIST, MOST_PLACES));
     let won = court.groups().into_iter().filter_map(|group| court.in_place_of(group));
-    won.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, winner)| winner)
+    won.max_by(|a, b| a.ahead.total_cmp(&b.ahead))
+}
+
+/// The shape without a name that explains more beside a model than nothing does.
+#[must_use]
+pub(crate) fn shape_beside(problem: &Problem, state: &State) -> Option<Winner> {
+    let shapes = nameless(problem);
+    Court::new(problem, state, &[], &shapes, (SHORTLIST, MOST_PLACES)).in_place_of(Vec::new())
 }
 
 /// What every shape of a list has to say for itself beside the effects of a model or in the place
@@ -208,7 +217,7 @@ impl<'a> Court<'a> {
     }
 
     /// The shape that explains more than a group of effects in their place, and by how much.
-    fn in_place_of(&self, group: Vec<usize>) -> Option<(f64, Winner)> {
+    fn in_place_of(&self, group: Vec<usize>) -> Option<Winner> {
         let base = self.without(&group)?;
         let claim = self.best(&group, &base)?;
         if claim.ahead <= MARGIN {
@@ -219,7 +228,7 @@ impl<'a> Court<'a> {
         } else {
             self.instead_of(&group, &base, &claim)
         };
-        Some((claim.ahead, Winner { shown, beaten: group }))
+        Some(Winner { shown, beaten: group, ahead: claim.ahead })
     }
 
     /// The best shape in a group's place.

@@ -240,8 +240,8 @@ fn has_two_speeds(speed_rpm: &[f64]) -> bool {
     let moves = |speed: &f64| ANOTHER_SPEED * fastest < *speed;
     let mut moving: Vec<f64> = speed_rpm.iter().copied().filter(moves).collect();
     let fast = one_in(&mut moving, ON_THE_WAY);
-    moving.iter_mut().for_each(|speed| *speed = -*speed);
-    let slow = -one_in(&mut moving, ON_THE_WAY);
+    let mut slower: Vec<f64> = moving.iter().map(|speed| -speed).collect();
+    let slow = -one_in(&mut slower, ON_THE_WAY);
     ANOTHER_SPEED * fastest < fast - slow
 }
 
