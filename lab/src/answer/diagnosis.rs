@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::experiment::{self, Advice};
 use crate::doubts::{Doubt, doubts};
 use crate::hypotheses::{
-    Structure, at_targets, is_left, no_larger_than, samples_a_pass, structures,
+    Likelihood, Structure, at_targets, is_left, no_larger_than, samples_a_pass, structures,
 };
 use crate::model::{
     Component, JointCovariance, Judged, Problem, State, holdout_rms, joint_covariance,
@@ -412,11 +412,22 @@ fn fitted(
         } else {
             stderr
         };
+        let stderr = stderr.map(|least| least.max(stepwise(problem, state, index, place)));
         let value = if setting_counts(&term, what) { value.round() } else { value };
         let warning = stderr.and_then(|stderr| warning_at_bound(value, stderr, &what.range));
         parameters.push(FittedParameter { key: what.key(), value, stderr, warning });
     }
     FittedEffect { name: component.term.name.clone(), term, parameters }
+}
+
+/// Standard deviation of a value that moves steps of a curve from sample to sample, as the
+/// likelihood has it; 0 of one that bends a smooth curve, or where there are very many samples.
+fn stepwise(problem: &Problem, state: &State, index: usize, place: usize) -> f64 {
+    if SEARCHED_ROWS < problem.samples.len() || !state.components[index].is_rough(problem) {
+        return 0.0;
+    }
+    let likelihood = Likelihood::of(problem, state, index);
+    likelihood.and_then(|likelihood| likelihood.deviation(place)).unwrap_or(0.0)
 }
 
 /// Standard deviation, in s, of a moment that lies anywhere between two samples.

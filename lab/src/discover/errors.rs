@@ -1,17 +1,8 @@
 //! Standard errors of a formula's parameters from the likelihood itself, which steps and relays
 //! have and slopes of theirs have not.
 
-use crate::hypotheses::gain_at;
-use crate::model::{Columns, Component, Gain, Problem, Stage, State};
-
-/// Halvings of the interval in which the likelihood falls by one standard error.
-const HALVINGS: usize = 8;
-
-/// Doublings that look for such an interval.
-const DOUBLINGS: usize = 40;
-
-/// First step, against a value.
-const FIRST: f64 = 1e-6;
+use crate::hypotheses::Likelihood;
+use crate::model::{Problem, State};
 
 /// Strongest correlation of two parameters that is told from a full one.
 const STRONGEST: f64 = 0.9995;
@@ -21,13 +12,9 @@ const STRONGEST: f64 = 0.9995;
 #[must_use]
 pub(super) fn errors(problem: &Problem, state: &State, index: usize) -> Vec<Option<f64>> {
     let component = &state.components[index];
-    let mut others = state.components.clone();
-    others.remove(index);
-    let Ok(base) = Columns::of_model(problem, &others) else { return Vec::new() };
-    let before = Stage::new(problem, &base, &state.fit.noises);
-    let Some(best) = gain_at(&before, component) else { return Vec::new() };
-    let likelihood = Likelihood { stage: before, component, best };
-    let sizes = likelihood.sizes();
+    let Some(likelihood) = Likelihood::of(problem, state, index) else { return Vec::new() };
+    let places = 0..component.term.nonlinear_indices().len();
+    let sizes: Vec<Option<f64>> = places.map(|place| likelihood.size(place)).collect();
     let nonlinear = likelihood.correlated(&sizes);
     let linear = likelihood.linear(&sizes, &nonlinear);
     let (mut linear, mut sizes) = (linear.into_iter(), sizes.into_iter());
@@ -44,53 +31,7 @@ pub(super) fn errors(problem: &Problem, state: &State, index: usize) -> Vec<Opti
     parameters.map(|what| of_next(what.is_nonlinear())).collect()
 }
 
-/// The likelihood of a component near its best.
-struct Likelihood<'a> {
-    stage: Stage<'a>,
-    component: &'a Component,
-    best: Gain,
-}
-
 impl Likelihood<'_> {
-    /// The fit with some nonlinear values moved.
-    fn moved(&self, moves: &[(usize, f64)]) -> Option<Gain> {
-        let mut values = self.component.term.nonlinear();
-        for (place, by) in moves {
-            values[*place] += by;
-        }
-        let term = self.component.term.with_nonlinear(&values);
-        gain_at(&self.stage, &Component { term, ..self.component.clone() })
-    }
-
-    fn loss(&self, moves: &[(usize, f64)]) -> f64 {
-        self.moved(moves).map_or(f64::INFINITY, |gain| self.best.gain - gain.gain)
-    }
-
-    /// Per nonlinear value: how far it goes either way before twice the log likelihood falls by 1,
-    /// the others held; `None` when it never does.
-    fn sizes(&self) -> Vec<Option<f64>> {
-        let values = self.component.term.nonlinear();
-        let size = |(place, value): (usize, &f64)| {
-            let falls =
-                |by: f64| 1.0 <= 0.5 * (self.loss(&[(place, by)]) + self.loss(&[(place, -by)]));
-            let first = FIRST * value.abs().max(FIRST);
-            let mut high = first;
-            let doubled = (0..DOUBLINGS).find(|_| {
-                let there = falls(high);
-                high *= if there { 1.0 } else { 2.0 };
-                there
-            });
-            doubled?;
-            let mut low = if high <= first { 0.0 } else { 0.5 * high };
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (low + high);
-                *(if falls(middle) { &mut high } else { &mut low }) = middle;
-            }
-            Some(high)
-        };
-        values.iter().enumerate().map(size).collect()
-    }
-
     /// Covariance of the nonlinear values in units of those sizes.
     fn correlated(&self, sizes: &[Option<f64>]) -> Vec<Vec<f64>> {
         let held: Vec<(usize, f64)> =

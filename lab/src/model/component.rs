@@ -1,6 +1,6 @@
 //! An effect inside a fit: which of its columns are in use, and what they weigh.
 
-use helixlock_plant::{EffectError, Estimate, Role, Term};
+use helixlock_plant::{Context, EffectError, Estimate, Role, Smoothness, Term};
 
 use super::columns::Columns;
 use super::problem::{Design, Problem};
@@ -127,6 +127,16 @@ impl Component {
         let columns = Columns::of(problem, std::slice::from_ref(self)).ok()?;
         let missing = columns.left(&vec![0.0; problem.samples.len()], used);
         Some(missing.into_iter().map(|value| -value).collect())
+    }
+
+    /// True when a column of it goes in steps.
+    #[must_use]
+    pub(crate) fn is_rough(&self, problem: &Problem) -> bool {
+        let context = Context { machine: &problem.model, columns: &problem.record.columns };
+        self.term.basis(&context).is_ok_and(|basis| {
+            let all = basis.columns.iter().chain(&basis.fixed);
+            all.map(|wave| wave.smoothness(0.0, 0.0)).any(|one| matches!(one, Smoothness::Rough))
+        })
     }
 
     /// Root mean square of that about the zero of each pass, µm (arcsec); 0 when it cannot be

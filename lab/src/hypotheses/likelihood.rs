@@ -1,0 +1,90 @@
+//! The likelihood of an effect near its best values, as it is: steps and relays have one, and no
+//! slope of theirs says how wide it is.
+
+use super::gain_at;
+use crate::model::{Columns, Component, Gain, Problem, Stage, State};
+
+/// Halvings of the interval in which the likelihood falls by one standard error.
+const HALVINGS: usize = 8;
+
+/// Doublings that look for such an interval.
+const DOUBLINGS: usize = 40;
+
+/// First step, against a value.
+const FIRST: f64 = 1e-6;
+
+/// Places either way at which a deviation is summed up, and how many of them such an interval has.
+const PLACES: i16 = 160;
+const IN_A_SIZE: f64 = 4.0;
+
+/// The likelihood of a component near its best, the others of its model free to give way.
+pub(crate) struct Likelihood<'a> {
+    before: Stage<'a>,
+    component: &'a Component,
+    /// The fit at its best.
+    pub(crate) best: Gain,
+}
+
+impl<'a> Likelihood<'a> {
+    /// That of one component of a model; `None` when its columns cannot be made.
+    #[must_use]
+    pub(crate) fn of(problem: &'a Problem, state: &'a State, index: usize) -> Option<Self> {
+        let others = Columns::of_model(problem, &state.without(&[index])).ok()?;
+        let before = Stage::new(problem, &others, &state.fit.noises);
+        let component = &state.components[index];
+        let best = gain_at(&before, component)?;
+        Some(Self { before, component, best })
+    }
+
+    /// The fit with some nonlinear values moved.
+    #[must_use]
+    pub(crate) fn moved(&self, moves: &[(usize, f64)]) -> Option<Gain> {
+        let mut values = self.component.term.nonlinear();
+        for (place, by) in moves {
+            values[*place] += by;
+        }
+        let term = self.component.term.with_nonlinear(&values);
+        gain_at(&self.before, &Component { term, ..self.component.clone() })
+    }
+
+    /// What twice the log likelihood loses by a move.
+    #[must_use]
+    pub(crate) fn loss(&self, moves: &[(usize, f64)]) -> f64 {
+        self.moved(moves).map_or(f64::INFINITY, |gain| self.best.gain - gain.gain)
+    }
+
+    /// How far a nonlinear value goes either way before twice the log likelihood falls by 1, the
+    /// others held; `None` when it never does.
+    #[must_use]
+    pub(crate) fn size(&self, place: usize) -> Option<f64> {
+        let value = *self.component.term.nonlinear().get(place)?;
+        let falls = |by: f64| 1.0 <= 0.5 * (self.loss(&[(place, by)]) + self.loss(&[(place, -by)]));
+        let first = FIRST * value.abs().max(FIRST);
+        let mut high = first;
+        let doubled = (0..DOUBLINGS).find(|_| {
+            let there = falls(high);
+            high *= if there { 1.0 } else { 2.0 };
+            there
+        });
+        doubled?;
+        let mut low = if high <= first { 0.0 } else { 0.5 * high };
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            *(if falls(middle) { &mut high } else { &mut low }) = middle;
+        }
+        Some(high)
+    }
+
+    /// Standard deviation of a nonlinear value about its best, each value as probable as it makes
+    /// the data.
+    #[must_use]
+    pub(crate) fn deviation(&self, place: usize) -> Option<f64> {
+        let step = self.size(place)? / IN_A_SIZE;
+        let moves = (-PLACES..=PLACES).map(|number| f64::from(number) * step);
+        let (all, square) = moves.fold((0.0, 0.0), |(all, square), by| {
+            let weight = libm::exp(-0.5 * self.loss(&[(place, by)]));
+            (all + weight, square + weight * by * by)
+        });
+        Some((square / all).sqrt())
+    }
+}
