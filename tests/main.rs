@@ -84,6 +84,7 @@ mod support;
 mod sweep;
 mod synchronisers;
 mod tables;
+mod targets_and_moments;
 mod telemetry;
 mod templates;
 mod uart_receiver;

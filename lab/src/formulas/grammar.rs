@@ -21,6 +21,7 @@ pub(crate) fn nameless(problem: &Problem) -> Vec<Shape> {
         all.extend(moving::in_time(&quantities));
     }
     all.extend(moving::since_a_reversal(&quantities));
+    all.extend(moving::late(&quantities));
     for (name, order) in quantities.shafts(problem) {
         all.extend(turning::each_turn(&quantities, &name, order));
     }

@@ -243,6 +243,16 @@ pub(super) fn since_a_reversal(all: &Quantities) -> Option<Shape> {
     })
 }
 
+/// What is late by a time, where the speed of every sample is known.
+pub(super) fn late(all: &Quantities) -> Option<Shape> {
+    all.velocity.as_ref().map(|velocity| late_by(of(velocity)))
+}
+
+fn late_by(velocity: Expression) -> Shape {
+    shape("late by a time", "speed", "a sensor or a follower that is late by a time")
+        .curve("size", velocity)
+}
+
 /// What depends on how fast, which way, and which pass.
 pub(super) fn of_the_way(all: &Quantities) -> Vec<Shape> {
     let (x, v, way) = (&all.position, &all.speed, &all.direction);
@@ -260,12 +270,9 @@ pub(super) fn of_the_way(all: &Quantities) -> Vec<Shape> {
             );
         }
     }
-    let physics = "a sensor or a follower that is late by a time";
-    let late = |velocity| shape("late by a time", "speed", physics).curve("size", velocity);
-    shapes.extend(all.velocity.as_ref().map(|velocity| late(of(velocity))));
     if 0.0 < spread(&v.values) {
         if all.velocity.is_none() {
-            shapes.push(late(of(v) * of(way)));
+            shapes.push(late_by(of(v) * of(way)));
         }
         let physics = "friction or heat that grows with speed";
         shapes.push(shape("by speed", "speed", physics).curve("size", of(v)));

@@ -15,7 +15,8 @@ const RATES: u16 = 8;
 const SETTLED: usize = 8;
 
 /// The frequency beyond a scan that explains a whitened residual better than its strongest lines,
-/// as they are, by the margin; `None` at one speed, which cannot tell it from them.
+/// as they are, by the margin; `None` at one speed, which cannot tell it from them, and where a loop
+/// swings at half of every rate.
 #[must_use]
 pub(crate) fn unfolded(
     problem: &Problem,
@@ -24,7 +25,7 @@ pub(crate) fn unfolded(
     lines: &[f64],
 ) -> Option<f64> {
     let rates = comparison_rates_hz(problem);
-    if rates.len() < 2 {
+    if rates.len() < 2 || 0.0 < problem.hunting_um {
         return None;
     }
     let lines = &lines[..lines.len().min(LINES)];
@@ -33,7 +34,7 @@ pub(crate) fn unfolded(
     let beyond = multiples
         .flat_map(|multiple| lines.iter().flat_map(move |line| [multiple - line, multiple + line]));
     let mut beyond: Vec<(f64, f64)> = beyond
-        .filter(|hertz| scan.highest < *hertz)
+        .filter(|hertz| scan.highest < *hertz && scan.tells(*hertz))
         .map(|hertz| (hertz, scan.gain(white, hertz)))
         .collect();
     beyond.sort_by(|a, b| b.1.total_cmp(&a.1));

@@ -73,7 +73,7 @@ fn turns_as_well(problem: &Problem, now: &State, judged: &Judged) -> Option<Refu
     let turns: Vec<f64> = problem.record.turns().collect();
     let of_row: Vec<f64> = problem.samples.iter().map(|&sample| turns[sample]).collect();
     let scan = turn_scan(&stage, &of_row);
-    let line = scan.strongest(&stage.target[..of_row.len()])?;
+    let line = scan.strongest_anywhere(&stage.target[..of_row.len()])?;
     let told = line.gain + TIME_LOCK < own;
     (!told).then_some(Refusal::Angle { order: line.frequency, ahead: own - line.gain })
 }

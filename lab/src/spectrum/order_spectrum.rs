@@ -137,22 +137,48 @@ impl Scan<'_> {
         lines
     }
 
-    /// The strongest line of a whitened residual, its frequency settled by bisection.
+    /// The strongest line of a whitened residual, its frequency settled by bisection, of those whose
+    /// size the samples tell.
+    #[must_use]
+    pub(crate) fn strongest(&self, white: &[f64]) -> Option<Line> {
+        let swift = WINDOW_FROM * usual_rate(self.turns);
+        self.strongest_of(white, &|frequency| self.tells_of(frequency, swift))
+    }
+
+    /// True when the samples tell the size of a wave: it is no slow curve in every block, and its
+    /// phase there is not always the same.
+    #[must_use]
+    pub(crate) fn tells(&self, frequency: f64) -> bool {
+        self.tells_of(frequency, WINDOW_FROM * usual_rate(self.turns))
+    }
+
+    /// The same where all that is slower than a share of the sampling is told.
+    fn tells_of(&self, frequency: f64, swift: f64) -> bool {
+        let is_slow = swift < frequency && self.is_a_slow_curve(frequency);
+        !is_slow && (2.0 * frequency <= swift || !self.has_one_phase(frequency))
+    }
+
+    /// The same of all frequencies.
+    #[must_use]
+    pub(crate) fn strongest_anywhere(&self, white: &[f64]) -> Option<Line> {
+        self.strongest_of(white, &|_| true)
+    }
+
+    /// The strongest line of some frequencies.
     ///
     /// What the samples resolve at their usual rate and what only their unevenness resolves are
     /// looked at one after the other, each paying for its own looks: aliases above would drown a
     /// line below, and their number would cost it its significance.
-    #[must_use]
-    pub(crate) fn strongest(&self, white: &[f64]) -> Option<Line> {
+    fn strongest_of(&self, white: &[f64], is_told: &dyn Fn(f64) -> bool) -> Option<Line> {
         let usual = (0.5 * usual_rate(self.turns)).max(self.lowest);
         if self.highest <= usual {
-            return self.strongest_in_band(white);
+            return self.strongest_in_band(white, is_told);
         }
         let bands =
             [Self { highest: usual, ..self.clone() }, Self { lowest: usual, ..self.clone() }];
         let evidence = |band: &Self, line: &Line| line.gain - 2.0 * libm::log(band.looks());
         let found = bands.iter().filter_map(|band| {
-            let line = band.strongest_in_band(white)?;
+            let line = band.strongest_in_band(white, is_told)?;
             Some((evidence(band, &line), line))
         });
         let (_, mut line) = found.max_by(|a, b| a.0.total_cmp(&b.0))?;
@@ -160,24 +186,19 @@ impl Scan<'_> {
         Some(line)
     }
 
-    fn strongest_in_band(&self, white: &[f64]) -> Option<Line> {
+    fn strongest_in_band(&self, white: &[f64], is_told: &dyn Fn(f64) -> bool) -> Option<Line> {
         let spectrum = self.spectrum(white);
         let peaks = strongest_first(spectrum);
-        let swift = WINDOW_FROM * usual_rate(self.turns);
-        let is_untold = |frequency: f64| {
-            (swift < frequency && self.is_a_slow_curve(frequency))
-                || (swift < 2.0 * frequency && self.has_one_phase(frequency))
-        };
         let mut tried: Vec<f64> = Vec::new();
         let mut best: Option<(f64, f64)> = None;
         for peak in peaks {
             let known = |other: &f64| (other - peak.frequency).abs() < self.resolution();
-            if tried.iter().any(known) || is_untold(peak.frequency) {
-                continue;
-            }
             // A scan shows every peak at nine tenths of its gain at least.
             if best.is_some_and(|(_, gain)| peak.gain < HOPELESS * gain) {
                 break;
+            }
+            if tried.iter().any(known) || !is_told(peak.frequency) {
+                continue;
             }
             tried.push(peak.frequency);
             let refined = self.settled(white, peak.frequency);
@@ -206,7 +227,8 @@ impl Scan<'_> {
         ALIKE_WINDOW < self.window(2.0 * frequency)
     }
 
-    /// Spectral window of the blocks, each by itself.
+    /// Spectral window of the blocks, each by itself: 1 where all samples of a block meet a wave at
+    /// one phase.
     fn window(&self, frequency: f64) -> f64 {
         let size = |rows: &[f64]| {
             let waves = rows.iter().map(|u| libm::sincos(std::f64::consts::TAU * frequency * u));

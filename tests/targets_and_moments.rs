@@ -1,0 +1,179 @@
+//! What is told by where an axis stands, and by when something happens.
+
+use std::f64::consts::TAU;
+use std::path::Path;
+
+use helixlock_lab::{Diagnosis, Found, Verdict, diagnose, discover};
+use helixlock_plant::Model;
+use helixlock_traces::{Column, Table};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+use crate::support::diagnosed::{diagnosed, names, problem};
+use crate::support::passes::{Passes, noise};
+
+const OF_TARGETS: &str = "own error of each target, at every visit";
+
+/// White noise of some standard deviation.
+fn white(seed: u64, deviation: f64) -> impl FnMut() -> f64 {
+    let mut chance = ChaCha8Rng::seed_from_u64(seed);
+    move || {
+        let normal: f64 = StandardNormal.sample(&mut chance);
+        deviation * normal
+    }
+}
+
+/// Five runs there and back past nine targets; the error of a run, a target and a direction.
+fn targets(error_um: impl Fn(usize, usize, f64) -> f64) -> Diagnosis {
+    let mut columns =
+        ["pass", "position_mm", "direction", "error_um"].map(|name| (name, Vec::new()));
+    let mut noise = white(3, 1.0);
+    for run in 0..5_u8 {
+        for visit in 0..18_u8 {
+            let (target, direction) = if visit < 9 { (visit, 1.0) } else { (17 - visit, -1.0) };
+            let error = error_um(run.into(), target.into(), direction) + noise();
+            let row = [f64::from(run), 60.0 * f64::from(target), direction, error];
+            columns.iter_mut().zip(row).for_each(|((_, values), value)| values.push(value));
+        }
+    }
+    diagnosed(columns.into())
+}
+
+fn left(diagnosis: &Diagnosis) -> Vec<&str> {
+    diagnosis.residual.iter().map(|one| one.shape.as_str()).collect()
+}
+
+/// Play of 6 µm beside errors of up to 41 µm that the screw has at each target.
+#[test]
+fn a_reversal_is_told_by_how_well_visits_agree() {
+    const OWN_UM: [f64; 9] = [12.0, -31.0, 4.0, 38.0, -22.0, -41.0, 17.0, 29.0, -8.0];
+    let found = targets(|_, target, direction| OWN_UM[target] - 3.0 * direction);
+    assert_eq!(names(&found), ["backlash"]);
+    assert_eq!(found.verdict, Verdict::Unexplained);
+    assert!(left(&found).contains(&OF_TARGETS), "{:?}", left(&found));
+    let width = &found.rounds[found.rounds.len() - 1].effects[0].parameters[0];
+    let error = width.stderr.expect("an error");
+    assert!((width.value.abs() - 6.0).abs() < 3.0 * error && error < 0.3, "{width:?}");
+}
+
+/// Without errors of their own nothing is left free: the play explains all.
+#[test]
+fn a_reversal_at_targets_without_errors_is_explained() {
+    let found = targets(|_, _, direction| -3.0 * direction);
+    assert_eq!((names(&found), found.verdict), (vec!["backlash"], Verdict::Explained));
+}
+
+/// An axis that stands at targets has no clock in its travel.
+#[test]
+fn no_effect_of_time_is_named_at_targets_that_nobody_timed() {
+    let warming = |run: usize, target: usize, direction: f64| {
+        let visit = if direction > 0.0 { target } else { 17 - target };
+        let visits = f64::from(u16::try_from(18 * run + visit).expect("few"));
+        30.0 * (1.0 - libm::exp(-visits / 25.0))
+    };
+    let found = targets(warming);
+    assert!(names(&found).is_empty(), "{:?}", names(&found));
+    assert_eq!(found.verdict, Verdict::Unexplained);
+}
+
+/// One run that turns back, with something at 72 s.
+fn one_run(happens_um: impl Fn(f64) -> f64) -> Diagnosis {
+    let mut noise = white(5, 0.4);
+    let rows = (0..520_u16).map(|row| {
+        let t = 0.3 * f64::from(row);
+        let (x, direction) = if t < 78.0 { (10.0 * t, 1.0) } else { (1560.0 - 10.0 * t, -1.0) };
+        [0.0, t, x, direction, happens_um(t) + noise()]
+    });
+    diagnose(&Passes::of_rows(rows).problem())
+}
+
+/// Thirty times and eight times the noise; slow noise would follow both.
+#[test]
+fn a_knock_and_a_spell_in_one_run_are_no_noise() {
+    let knock = one_run(|t| 12.0 * libm::exp(-0.5 * ((t - 72.0) / 4.0).powi(2)));
+    assert_eq!(knock.verdict, Verdict::Unexplained);
+    let is_short = |shape: &&str| shape.starts_with("knock") || shape.starts_with("spell");
+    assert!(left(&knock).iter().any(is_short), "{:?}", left(&knock));
+    let spell = one_run(|t| if (60.0..84.0).contains(&t) { 3.0 } else { 0.0 });
+    assert_eq!(spell.verdict, Verdict::Unexplained);
+    assert!(left(&spell).iter().any(is_short), "{:?}", left(&spell));
+}
+
+/// A hop of the wavelength between two passes tilts all passes behind it; that is no end of a run.
+#[test]
+fn a_hop_between_two_passes_is_named() {
+    let hop = |t: f64, x: f64, _: f64| if t < 1800.0 { 0.0 } else { 1e-3 * x };
+    let found = diagnose(&Passes::new(&hop, &mut noise(2, 1.0)).problem());
+    assert_eq!(names(&found), ["laser-drift"]);
+}
+
+/// An axis that goes and stands by turns, and an error that is late by 0.1 s.
+#[test]
+fn a_late_reading_of_an_axis_that_goes_and_stands_is_no_vibration() {
+    let mut noise = white(8, 0.5);
+    let mut place = 0.0;
+    let rows = (0..2600_u16).map(|row| {
+        let t = 0.113 * f64::from(row);
+        let phase = (t / 28.5).fract() * 28.5;
+        let speed = 3.7 * (phase / 2.0).min((25.0 - phase) / 2.0).clamp(0.0, 1.0);
+        place += 0.113 * speed;
+        [0.0, t, place, 1.0, -20.0 * speed + noise()]
+    });
+    let problem = Passes::of_rows(rows).problem();
+    let named = diagnose(&problem);
+    assert!(names(&named).is_empty(), "{:?} {:?}", names(&named), named.residual);
+    let found = discover(&problem);
+    assert_eq!(found.found, Found::Formula);
+    assert_eq!(found.proposals[0].shape, "late by a time");
+}
+
+/// Two fringes lost in noise of their size: the moment is known to a few samples, and its
+/// error says so.
+#[test]
+fn a_moment_is_as_uncertain_as_the_data_have_it() {
+    let (mut square, mut told) = (0.0, 0.0);
+    for seed in 0..12 {
+        let slip = |t: f64, _: f64, _: f64| if t < 701.0 { 0.0 } else { 2.0 * 0.316_410_182_7 };
+        let found = diagnose(&Passes::new(&slip, &mut white(seed, 0.7)).problem());
+        for effect in &found.rounds[found.rounds.len() - 1].effects {
+            let Some(time) = effect.parameters.iter().find(|one| one.key == "time_s") else {
+                continue;
+            };
+            let off = (time.value - 701.0) / time.stderr.expect("an error");
+            (square, told) = (square + off * off, told + 1.0);
+        }
+    }
+    assert!(6.0 <= told && square / told < 4.0, "{told} moments, {square}");
+}
+
+/// Two turns of a table, each from its own start, with a wave that only a clock would tell from an
+/// order: what the disc does is nobody's rival for it.
+#[test]
+fn a_wave_without_a_name_confuses_no_effect_beside_it() {
+    let machine = Model::parse(
+        "output.rotary = true\nspindle.speed = \"2 rpm\"\n\
+         grating = { lines = 36000, diameter = \"150 mm\" }\n",
+        Path::new("machine.toml"),
+    );
+    let mut noise = white(1, 1.0);
+    let mut columns = ["pass", "angle_rev", "error_arcsec"].map(|name| (name, Vec::new()));
+    for pass in 0..2_u8 {
+        for row in 0..2406_u16 {
+            let turn = 0.113 * f64::from(pass) + f64::from(row) / 2406.0;
+            let wave = |order: f64, phase: f64| libm::sin(TAU * order * turn + phase);
+            let error = 20.0 * wave(1.0, 0.2) + 6.7 * wave(2.0, 0.0) + wave(200.0, 0.3) + noise();
+            let row = [f64::from(pass), turn, error];
+            columns.iter_mut().zip(row).for_each(|((_, values), value)| values.push(value));
+        }
+    }
+    let column = |(name, values): (&str, Vec<f64>)| Column { name: name.to_owned(), values };
+    let table = Table::new(columns.into_iter().map(column).collect());
+    let found = diagnose(&problem(&machine.expect("a machine"), &table));
+    assert_eq!(names(&found), ["grating-eccentricity", "grating-graduation"]);
+    let confused = found.candidates.iter().filter(|one| one.accepted);
+    assert!(confused.clone().all(|one| one.confounded_with.is_empty()), "{:?}", found.candidates);
+    // Twice the rate of a sampling that begins elsewhere is a slow curve to each of the two.
+    let at = found.residual.iter().filter_map(|one| one.at);
+    assert!(at.clone().all(|order| order < 1203.0), "{:?}", at.collect::<Vec<_>>());
+}
