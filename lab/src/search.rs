@@ -12,7 +12,7 @@ mod rivals;
 mod uneven;
 
 pub(crate) use analysis::{Step, search, take_for_a_shape};
-pub(crate) use court::{Claim, Winner, claims, nameless_winner, nobodys};
+pub(crate) use court::{Claim, Winner, claims, hear, nobodys};
 pub(crate) use polish::polished;
 pub(crate) use pruning::{Dropped, pruned, pruned_in_doubt};
 pub(crate) use refusal::Refusal;

@@ -7,6 +7,8 @@ pub struct Nature {
     pub at_reversal: bool,
     /// True when its nonlinear values are plays, µm, that the corrector's moves get through.
     pub play: bool,
+    /// True for what comes back with every turn of the spindle, in so many waves.
+    pub every_turn: bool,
     /// Lowest harmonic that does not come without those below it.
     pub high_harmonic: Option<f64>,
     /// Relative uncertainty of the known physics that its parameters multiply.
@@ -21,6 +23,7 @@ impl Nature {
     pub const PLAIN: Self = Self {
         at_reversal: false,
         play: false,
+        every_turn: false,
         high_harmonic: None,
         uncertainty: 0.0,
         settings: &[],

@@ -18,8 +18,8 @@ use crate::numerics::least_squares::covariance_rows;
 use crate::policy::chance::{AT_AN_END, STANDARD_ERRORS};
 use crate::policy::extent::SEARCHED_ROWS;
 use crate::search::{
-    Dropped, Refusal, Rivals, Step, Winner, nameless_winner, nobodys, polished, pruned,
-    pruned_in_doubt, rivals, search, take_for_a_shape,
+    Dropped, Refusal, Rivals, Step, Winner, hear, nobodys, polished, pruned, pruned_in_doubt,
+    rivals, search, take_for_a_shape,
 };
 
 /// What can be said about a model and a measurement.
@@ -194,9 +194,13 @@ fn searched(problem: &Problem) -> Diagnosis {
     let last = &steps[steps.len() - 1].state;
     let mut found = rivals(&small, last, &steps[0].tried);
     let mut residual = structures(&small, &last.columns, &last.fit);
-    let winner = nameless_winner(&small, last, &found);
+    let heard = hear(&small, last, &found);
     residual.extend(nobodys(&small, &steps));
-    if let Some(winner) = winner {
+    for (index, witness) in heard.witnesses {
+        let rivals = found.iter_mut().find(|rivals| rivals.index == index);
+        rivals.into_iter().for_each(|rivals| rivals.confused.push(witness.clone()));
+    }
+    if let Some(winner) = heard.winner {
         let last = &states[states.len() - 1];
         if let Some((step, state)) = beaten(&problem, &small, last, &winner) {
             found = besides(found, &out_of(last, &state));

@@ -10,41 +10,72 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 
-use crate::model::{Columns, Fit, Problem, noises_of, settle};
+use crate::model::{Columns, Fit, Problem, settle};
 use crate::noise::{Layout, Noise};
 use crate::numerics::{chi_squared_tail, count};
-use crate::policy::chance::{BEYOND_DOUBT, DRAWS};
+use crate::policy::chance::{BEYOND_DOUBT, DRAWS, MOST_DRAWS, STANDARD_ERRORS};
 
-/// Chance of a gain of some free columns in noise like that of a fit.
+/// Chance of a gain of some free columns in noise like that of a fit, drawn for until it is clear on
+/// which side of a limit it lies.
 ///
-/// The gains of the draws are matched by `c·χ²(k)` with their mean and variance (Satterthwaite
-/// 1946), never more favourable than χ² with one degree a column.
+/// Never more favourable than χ² with one degree a column.
 #[must_use]
 pub(crate) fn chance(
     problem: &Problem,
-    model: &Columns,
-    fit: &Fit,
+    (model, fit): (&Columns, &Fit),
     raw: &[Column],
     gain: f64,
+    limit: f64,
 ) -> f64 {
     let width = count(raw.len());
     let plain = chi_squared_tail(gain, width);
-    if BEYOND_DOUBT * width < gain {
+    if limit <= plain || BEYOND_DOUBT * width < gain {
         return plain;
     }
-    let gains: Vec<f64> =
-        (0..DRAWS).into_par_iter().map(|seed| drawn_gain(problem, model, fit, raw, seed)).collect();
-    let mean = gains.iter().sum::<f64>() / count(gains.len());
-    let variance = gains.iter().map(|g| (g - mean) * (g - mean)).sum::<f64>()
-        / count(gains.len().saturating_sub(1).max(1));
-    if mean <= width || variance <= 0.0 {
-        return plain;
+    let mut gains: Vec<f64> = Vec::new();
+    for batch in 0..MOST_DRAWS / DRAWS {
+        let seeds = (batch * DRAWS..(batch + 1) * DRAWS).into_par_iter();
+        gains.par_extend(seeds.map(|seed| drawn_gain(problem, model, fit, raw, seed)));
+        let law = Law::of(&gains, width);
+        let ends = [1.0 / law.within, law.within].map(|by| law.chance(by * gain) < limit);
+        if ends[0] == ends[1] {
+            break;
+        }
     }
-    let scale = (0.5 * variance / mean).max(1.0);
-    chi_squared_tail(gain / scale, mean / scale).max(plain)
+    Law::of(&gains, width).chance(gain).max(plain)
 }
 
-/// Gain of the columns on noise drawn from a fit.
+/// The law `c·χ²(k)` that has the mean and the variance of some gains (Satterthwaite 1946).
+struct Law {
+    scale: f64,
+    freedom: f64,
+    /// Factor by which the mean may be off.
+    within: f64,
+}
+
+impl Law {
+    /// That of drawn gains, which for columns of some width is at least χ².
+    fn of(gains: &[f64], width: f64) -> Self {
+        let number = count(gains.len());
+        let mean = gains.iter().sum::<f64>() / number;
+        let squares = gains.iter().map(|gain| (gain - mean) * (gain - mean));
+        let variance = squares.sum::<f64>() / (number - 1.0).max(1.0);
+        let error = (variance / number).sqrt() / mean.max(f64::MIN_POSITIVE);
+        let within = 1.0 + STANDARD_ERRORS * error;
+        if mean <= width || variance <= 0.0 {
+            return Self { scale: 1.0, freedom: width, within };
+        }
+        let scale = (0.5 * variance / mean).max(1.0);
+        Self { scale, freedom: mean / scale, within }
+    }
+
+    fn chance(&self, gain: f64) -> f64 {
+        chi_squared_tail(gain / self.scale, self.freedom)
+    }
+}
+
+/// Gain of the columns on noise drawn from a fit, whose noise keeps the parts that it was found to
+/// have: with fewer, the columns would be given what a part has lost.
 fn drawn_gain(problem: &Problem, model: &Columns, fit: &Fit, raw: &[Column], seed: u64) -> f64 {
     let mut chance = ChaCha8Rng::seed_from_u64(seed);
     let mut noisy = problem.clone();
@@ -52,8 +83,7 @@ fn drawn_gain(problem: &Problem, model: &Columns, fit: &Fit, raw: &[Column], see
     noisy.observed =
         problem.predicted.iter().zip(drawn).map(|(said, drawn)| said + drawn).collect();
     let model = Columns { fixed: None, ..model.clone() };
-    let start = noises_of(&noisy, &noisy.residual());
-    let plain = settle(&noisy, &model, &start);
+    let plain = settle(&noisy, &model, &fit.noises);
     let wide = settle(&noisy, &model.and(&Columns::free(raw.to_vec())), &plain.noises);
     2.0 * (wide.log_likelihood - plain.log_likelihood)
 }

@@ -5,7 +5,7 @@ use helixlock_plant::{CATALOGUE, Entry, Formula, Parameter, Role, Search, Term};
 use super::unfolding::unfolded;
 use crate::model::{Component, Problem, Stage};
 use crate::numerics::{Looks, by_factors, count, evenly, product, spread};
-use crate::policy::evidence::{ANOTHER_MATERIAL, LOOSELY_KNOWN, MARGIN};
+use crate::policy::evidence::{ANOTHER_MATERIAL, HIGH_HARMONIC_PRICE, LOOSELY_KNOWN, MARGIN};
 use crate::policy::extent::{FREQUENCIES, LONGEST, NARROWEST, OVERTONES, SHORTEST, SLOWEST_WAVES};
 use crate::spectrum::{Scan, gear_orders, strongest_first};
 
@@ -54,14 +54,13 @@ pub(crate) fn candidates(stage: &Stage<'_>, found: &[Component]) -> Vec<Candidat
         .chain(problem.extra.iter().cloned())
         .filter(|term| logged(problem, term))
         .filter_map(|term| candidate(stage, term))
-        .flat_map(|candidate| [freed(&candidate), Some(candidate)])
-        .flatten()
         .map(|candidate| with_overtones(candidate, stage.problem, found))
+        .flat_map(|candidate| [freed(&candidate), doubled(stage, &candidate), Some(candidate)])
+        .flatten()
         .collect()
 }
 
-/// Adds the overtones of gears that the model has already: without its fundamental, a line at
-/// twice a gear's order is nobody's.
+/// Adds the overtones of gears of which the model has a line already.
 fn with_overtones(mut candidate: Candidate, problem: &Problem, found: &[Component]) -> Candidate {
     if !candidate.term.is_of_a_gear() {
         return candidate;
@@ -70,12 +69,25 @@ fn with_overtones(mut candidate: Candidate, problem: &Problem, found: &[Componen
     let known = problem.model.effects.iter().chain(found.iter().map(|one| &one.term));
     let known = known.filter(|term| term.is_of_a_gear()).flat_map(Term::nonlinear);
     let overtones = known
-        .filter(|order| orders.contains(order))
+        .filter(|order| orders.contains(order) || orders.contains(&(0.5 * order)))
         .flat_map(|order| (2..=OVERTONES).map(move |times| f64::from(times) * order))
         .filter(|order| !orders.contains(order));
+    let before = candidate.grid.len();
     candidate.grid.extend(overtones.map(|order| vec![order]));
-    candidate.looks = Looks::at_places(count(candidate.grid.len()));
+    let grown = count(candidate.grid.len()) / count(before.max(1));
+    candidate.looks = candidate.looks.times(grown);
     candidate
+}
+
+/// A wave twice as often as a listed gear's, whose own need not be there: an oval wheel, a universal
+/// joint, the detent of a stepping motor. It must pay for that.
+fn doubled(stage: &Stage<'_>, candidate: &Candidate) -> Option<Candidate> {
+    let orders = gear_orders(&stage.problem.model);
+    let twice = orders.iter().map(|order| 2.0 * order).filter(|twice| !orders.contains(twice));
+    let grid: Vec<Vec<f64>> = twice.map(|order| vec![order]).collect();
+    let looks = Looks::at_places(count(grid.len())).times(libm::exp(0.5 * HIGH_HARMONIC_PRICE));
+    let is_one = candidate.term.is_of_a_gear() && !grid.is_empty();
+    is_one.then(|| Candidate { grid, looks, ..candidate.clone() })
 }
 
 /// An effect whose constant is that of a material, with any value of it: nobody looks into an alloy.

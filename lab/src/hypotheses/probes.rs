@@ -147,7 +147,9 @@ fn probe(problem: &Problem, model: &Columns, fit: &Fit, raw: &[Column]) -> (f64,
     let size = (before * before - after * after).max(0.0).sqrt();
     let mut p_value = (probes(problem) * chi_squared_tail(gain, width)).min(1.0);
     if MANY_COLUMNS <= raw.len() && matters(problem, fit, size, p_value) {
-        p_value = (probes(problem) * calibration::chance(problem, model, fit, raw, gain)).min(1.0);
+        let limit = SIGNIFICANCE / probes(problem);
+        let chance = calibration::chance(problem, (model, fit), raw, gain, limit);
+        p_value = (probes(problem) * chance).min(1.0);
     }
     (size, p_value)
 }

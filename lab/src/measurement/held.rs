@@ -6,13 +6,13 @@
 
 use std::f64::consts::TAU;
 
-use helixlock_plant::{Bridging, LOGGED_COLUMNS, LoggedColumn};
+use helixlock_plant::{Bridging, Column, LOGGED_COLUMNS, LoggedColumn};
 
 use super::Measurement;
-use crate::numerics::count;
+use crate::numerics::{count, median};
 use crate::policy::reading::{AT_A_TICK, BY_ACCIDENT, ROWS_A_READING};
 
-/// How well a tick is known, in intervals of rows.
+/// How well a tick is known, in the usual interval of rows.
 const SLACK: f64 = 0.25;
 
 /// When an instrument was read: at `start` and every `period` before and after.
@@ -27,12 +27,19 @@ type Change = [f64; 2];
 
 impl Measurement {
     /// The same with held readings joined by straight lines, and a note on each.
+    ///
+    /// One instrument reads several quantities at a time: a column of few changes follows the clock
+    /// that all of them follow together.
     pub(super) fn without_holds(mut self) -> Self {
-        let steady = LOGGED_COLUMNS.iter().filter(|column| column.bridging != Bridging::Never);
-        for LoggedColumn { name, bridging, .. } in steady {
+        let steady = || LOGGED_COLUMNS.iter().filter(|column| column.bridging != Bridging::Never);
+        let logged: Vec<&Column> =
+            steady().filter_map(|column| self.covariates.get(column.name)).collect();
+        let common = Clock::of(&self.time_s, &logged);
+        for LoggedColumn { name, bridging, .. } in steady() {
             let goes_on = *bridging != Bridging::WithinPasses;
             let Some(values) = self.covariates.get(*name) else { continue };
-            let Some(clock) = Clock::of(&self.time_s, values) else { continue };
+            let shared = || common.filter(|clock| clock.is_kept(&self.time_s, values));
+            let Some(clock) = Clock::of(&self.time_s, &[values]).or_else(shared) else { continue };
             let mut joined = Vec::with_capacity(values.len());
             while joined.len() < values.len() {
                 let from = joined.len();
@@ -67,27 +74,39 @@ const AS_HIGH: f64 = 0.9;
 const ENOUGH: usize = 4;
 
 impl Clock {
-    /// The clock that a column follows; `None` when it changes at other times, or at every row.
-    fn of(time: &[f64], values: &[f64]) -> Option<Self> {
+    /// The clock that columns follow together; `None` when they change at other times, or at every
+    /// row.
+    fn of(time: &[f64], columns: &[&Column]) -> Option<Self> {
         if time.windows(2).any(|pair| pair[1] < pair[0]) {
             return None;
         }
-        let differs = |&row: &usize| values[row].to_bits() != values[row - 1].to_bits();
-        let rows: Vec<usize> = (1..values.len()).filter(differs).collect();
-        let changes: Vec<Change> = rows.iter().map(|&row| [time[row - 1], time[row]]).collect();
-        if changes.len() < 2 || values.len() < ROWS_A_READING * changes.len() {
+        let changes = changes(time, columns);
+        if changes.len() < 2 || time.len() < ROWS_A_READING * changes.len() {
             return None;
         }
-        let interval = (time[time.len() - 1] - time[0]) / count(time.len());
-        Self::of_changes(&changes).filter(|clock| clock.explains(&changes, interval))
+        let interval = interval(time);
+        let clocks = Self::of_changes(&changes)?.into_iter();
+        clocks.filter_map(|clock| clock.near(&changes)).find(|one| one.explains(&changes, interval))
     }
 
-    /// The clock whose ticks the first changes lie closest to, found from them on.
-    fn of_changes(changes: &[Change]) -> Option<Self> {
-        let first: Vec<f64> = changes.iter().take(FIRST).map(middle).collect();
-        let mut gaps: Vec<f64> = first.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    /// True when a column hardly changes anywhere but at a tick.
+    fn is_kept(&self, time: &[f64], values: &Column) -> bool {
+        let changes = changes(time, &[values]);
+        !changes.is_empty() && self.at_ticks(&changes, interval(time)).is_some()
+    }
+
+    /// Clocks whose ticks the first changes lie closest to, slowest first.
+    fn of_changes(changes: &[Change]) -> Option<Vec<Self>> {
+        let mut gaps: Vec<f64> =
+            changes.windows(2).map(|pair| middle(&pair[1]) - middle(&pair[0])).collect();
         gaps.sort_by(f64::total_cmp);
         let usual = *gaps.get(gaps.len() / 4)?;
+        // What changed while nobody looked, as between two passes, tells no phase.
+        let told = changes.iter().filter(|[before, after]| after - before <= 0.5 * usual);
+        let first: Vec<f64> = told.take(FIRST).map(middle).collect();
+        if first.len() < 2 {
+            return None;
+        }
         let lasts = first[first.len() - 1] - first[0];
         let step = STEPS_A_CELL.recip() / lasts;
         let (low, high) = (0.8 / usual, f64::from(MOST_TICKS) / usual);
@@ -105,10 +124,12 @@ impl Clock {
             libm::hypot(across, along)
         };
         let sizes: Vec<f64> = tried.iter().map(size).collect();
-        let best = tried[slowest_peak(&sizes)?];
-        let (across, along) = together(best);
-        let start = first[0] + libm::atan2(across, along) / (TAU * best);
-        Self { start, period: best.recip() }.near(changes)
+        let clock = |peak: usize| {
+            let (across, along) = together(tried[peak]);
+            let start = first[0] + libm::atan2(across, along) / (TAU * tried[peak]);
+            Self { start, period: tried[peak].recip() }
+        };
+        Some(peaks(&sizes).into_iter().map(clock).collect())
     }
 
     /// The clock near this one that the changes follow best, found from one to the next; each
@@ -136,6 +157,18 @@ impl Clock {
     /// True when hardly a change lies anywhere but at a tick, of those that might, and changes at
     /// any time would not.
     fn explains(&self, changes: &[Change], interval: f64) -> bool {
+        let Some(mut logs) = self.at_ticks(changes, interval) else { return false };
+        logs.sort_by(f64::total_cmp);
+        // Start and period suit two changes at least.
+        let by_accident: f64 = logs.iter().skip(2).sum();
+        let looks =
+            libm::log(f64::from(MOST_TICKS) * STEPS_A_CELL * count(changes.len().min(FIRST)));
+        by_accident + looks < libm::log(BY_ACCIDENT)
+    }
+
+    /// Logarithms of the chances of the changes that lie at ticks to do so by accident; `None` when
+    /// too many lie elsewhere, of those that might.
+    fn at_ticks(&self, changes: &[Change], interval: f64) -> Option<Vec<f64>> {
         let (mut might, mut elsewhere) = (0.0, 0.0);
         let mut logs: Vec<f64> = Vec::new();
         for change in changes {
@@ -149,12 +182,7 @@ impl Clock {
                 logs.push(libm::log(chance));
             }
         }
-        logs.sort_by(f64::total_cmp);
-        // Start and period suit two changes at least.
-        let by_accident: f64 = logs.iter().skip(2).sum();
-        let looks =
-            libm::log(f64::from(MOST_TICKS) * STEPS_A_CELL * count(changes.len().min(FIRST)));
-        by_accident + looks < libm::log(BY_ACCIDENT) && elsewhere < (1.0 - AT_A_TICK) * might
+        (elsewhere < (1.0 - AT_A_TICK) * might).then_some(logs)
     }
 
     /// Ticks since the start, and parts of one.
@@ -194,14 +222,31 @@ impl Clock {
     }
 }
 
-/// The first peak that is nearly as high as any: a clock of half the period ticks at each tick, too.
-fn slowest_peak(sizes: &[f64]) -> Option<usize> {
+/// Peaks nearly as high as any: a clock of half the period ticks at each tick, too, and one that
+/// loses a tick from pass to pass hardly less often.
+fn peaks(sizes: &[f64]) -> Vec<usize> {
     let highest = sizes.iter().copied().fold(0.0, f64::max);
-    let mut at = sizes.iter().position(|size| AS_HIGH * highest <= *size)?;
-    while sizes.get(at + 1).is_some_and(|next| sizes[at] < *next) {
-        at += 1;
-    }
-    Some(at)
+    let size = |place: usize| sizes.get(place).copied().unwrap_or(0.0);
+    let is_peak = |&at: &usize| {
+        AS_HIGH * highest <= sizes[at]
+            && size(at.wrapping_sub(1)) <= sizes[at]
+            && size(at + 1) < sizes[at]
+    };
+    (0..sizes.len()).filter(is_peak).collect()
+}
+
+/// Where any of some columns has another value than in the row before.
+fn changes(time: &[f64], columns: &[&Column]) -> Vec<Change> {
+    let differs = |&row: &usize| {
+        columns.iter().any(|values| values[row].to_bits() != values[row - 1].to_bits())
+    };
+    (1..time.len()).filter(differs).map(|row| [time[row - 1], time[row]]).collect()
+}
+
+/// Usual interval of rows.
+fn interval(time: &[f64]) -> f64 {
+    let mut intervals: Vec<f64> = time.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    median(&mut intervals)
 }
 
 fn middle([before, after]: &Change) -> f64 {
@@ -211,6 +256,10 @@ fn middle([before, after]: &Change) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn clock_of(time: &[f64], values: &[f64]) -> Option<Clock> {
+        Clock::of(time, &[&values.to_vec().into()])
+    }
 
     /// 1200 rows at uneven instants within 900 s.
     fn instants() -> Vec<f64> {
@@ -232,7 +281,7 @@ mod tests {
         let time = instants();
         let round = |value: f64| (value / 0.01).round() * 0.01;
         let held: Vec<f64> = time.iter().map(|t| round(truth(15.0 * (t / 15.0).floor()))).collect();
-        let clock = Clock::of(&time, &held).expect("a clock");
+        let clock = clock_of(&time, &held).expect("a clock");
         assert!((clock.period - 15.0).abs() < 0.02, "{clock:?}");
         let joined = clock.joined(&time, &held);
         let until = time.partition_point(|t| *t < 885.0);
@@ -252,8 +301,21 @@ mod tests {
         let levels = [20.3, 20.5, 20.7, 20.8, 20.8, 20.6, 20.4, 20.2, 20.0];
         let reading = |t: &f64| levels.iter().zip(1_u8..).find(|(_, k)| *t < 300.0 * f64::from(*k));
         let held: Vec<f64> = time.iter().map(|t| *reading(t).expect("a level").0).collect();
-        let clock = Clock::of(&time, &held).expect("a clock");
+        let clock = clock_of(&time, &held).expect("a clock");
         assert!((clock.period - 300.0).abs() < 3.0, "{clock:?}");
+    }
+
+    /// Hours between two passes say nothing of how well a tick is known.
+    #[test]
+    fn a_clock_goes_on_between_passes() {
+        let instant = |i: u32| {
+            let pass = f64::from(i / 90);
+            4.0 * f64::from(i % 90) + libm::sin(1.7 * f64::from(i)) + 3800.0 * pass
+        };
+        let time: Vec<f64> = (0..540).map(instant).collect();
+        let held: Vec<f64> = time.iter().map(|t| truth(30.0 * (t / 30.0).floor())).collect();
+        let clock = clock_of(&time, &held).expect("a clock");
+        assert!((clock.period - 30.0).abs() < 0.02, "{clock:?}");
     }
 
     /// Changes at any time follow a clock once in 2000 logs.
@@ -266,7 +328,7 @@ mod tests {
             };
             let changes = 5 + seed % 20;
             let value = |t: &f64| f64::from((0..changes).filter(|k| at(*k) <= *t).sum::<u32>());
-            Clock::of(&time, &time.iter().map(value).collect::<Vec<_>>()).is_some()
+            clock_of(&time, &time.iter().map(value).collect::<Vec<_>>()).is_some()
         };
         let accidents = (0..2000).filter(|seed| follows(*seed)).count();
         assert!(accidents < 8, "{accidents}");
@@ -276,9 +338,9 @@ mod tests {
     fn rounded_and_continuous_logs_follow_no_clock() {
         let time = instants();
         let of = |value: fn(f64) -> f64| time.iter().map(|t| value(*t)).collect::<Vec<_>>();
-        assert!(Clock::of(&time, &of(truth)).is_none(), "changes at every row");
+        assert!(clock_of(&time, &of(truth)).is_none(), "changes at every row");
         let rounded = of(|t| (truth(t) / 0.1).round() * 0.1);
-        assert!(Clock::of(&time, &rounded).is_none(), "changes where the truth crosses a step");
-        assert!(Clock::of(&time, &of(|_| 20.0)).is_none(), "constant");
+        assert!(clock_of(&time, &rounded).is_none(), "changes where the truth crosses a step");
+        assert!(clock_of(&time, &of(|_| 20.0)).is_none(), "constant");
     }
 }

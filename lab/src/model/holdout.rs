@@ -12,10 +12,11 @@ use crate::policy::evidence::{PARTS, TOLD};
 ///
 /// Whole passes are held out in turn when the others tell every coefficient; otherwise stretches
 /// of a fifth of each pass, twice with other bounds, for what happens at a bound shows on neither
-/// side of it. A held-out part may have its own zero, as a pass has.
+/// side of it, and of those the ones beside which every coefficient is told, if there are any. A
+/// held-out part may have its own zero, as a pass has.
 #[must_use]
 pub(crate) fn holdout_rms(problem: &Problem, columns: &Columns, noises: &[Noise]) -> f64 {
-    size(&unseen(problem, (columns, noises)), |part| part.rms)
+    size(&unseen(problem, &folds(problem, columns), (columns, noises)), |part| part.rms)
 }
 
 /// A model as it is held out: its columns and its noise.
@@ -24,12 +25,37 @@ pub(crate) type Unseen<'a> = (&'a Columns, &'a [Noise]);
 /// True when one model does better on unseen data than another: in all, or in what is swift.
 ///
 /// Slow effects that both lack may lie in the way of a swift one, and weigh more than it does. An
-/// outlier has no say.
+/// outlier has no say. Where what the models differ by lies in rows that none may be held out of, as
+/// a warming-up at the start of a long record does, unseen data have no say either.
 #[must_use]
 pub(crate) fn helps_unseen(problem: &Problem, model: Unseen<'_>, without: Unseen<'_>) -> bool {
-    let (model, without) = (unseen(problem, model), unseen(problem, without));
+    let folds = folds(problem, model.0);
+    if !tells_apart(problem, &folds, model, without) {
+        return true;
+    }
+    let (model, without) = (unseen(problem, &folds, model), unseen(problem, &folds, without));
     let better = |of: fn(&Part) -> f64| size(&model, of) < size(&without, of);
     better(|part| part.weighed_rms) || better(|part| part.swift_rms)
+}
+
+/// True when enough of what two models differ by lies in rows that are held out some time.
+fn tells_apart(
+    problem: &Problem,
+    folds: &[Vec<bool>],
+    model: Unseen<'_>,
+    without: Unseen<'_>,
+) -> bool {
+    let rows = 0..problem.layout.len();
+    let never: Vec<bool> = rows.map(|row| folds.iter().all(|held| !held[row])).collect();
+    if never.iter().all(|never| !never) {
+        return true;
+    }
+    let nothing = vec![false; never.len()];
+    let residual = problem.residual();
+    let [with_it, without] =
+        [model, without].map(|one| left_unseen(problem, &residual, one, &nothing));
+    let difference: Vec<f64> = with_it.iter().zip(&without).map(|(a, b)| a - b).collect();
+    tells(&problem.layout, &difference, &never)
 }
 
 /// What a model leaves of a part that is held out.
@@ -40,7 +66,7 @@ struct Part {
     rows: usize,
 }
 
-fn unseen(problem: &Problem, (columns, noises): Unseen<'_>) -> Vec<Part> {
+fn unseen(problem: &Problem, folds: &[Vec<bool>], (columns, noises): Unseen<'_>) -> Vec<Part> {
     let residual = problem.residual();
     let of_fold = |held: &Vec<bool>| {
         let left = left_unseen(problem, &residual, (columns, noises), held);
@@ -53,7 +79,7 @@ fn unseen(problem: &Problem, (columns, noises): Unseen<'_>) -> Vec<Part> {
             rows: rows.len(),
         }
     };
-    folds(problem, columns).par_iter().map(of_fold).collect()
+    folds.par_iter().map(of_fold).collect()
 }
 
 /// Size of all parts together, `of` being that of one.
@@ -83,7 +109,9 @@ fn folds(problem: &Problem, columns: &Columns) -> Vec<Vec<bool>> {
             (2 * (row - rows.start) * PARTS + halves * rows.len()) / (2 * rows.len()) == part
         })
     };
-    fifths.chain(shifted).map(stretch).collect()
+    let stretches: Vec<Vec<bool>> = fifths.chain(shifted).map(stretch).collect();
+    let telling: Vec<Vec<bool>> = stretches.iter().filter(|held| told(held)).cloned().collect();
+    if telling.is_empty() { stretches } else { telling }
 }
 
 fn rows_where(layout: &Layout, held: impl Fn(usize, usize) -> bool) -> Vec<bool> {

@@ -39,8 +39,9 @@ pub(crate) const SET_MARGIN: f64 = 10.0;
 
 /// What a high harmonic without the lower ones must bring beyond a named shaft.
 ///
-/// Chosen: odds of one to a hundred, 2·ln 100. Doubled: one to ten thousand.
-pub(crate) const HIGH_HARMONIC_PRICE: f64 = 9.2;
+/// Chosen: odds of one to thirty, 2·ln 30, less than [`MARGIN`], so that it tells no two effects
+/// that the data cannot tell. Doubled: one to a thousand, and it does.
+pub(crate) const HIGH_HARMONIC_PRICE: f64 = 6.8;
 
 /// What a shape of a turn that is no sine must bring beyond the sines of the catalogue.
 ///
@@ -75,7 +76,7 @@ pub(crate) const VISITS: usize = 4;
 /// Chosen. Doubled: a shape of no catalogue may be made up of six slips.
 pub(crate) const MOST_OF_A_NAME: usize = 3;
 
-/// The same of whole waves of a turn.
+/// The same of whole waves of a turn, and of listed gears.
 ///
 /// Measured: a resolver's record carries eight, the smallest 0.12 of 20 µm, on 110 records of a world made
 /// apart from the program none is named more for it. Doubled: nothing that was met moves.

@@ -11,7 +11,7 @@ use crate::model::{Columns, Component, Judged, Problem, Stage, State, helps_unse
 use crate::noise::{effective_samples, swift_rms};
 use crate::numerics::least_squares::covariance_rows;
 use crate::numerics::{chi_squared_tail, count};
-use crate::policy::chance::{FEW_SAMPLES, NAMED, STANDARD_ERRORS};
+use crate::policy::chance::{FEW_SAMPLES, NAMED, NO_ALL_CLEAR, STANDARD_ERRORS};
 use crate::policy::evidence::{MOST_OF_A_NAME, MOST_WHOLE_WAVES, TIME_LOCK};
 use crate::policy::size::SHARE_OF_NOISE;
 
@@ -24,6 +24,7 @@ pub(crate) fn refusal(problem: &Problem, now: &State, judged: &Judged) -> Option
     too_small(problem, judged, component.size_um(problem, used))
         .or_else(|| no_better_unseen(problem, now, judged))
         .or_else(|| implausible(problem, judged))
+        .or_else(|| (!likeness::turns_once(problem, component)).then_some(Refusal::Turn))
         .or_else(|| (!likeness::turns_enough(problem, component, used)).then_some(Refusal::Piece))
         .or_else(|| (!likeness::has_both_sides(problem, component, used)).then_some(Refusal::Edge))
         .or_else(|| (!likeness::by_the_clock(problem, component)).then_some(Refusal::Clock))
@@ -87,7 +88,7 @@ fn rests_on_one_sample(problem: &Problem, now: &State, judged: &Judged) -> Optio
 /// Refused when drawn noise, as slow as what is left without an effect, is followed as well by its
 /// columns.
 fn follows_slow_noise(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
-    let p_value = chance_in_slow_noise(problem, now, judged);
+    let p_value = chance_in_slow_noise(problem, now, judged, NAMED);
     (NAMED <= p_value).then_some(Refusal::Chance { p_value })
 }
 
@@ -101,8 +102,9 @@ fn follows_uneven_noise(problem: &Problem, now: &State, judged: &Judged) -> Opti
 /// The chance of an effect's gain in whatever kind of noise makes as much most often.
 #[must_use]
 pub(crate) fn chance_in_any_noise(problem: &Problem, now: &State, judged: &Judged) -> f64 {
-    let laws = [chance_without_one_sample, chance_in_slow_noise, chance_in_uneven_noise];
-    laws.iter().map(|law| law(problem, now, judged)).fold(judged.p_value, f64::max)
+    let slow = chance_in_slow_noise(problem, now, judged, NO_ALL_CLEAR);
+    let laws = [chance_without_one_sample, chance_in_uneven_noise];
+    laws.iter().map(|law| law(problem, now, judged)).fold(slow, f64::max)
 }
 
 fn chance_without_one_sample(problem: &Problem, now: &State, judged: &Judged) -> f64 {
@@ -111,8 +113,9 @@ fn chance_without_one_sample(problem: &Problem, now: &State, judged: &Judged) ->
     chance_with_tails(problem, [&now.fit, &judged.fit], other_samples)
 }
 
-/// Of a record that is worth few samples χ² promises too much: drawn noise says more.
-fn chance_in_slow_noise(problem: &Problem, now: &State, judged: &Judged) -> f64 {
+/// Of a record that is worth few samples χ² promises too much: drawn noise says more, as far as it
+/// must to tell the chance from a limit.
+fn chance_in_slow_noise(problem: &Problem, now: &State, judged: &Judged, limit: f64) -> f64 {
     let sensors = 0..problem.sensors.len();
     let worth = sensors.map(|sensor| {
         let (layout, _) = problem.layout.of_sensor(sensor);
@@ -124,9 +127,11 @@ fn chance_in_slow_noise(problem: &Problem, now: &State, judged: &Judged) -> f64 
     if FEW_SAMPLES <= worth.fold(f64::INFINITY, f64::min) {
         return judged.p_value;
     }
-    let plain = chi_squared_tail(judged.gain, count(columns.raw.len()));
-    let drawn = chance_in_noise(problem, &now.columns, &now.fit, &columns.raw, judged.gain);
-    (judged.p_value * drawn / plain.max(f64::MIN_POSITIVE)).min(1.0)
+    let plain = chi_squared_tail(judged.gain, count(columns.raw.len())).max(f64::MIN_POSITIVE);
+    let looks = judged.p_value / plain;
+    let model = (&now.columns, &now.fit);
+    let drawn = chance_in_noise(problem, model, &columns.raw, judged.gain, limit / looks);
+    (looks * drawn).min(1.0)
 }
 
 fn chance_in_uneven_noise(problem: &Problem, now: &State, judged: &Judged) -> f64 {
@@ -144,13 +149,14 @@ fn own_columns(problem: &Problem, judged: &Judged) -> Option<Columns> {
 /// True unless an effect that is there would be added once too often.
 ///
 /// Lines come in numbers, and so do slips; of curves and bumps a sum can imitate anything. Whole waves
-/// of a turn are few to choose from, and a shape that they are the harmonics of stands before the
-/// same judge in their place.
+/// of a turn and those of listed gears are few to choose from, and a shape that they are the
+/// harmonics of stands before the same judge in their place.
 fn repeats(judged: &Judged, now: &State) -> bool {
     let term = &judged.component.term;
     let periodic =
         term.parameters.iter().any(|what| what.role == Role::Amplitude || what.name == "count");
-    let listed = term.parameters.iter().any(|what| what.search == Search::Whole);
+    let listed =
+        term.parameters.iter().any(|what| matches!(what.search, Search::Whole | Search::GearOrder));
     let most = if listed { MOST_WHOLE_WAVES } else { MOST_OF_A_NAME };
     let before = now.components.iter().filter(|other| other.term.name == term.name).count();
     before == 0 || (periodic && before < most)

@@ -42,24 +42,43 @@ pub(crate) struct Winner {
     pub(crate) ahead: f64,
 }
 
-/// The shape without a name that is farthest ahead of the effects in whose place it stands.
+/// What the shapes without a name have to say against a model.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Heard {
+    /// The shape that is farthest ahead of the effects in whose place it stands.
+    pub(crate) winner: Option<Winner>,
+    /// Relations to a logged column that explain more than an effect which does not know of it,
+    /// though by less than the margin: its place in the model, and what rivals it.
+    pub(crate) witnesses: Vec<(usize, String)>,
+}
+
+/// Hears every shape without a name in the place of effects of a model, and beside all of them.
 #[must_use]
-pub(crate) fn nameless_winner(
-    problem: &Problem,
-    state: &State,
-    found: &[Rivals],
-) -> Option<Winner> {
+pub(crate) fn hear(problem: &Problem, state: &State, found: &[Rivals]) -> Heard {
     let shapes = nameless(problem);
     let court = Court::new(problem, state, found, &shapes, (SHORTLIST, MOST_PLACES));
-    let won = court.groups().into_iter().filter_map(|group| court.in_place_of(group));
-    won.max_by(|a, b| a.ahead.total_cmp(&b.ahead))
+    let mut heard = Heard::default();
+    for group in court.groups() {
+        let Some(base) = court.without(&group) else { continue };
+        let claims = court.claims(&group, &base);
+        heard.witnesses.extend(court.witness(&group, &claims));
+        let won = court.winner(group, &base, claims);
+        let farthest = heard.winner.as_ref().map_or(f64::NEG_INFINITY, |one| one.ahead);
+        if won.as_ref().is_some_and(|one| farthest <= one.ahead) {
+            heard.winner = won;
+        }
+    }
+    heard
 }
 
 /// The shape without a name that explains more beside a model than nothing does.
 #[must_use]
 pub(crate) fn shape_beside(problem: &Problem, state: &State) -> Option<Winner> {
     let shapes = nameless(problem);
-    Court::new(problem, state, &[], &shapes, (SHORTLIST, MOST_PLACES)).in_place_of(Vec::new())
+    let court = Court::new(problem, state, &[], &shapes, (SHORTLIST, MOST_PLACES));
+    let base = court.without(&[])?;
+    let claims = court.claims(&[], &base);
+    court.winner(Vec::new(), &base, claims)
 }
 
 /// What every shape of a list has to say for itself beside the effects of a model or in the place
@@ -216,24 +235,33 @@ impl<'a> Court<'a> {
         Columns::of_model(self.problem, &self.state.without(group)).ok()
     }
 
-    /// The shape that explains more than a group of effects in their place, and by how much.
-    fn in_place_of(&self, group: Vec<usize>) -> Option<Winner> {
-        let base = self.without(&group)?;
-        let claim = self.best(&group, &base)?;
+    /// The one of some claims that explains more than a group of effects in their place.
+    fn winner(&self, group: Vec<usize>, base: &Columns, claims: Vec<Claim<'a>>) -> Option<Winner> {
+        let claim = claims.into_iter().max_by(|a, b| a.ahead.total_cmp(&b.ahead))?;
         if claim.ahead <= MARGIN {
             return None;
         }
         let shown = if group.is_empty() {
             self.beside_all(&claim)?
         } else {
-            self.instead_of(&group, &base, &claim)
+            self.instead_of(&group, base, &claim)
         };
         Some(Winner { shown, beaten: group, ahead: claim.ahead })
     }
 
-    /// The best shape in a group's place.
-    fn best(&self, group: &[usize], base: &Columns) -> Option<Claim<'a>> {
-        self.claims(group, base).into_iter().max_by(|a, b| a.ahead.total_cmp(&b.ahead))
+    /// The relation to a logged column that explains more than the only effect of a group, which
+    /// does not know of it: two that were logged by the same clock seldom go along by accident.
+    fn witness(&self, group: &[usize], claims: &[Claim<'a>]) -> Option<(usize, String)> {
+        let [index] = *group else { return None };
+        let needs = self.state.components[index].term.needs();
+        let logged = &self.problem.measurement.covariates;
+        let tells = |claim: &&Claim<'_>| {
+            let along = claim.placed.shape.along.as_str();
+            0.0 < claim.ahead && logged.contains_key(along) && !needs.contains(&along)
+        };
+        let first = claims.iter().filter(tells).max_by(|a, b| a.ahead.total_cmp(&b.ahead))?;
+        let shape = &first.placed.shape;
+        Some((index, format!("{} along {}", shape.words, shape.along)))
     }
 
     /// The best shapes in a group's place: found under the model's noise and under white noise, in

@@ -96,13 +96,20 @@ fn seen_alike(problem: &Problem, a: Entry, b: Entry) -> bool {
     0.0 < size && (1.0 - 1e-9) * size < along * along
 }
 
-/// True for a slip between two samples of which one is where the table turns back.
+/// True for a slip where the table turns back, or within the turn of spindle and screw behind, over
+/// which play is taken up.
 fn slips_at_reversal(problem: &Problem, component: &Component) -> bool {
     let Some(at) = component.term.parameters.iter().position(|w| w.search == Search::Time) else {
         return false;
     };
     let (time, record) = (component.term.values[at], &problem.record);
     let near = record.time_s.partition_point(|t| *t < time);
+    let turn_mm = problem.model.workpiece.lead.mm();
+    let turn_mm = problem.model.lead_screw.map_or(turn_mm, |lead| turn_mm.max(lead.mm()));
+    let way_mm = record.since_reversal_mm.get(near).copied().unwrap_or(f64::INFINITY);
+    if !problem.model.rotary && way_mm < turn_mm {
+        return true;
+    }
     let window = near.saturating_sub(REVERSAL_REACH)..(near + REVERSAL_REACH).min(record.len());
     let passes = problem.measurement.pass[window.clone()].windows(2).all(|p| p[0] == p[1]);
     passes && 0.0 < spread(&problem.measurement.direction[window])
@@ -261,6 +268,31 @@ pub(crate) fn resolved(problem: &Problem, component: &Component) -> bool {
         return true;
     }
     let Some(turns) = problem.targets() else { return true };
+    resolves(&turns, waves_a_turn(problem, component))
+}
+
+/// True unless an effect is one of whole waves a turn of a part of which the record has not a whole
+/// turn: waves of any length follow it there.
+#[must_use]
+pub(crate) fn turns_once(problem: &Problem, component: &Component) -> bool {
+    let term = &component.term;
+    let listed = term.parameters.iter().position(|what| what.search == Search::Whole);
+    let harmonic = match listed {
+        Some(place) => term.values[place],
+        None if term.nature().every_turn => 1.0,
+        None => return true,
+    };
+    let mut turns: Vec<f64> = problem.record.turns().collect();
+    turns.sort_by(f64::total_cmp);
+    turns.dedup();
+    // Places at even steps all around end a step short of the turn.
+    let step = spread(&turns) / count(turns.len().max(2) - 1);
+    let part_turns = waves_a_turn(problem, component) / harmonic * (spread(&turns) + step);
+    1.0 - SHAPE < part_turns
+}
+
+/// Waves that an effect makes a turn of the spindle.
+fn waves_a_turn(problem: &Problem, component: &Component) -> f64 {
     let context = Context { machine: &problem.model, columns: &problem.record.columns };
     let basis = component.term.basis(&context).map(|basis| basis.columns).unwrap_or_default();
     let turn_mm = problem.model.workpiece.lead.mm();
@@ -273,7 +305,7 @@ pub(crate) fn resolved(problem: &Problem, component: &Component) -> bool {
         });
         rates.fold(0.0, f64::max)
     };
-    resolves(&turns, (rate(1.0) - rate(0.0)) / TAU)
+    (rate(1.0) - rate(0.0)) / TAU
 }
 
 /// Values about the mean of each pass of each sensor.

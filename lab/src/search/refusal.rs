@@ -23,6 +23,8 @@ pub(crate) enum Refusal {
     End { parameter: String, value: f64 },
     /// A bump of which only one flank lies inside the travel.
     Flank,
+    /// A wave of whole turns of the spindle, of which the record has not one.
+    Turn,
     /// So small a piece of a wave that a parabola follows it.
     Piece,
     /// A moment so near the start or end of a pass that a machine which runs in does as much.
@@ -61,6 +63,7 @@ impl Refusal {
                 | Self::NegativeSquare { .. }
                 | Self::End { .. }
                 | Self::Flank
+                | Self::Turn
                 | Self::Piece
                 | Self::Edge
                 | Self::Untimed
@@ -103,6 +106,7 @@ impl fmt::Display for Refusal {
                 write!(f, "at the end of its range: {parameter} {value:.4}")
             }
             Self::Flank => f.write_str("only one flank of the bump lies inside the travel"),
+            Self::Turn => f.write_str("whole waves a turn need a whole turn"),
             Self::Piece => f.write_str("so small a piece of a wave that any drift follows it"),
             Self::Edge => {
                 f.write_str("so near the start or the end that a machine runs in or out there")
