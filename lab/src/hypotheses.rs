@@ -1,6 +1,7 @@
 //! What could be in a residual: effects and where to look for them, wrong settings, shapes without
 //! a name, and structure that is nobody's; each tried, with its chance in noise.
 
+mod agreement;
 mod calibration;
 mod candidates;
 mod flaws;
@@ -19,6 +20,7 @@ mod trial;
 mod unfolding;
 mod waves;
 
+pub(crate) use agreement::disagreements;
 pub(crate) use calibration::chance as chance_in_noise;
 pub(crate) use candidates::{Candidate, as_it_stands, candidate, candidates, turn_scan};
 pub(crate) use flaws::{above_hunting, least_above_hunting};

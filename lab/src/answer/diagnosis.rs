@@ -8,7 +8,8 @@ use rayon::prelude::*;
 use super::experiment::{self, Advice};
 use crate::doubts::{Doubt, doubts};
 use crate::hypotheses::{
-    Likelihood, Structure, at_targets, is_left, no_larger_than, samples_a_pass, structures,
+    Likelihood, Structure, at_targets, disagreements, is_left, no_larger_than, samples_a_pass,
+    structures,
 };
 use crate::model::{
     Component, JointCovariance, Judged, Problem, State, holdout_rms, joint_covariance,
@@ -196,6 +197,7 @@ fn searched(problem: &Problem) -> Diagnosis {
     let mut residual = structures(&small, &last.columns, &last.fit);
     let heard = hear(&small, last, &found);
     residual.extend(nobodys(&small, &steps));
+    residual.extend(disagreements(&small, last));
     for (index, witness) in heard.witnesses {
         let rivals = found.iter_mut().find(|rivals| rivals.index == index);
         rivals.into_iter().for_each(|rivals| rivals.confused.push(witness.clone()));

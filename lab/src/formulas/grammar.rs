@@ -16,6 +16,7 @@ pub(crate) fn nameless(problem: &Problem) -> Vec<Shape> {
     if 0.0 < spread(&quantities.position.values) {
         all.extend(moving::along_travel(&quantities));
         all.extend(moving::again_and_again(&quantities));
+        all.extend(moving::of_each_pass(&quantities));
     }
     if quantities.timed && 0.0 < spread(&quantities.time.values) {
         all.extend(moving::in_time(&quantities));

@@ -243,6 +243,35 @@ pub(super) fn since_a_reversal(all: &Quantities) -> Option<Shape> {
     })
 }
 
+/// A step at each turn that grows along the travel, and a start of each pass that dies away, where a
+/// place is met more than once.
+pub(super) fn of_each_pass(all: &Quantities) -> Vec<Shape> {
+    let (x, way, since) = (&all.position, &all.direction, &all.travelled);
+    let mut shapes = Vec::new();
+    if 0.0 < spread(&way.values) {
+        shapes.push(
+            shape("each way its own line", "direction", "wind-up that grows with the length")
+                .curve("play", of(way))
+                .curve("slope", of(x))
+                .curve("size", of(way) * of(x)),
+        );
+    }
+    if 1 < all.passes || 0.0 < spread(&way.values) {
+        let longest = spread(&since.values);
+        let gone = number(-1.0) * of(since) / unknown(0);
+        shapes.push(
+            shape(
+                "settles after the start of a pass",
+                "way since the start",
+                "a table that runs in, oil that is pressed out",
+            )
+            .unknown("over_mm", &x.dimension, by_factors(0.005 * longest, 0.5 * longest, 12))
+            .curve("size", call(Function::Exp, gone)),
+        );
+    }
+    shapes
+}
+
 /// What is late by a time, where the speed of every sample is known.
 pub(super) fn late(all: &Quantities) -> Option<Shape> {
     all.velocity.as_ref().map(|velocity| late_by(of(velocity)))
@@ -263,12 +292,6 @@ pub(super) fn of_the_way(all: &Quantities) -> Vec<Shape> {
             shape("each way its own", "direction", "play, or friction that bends what carries")
                 .curve("size", of(way)),
         );
-        if moves {
-            shapes.push(
-                shape("each way its own slope", "direction", "wind-up that grows with the length")
-                    .curve("size", of(way) * of(x)),
-            );
-        }
     }
     if 0.0 < spread(&v.values) {
         if all.velocity.is_none() {

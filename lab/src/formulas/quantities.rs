@@ -23,6 +23,8 @@ pub(crate) struct Quantities {
     /// How fast it turns at every sample, where that was measured and is not always the same.
     pub(crate) velocity: Option<Arc<Quantity>>,
     pub(crate) since_reversal: Arc<Quantity>,
+    /// Way since the start of the pass.
+    pub(crate) travelled: Arc<Quantity>,
     pub(crate) pass: Arc<Quantity>,
     /// How many passes there are.
     pub(crate) passes: usize,
@@ -56,6 +58,7 @@ impl Quantities {
                 unit("mm"),
                 record.since_reversal_mm.clone(),
             ),
+            travelled: quantity("travelled_mm", unit("mm"), record.travelled_mm.clone()),
             pass: quantity(
                 "pass",
                 Dimension::number(),

@@ -125,14 +125,14 @@ const ROUNDING: f64 = 1e-9;
 
 /// True unless the zero of each pass stands for all there is of a column: a speed, a direction, or
 /// a harmonic that samples at whole parts of a turn always meet at the same angle.
-fn varies_inside_a_pass(problem: &Problem, column: &[f64]) -> bool {
+pub(super) fn varies_inside_a_pass(problem: &Problem, column: &[f64]) -> bool {
     let size = column.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
     let mut blocks = problem.layout.blocks.iter();
     blocks.any(|block| ROUNDING * size < spread(&column[block.rows.clone()]))
 }
 
 /// Structure explained by free columns: its size and chance.
-fn probe(problem: &Problem, model: &Columns, fit: &Fit, raw: &[Column]) -> (f64, f64) {
+pub(super) fn probe(problem: &Problem, model: &Columns, fit: &Fit, raw: &[Column]) -> (f64, f64) {
     let varying = raw.iter().filter(|column| varies_inside_a_pass(problem, column));
     let raw: &[Column] = &varying.cloned().collect::<Vec<_>>();
     if raw.is_empty() {

@@ -1,0 +1,49 @@
+//! Whether an effect that was found is the same in every pass.
+
+use helixlock_plant::Column;
+
+use super::probes::{Structure, matters, probe, varies_inside_a_pass};
+use crate::model::{Problem, State};
+use crate::numerics::count;
+use crate::policy::extent::COLUMNS_OF_PASSES;
+
+/// Effects of which some passes show another size or phase than others, each with its chance.
+///
+/// Of such an effect the one value that all passes were given is that of no pass: a worm's wave after
+/// the telescope has been turned over, a drift that has changed its way.
+#[must_use]
+pub(crate) fn disagreements(problem: &Problem, state: &State) -> Vec<Structure> {
+    let effects = count(state.components.len());
+    let of = |index: usize| {
+        let component = &state.components[index];
+        let (used, from) = state.coefficients(index);
+        let columns = &state.columns.raw[from..from + used.len()];
+        let raw = pass_by_pass(problem, columns);
+        if raw.is_empty() || COLUMNS_OF_PASSES < raw.len() || component.term.nature().is_setting() {
+            return None;
+        }
+        let (rms_um, p_value) = probe(problem, &state.columns, &state.fit, &raw);
+        let p_value = (effects * p_value).min(1.0);
+        let shape = format!("{} of another size or phase in some passes", component.term.name);
+        matters(problem, &state.fit, rms_um, p_value)
+            .then(|| Structure::without_place("passes", &shape, rms_um, p_value))
+    };
+    (0..state.components.len()).filter_map(of).collect()
+}
+
+/// The columns of an effect in each pass by itself, but for the first pass that shows it.
+fn pass_by_pass(problem: &Problem, columns: &[Column]) -> Vec<Column> {
+    let passes = problem.layout.blocks.iter().map(|block| block.pass + 1).max().unwrap_or(0);
+    let alone = |pass: usize| {
+        columns.iter().map(move |column| {
+            let mut part = vec![0.0; column.len()];
+            for block in problem.layout.blocks.iter().filter(|block| block.pass == pass) {
+                let rows = block.rows.clone();
+                part[rows.clone()].copy_from_slice(&column[rows]);
+            }
+            Column::from(part)
+        })
+    };
+    let shown = |pass: &Vec<Column>| pass.iter().any(|part| varies_inside_a_pass(problem, part));
+    (0..passes).map(|pass| alone(pass).collect()).filter(shown).skip(1).flatten().collect()
+}
