@@ -231,7 +231,10 @@ mod tests {
         ] {
             assert_eq!(meaning(bare).map(|word| word.meaning), Some(expected), "{bare}");
         }
-        for bare in ["voltage", "status", "Rotation-VelLastSector", "target velocity", "Temp Act"] {
+        for bare in ["voltage", "status", "Rotation-VelLastSector", "target velocity", "Temp Act"]
+            .into_iter()
+            .chain(["bed_target", "heater_bed.target", "extruder_target", "Nozzle Target"])
+        {
             assert!(meaning(bare).is_none(), "{bare}");
         }
     }
