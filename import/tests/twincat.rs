@@ -75,6 +75,19 @@ fn settings_of_the_export_change_nothing() {
     }
 }
 
+/// A key before every channel tells where a name with blanks ends; without one nothing does.
+#[test]
+fn names_with_blanks_between_blanks() {
+    let keyed = "Name Set Pos Name Act Pos\nSampleTime[ms] 10 SampleTime[ms] 10\nUnit mm (Length) Unit mm (Length)";
+    let text = export(keyed, |n, [s, a]| format!("{t} {s} {t} {a}", t = 10 * n), "EOF");
+    assert!(is_whole(&read(&text)), "{text}");
+    let shared = "Name Set Pos Act Pos\nSampleTime[ms] 10 10";
+    let text = export(shared, |n, [s, a]| format!("{} {s} {a}", 10 * n), "EOF");
+    let source = Source { name: "scope.csv", bytes: text.as_bytes() };
+    let error = propose(&[source], &Recipe::default()).expect_err("nothing tells the names");
+    assert!(error.to_string().contains("read as `twincat`"), "{error}");
+}
+
 /// 100 ns are no rounding of an `f64` near 1.3e17, whose neighbours are 16 counts apart.
 #[test]
 fn stamps_are_exact() {

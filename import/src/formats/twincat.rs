@@ -4,6 +4,7 @@
 //! channels in a row share one ("Timelines"), or there is none, and the sample time counts the rows. Files of
 //! different settings are described by what reads them elsewhere, among it the Python package `pytcs`.
 
+mod blanks;
 mod clock;
 mod layout;
 mod rows;
@@ -34,7 +35,10 @@ pub(crate) fn grid(
     lines: &[&str],
     decisions: &mut Decisions<'_>,
 ) -> Result<(Grid, Option<f64>), ImportError> {
-    side_by_side(lines, decisions).map_err(|error| match &error {
+    let quoted = blanks::quoted(lines);
+    let quoted: Option<Vec<&str>> =
+        quoted.as_ref().map(|lines| lines.iter().map(String::as_str).collect());
+    side_by_side(quoted.as_deref().unwrap_or(lines), decisions).map_err(|error| match &error {
         ImportError::Found { hint, .. } if hint.is_empty() => error.hinted(READ_AS),
         _ => error,
     })
