@@ -8,6 +8,7 @@
 //! `U(E) = √(2/5)·U`.
 
 mod budget;
+mod expanded;
 mod source;
 
 pub use budget::{Budget, Contribution, budgets};

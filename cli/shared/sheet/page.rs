@@ -77,7 +77,8 @@ fn budgets(sheet: &Sheet) -> Vec<Part> {
         parts.push(Part::Text(
             "By JCGM 100:2008: contributions are what one standard uncertainty of a quantity changes \
              of the evaluated figure, up and down, as a root mean square; they are independent and add \
-             by their squares. U is for a probability of 95.45 %."
+             by their squares. U is for a probability of 95.45 % by JCGM 101:2008: the distribution of \
+             all that makes lengths wrong, and the rest as normal; k is U over the combined."
                 .into(),
         ));
     }
