@@ -11,7 +11,7 @@ use rustfft::FftPlannerScalar;
 use rustfft::num_complex::Complex;
 
 use super::readings::Combined;
-use super::separated::Separated;
+use super::separated::{Separated, without_line};
 use super::spacing::{Harmonic, highest_harmonic};
 use crate::Error;
 use crate::number::number;
@@ -36,14 +36,23 @@ pub fn separate_by_fourier(combined: &Combined, accept_lost: bool) -> Result<Sep
     let touched_um =
         |sample: usize, back: usize| workpiece_um[(sample + samples - back % samples) % samples];
     let by_distance_um2 = covariance_um2(combined, &kept);
-    let row = |covariance: &[f64], place: usize| -> Vec<f64> {
-        (0..samples).map(|other| covariance[place.abs_diff(other)]).collect()
-    };
     let whole = by_distance_um2.as_ref().filter(|_| samples <= MOST_WITH_COVARIANCE);
-    let rows = whole.map(|found| (0..samples).map(|place| row(found, place)).collect());
+    let rows = whole.map(|found| without_lines(found));
     let found = Separated::with_carriage(combined, touched_um, rows);
-    let uncertainty_um = by_distance_um2.map(|found| vec![found[0].sqrt(); samples]);
-    Ok(Separated { uncertainty_um, ..found })
+    let alike = by_distance_um2.map(|found| vec![found[0].sqrt(); samples]);
+    Ok(Separated { uncertainty_um: found.uncertainty_um.clone().or(alike), ..found })
+}
+
+/// Covariance of all places from that by distance: the line that is taken off the bar takes its
+/// noise along, P·C·P.
+fn without_lines(by_distance_um2: &[f64]) -> Vec<Vec<f64>> {
+    let samples = by_distance_um2.len();
+    let row = |place: usize| {
+        without_line((0..samples).map(|other| by_distance_um2[place.abs_diff(other)]).collect())
+    };
+    let rows: Vec<Vec<f64>> = (0..samples).map(row).collect();
+    let column = |other: usize| without_line(rows.iter().map(|row| row[other]).collect());
+    (0..samples).map(column).collect()
 }
 
 /// Samples of which pairs are still few enough to keep.
@@ -117,8 +126,7 @@ mod tests {
         let spacing = Spacing { first: 5, second: 6 };
         let combined = readings(&bar, 0.0, 0.0, spacing).combine(spacing).unwrap();
         let found = separate_by_fourier(&combined, false).unwrap();
-        let expected =
-            super::super::separated::without_line((0..32).map(|k| bar(f64::from(k))).collect());
+        let expected = without_line((0..32).map(|k| bar(f64::from(k))).collect());
         for (found, expected) in found.workpiece_um.iter().zip(&expected) {
             assert!((found - expected).abs() < 1e-9, "{found} {expected}");
         }
@@ -126,6 +134,17 @@ mod tests {
         let mean = tilt.iter().sum::<f64>() / 32.0;
         for (found, expected) in found.tilt_urad.iter().zip(&tilt) {
             assert!((found - (expected - mean)).abs() < 1e-6, "{found} {expected}");
+        }
+    }
+
+    /// A line has no covariance with anything once it is taken off.
+    #[test]
+    fn the_line_takes_its_noise_along() {
+        let by_distance: Vec<f64> = (0..8).map(|d| libm::cos(f64::from(d) / 3.0)).collect();
+        for row in without_lines(&by_distance) {
+            let level: f64 = row.iter().sum();
+            let slope: f64 = row.iter().enumerate().map(|(k, value)| number(k) * value).sum();
+            assert!(level.abs() < 1e-12 && slope.abs() < 1e-11, "{level} {slope}");
         }
     }
 

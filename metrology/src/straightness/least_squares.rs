@@ -25,7 +25,7 @@ mod system;
 mod waves;
 
 use super::readings::Combined;
-use super::separated::Separated;
+use super::separated::{Separated, without_line};
 use crate::Error;
 use crate::number::number;
 use posterior::{affordable, posterior};
@@ -62,9 +62,25 @@ pub fn separate_by_least_squares(
         None => most_probable(&system, noise_um2, &weights).map(|places_um| (places_um, None)),
     }
     .ok_or(Error::TooFewSamples { found: z_um.len(), expected: 4 })?;
+    let covariance_um2 =
+        covariance_um2.map(|rows| if zeros_matched { with_parabola(rows, combined) } else { rows });
     let back = combined.spacing.total();
     let touched_um = |sample: usize, behind: usize| places_um[sample + back - behind];
     Ok(Separated::with_carriage(combined, touched_um, covariance_um2))
+}
+
+/// Adds what the runs do not agree on of the zeros: an offset o of `z` is a parabola o·x²/(L1·(L1 + L2)).
+fn with_parabola(mut covariance_um2: Vec<Vec<f64>>, combined: &Combined) -> Vec<Vec<f64>> {
+    let arms = number(combined.spacing.first * combined.spacing.total());
+    let parabola =
+        |sample: usize| combined.offset_uncertainty_um * number(sample) * number(sample) / arms;
+    let parabola_um = without_line((0..covariance_um2.len()).map(parabola).collect());
+    for (row, one_um) in covariance_um2.iter_mut().zip(&parabola_um) {
+        for (value, other_um) in row.iter_mut().zip(&parabola_um) {
+            *value += one_um * other_um;
+        }
+    }
+    covariance_um2
 }
 
 /// The bar of the most probable smoothness, first of those a decade apart, then of those near it.
@@ -91,7 +107,6 @@ fn most_probable(system: &System<'_>, noise_um2: Option<f64>, weights: &[f64]) -
 mod tests {
     use std::f64::consts::TAU;
 
-    use super::super::separated::without_line;
     use super::*;
     use crate::straightness::{Readings, Repeat, Spacing, separate_by_fourier};
 

@@ -1,5 +1,7 @@
 //! Repeated readings of three probes, and their combination without the carriage.
 
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
 use super::chauvenet::is_outlier;
 use super::separated::without_line;
 use super::spacing::Spacing;
@@ -48,6 +50,9 @@ pub struct Combined {
     pub z_um: Vec<f64>,
     /// The mean that was removed, µm: probe zeros and the bar's parabola, inseparable.
     pub offset_um: f64,
+    /// Standard uncertainty of that mean from how the runs' own means differ, more than by the noise
+    /// along a run, µm: probes whose zeros drift from run to run. Zero when nothing was repeated.
+    pub offset_uncertainty_um: f64,
     /// Standard deviation σ of one `z` about the mean of the runs (equation 12), µm; absent when
     /// nothing was repeated. The document reports ±3σ.
     pub sigma_um: Option<f64>,
@@ -89,6 +94,7 @@ impl Readings {
             return Err(Error::ProbesBeyondStroke { found_mm, stroke_mm });
         }
         let mut z = self.z_of_runs(spacing);
+        let unshifted = z.clone();
         // One spike moves the mean of its whole run, so outliers are sought about the median;
         // what is left is then put on its mean, as equation 11 has it.
         align(&mut z, median);
@@ -110,6 +116,10 @@ impl Readings {
         for z in &mut z_um {
             *z -= offset_um;
         }
+        let shifts_um = shifts(&z, &unshifted);
+        let offset_uncertainty_um = sigma_um.map_or(0.0, |sigma_um| {
+            offset_uncertainty_um(&shifts_um, sigma_um / number(samples).sqrt())
+        });
         let mean_probes_um = [0, 1, 2].map(|probe| self.mean_probe(probe, &z));
         let (start_mm, step_mm) = (self.start_mm, self.step_mm);
         Ok(Combined {
@@ -118,6 +128,7 @@ impl Readings {
             spacing,
             z_um,
             offset_um,
+            offset_uncertainty_um,
             sigma_um,
             mean_probes_um,
             counts,
@@ -192,6 +203,28 @@ fn align(z: &mut [Vec<f64>], centre: impl Fn(&[f64]) -> f64) {
             }
         }
     }
+}
+
+/// By how much each run was shifted, of the readings that count.
+fn shifts(aligned: &[Vec<f64>], unshifted: &[Vec<f64>]) -> Vec<f64> {
+    let shift = |(aligned, unshifted): (&Vec<f64>, &Vec<f64>)| {
+        let each = aligned.iter().zip(unshifted).map(|(to, from)| from - to);
+        mean(&each.filter(|shift| shift.is_finite()).collect::<Vec<_>>())
+    };
+    aligned.iter().zip(unshifted).map(shift).filter(|shift| shift.is_finite()).collect()
+}
+
+/// Standard uncertainty of the mean of the runs' shifts beyond that of `noise_um`, which each has
+/// from the noise along it.
+///
+/// Few runs tell little of it: 1.96 times this is what Student's factor is times the scatter (JCGM
+/// 100:2008, G.3).
+fn offset_uncertainty_um(shifts_um: &[f64], noise_um: f64) -> f64 {
+    let (runs, mean_um) = (number(shifts_um.len()), mean(shifts_um));
+    let squares: f64 = shifts_um.iter().map(|shift| (shift - mean_um).powi(2)).sum();
+    let beyond_um2 = (squares / (runs - 1.0) - noise_um * noise_um).max(0.0) / runs;
+    let student = StudentsT::new(0.0, 1.0, runs - 1.0).map_or(0.0, |one| one.inverse_cdf(0.975));
+    beyond_um2.sqrt() * student / 1.96
 }
 
 fn median(values: &[f64]) -> f64 {

@@ -24,20 +24,29 @@ pub struct Separated {
 impl Separated {
     /// The same with the difference from another method in the uncertainty.
     ///
-    /// What the two methods may differ by although both are right, the difference of their
-    /// variances, is taken off the mean square difference; the rest is what one of them assumes
-    /// wrongly, such as that the bar repeats with the stroke.
+    /// Either this method assumes nothing wrongly, such as that the bar repeats with the stroke, and
+    /// its variance is true; or the other method alone is right, and the variance is that one's and
+    /// the mean square difference. Both count as probable as the difference makes them (Bayesian
+    /// model averaging): noise alone makes the difference of their variances.
     #[must_use]
     pub fn with_difference_from(mut self, other: &Self) -> Self {
         let difference_um2 = self.mean_square_difference_um2(other);
         let variance = |each: &Option<Vec<f64>>| each.as_deref().map_or(0.0, mean_square);
-        let expected_um2 = (variance(&other.uncertainty_um) - variance(&self.uncertainty_um)).abs();
-        let excess_um2 = (difference_um2 - expected_um2).max(0.0);
-        for u_um in self.uncertainty_um.iter_mut().flatten() {
-            *u_um = libm::sqrt(*u_um * *u_um + excess_um2);
+        let (of_other, of_self) = (variance(&other.uncertainty_um), variance(&self.uncertainty_um));
+        let wider = if of_self < of_other { other } else { &self };
+        let freedom = wider.covariance_um2.as_deref().map_or(1.0, independent_places);
+        let wrong = beyond_chance(difference_um2 / (of_other - of_self).abs(), freedom);
+        let mixed = |mine_um2: f64, other_um2: f64| mine_um2 + wrong * (other_um2 - mine_um2);
+        for (place, u_um) in self.uncertainty_um.iter_mut().flatten().enumerate() {
+            let other_um = other.uncertainty_um.as_ref().map_or(0.0, |each| each[place]);
+            *u_um = mixed(*u_um * *u_um, other_um * other_um + difference_um2).sqrt();
         }
         for (place, row) in self.covariance_um2.iter_mut().flatten().enumerate() {
-            row[place] += excess_um2;
+            for (at, value) in row.iter_mut().enumerate() {
+                let other_um2 = other.covariance_um2.as_ref().map_or(0.0, |rows| rows[place][at]);
+                let apart_um2 = if at == place { difference_um2 } else { 0.0 };
+                *value = mixed(*value, other_um2 + apart_um2);
+            }
         }
         self
     }
@@ -81,6 +90,29 @@ impl Separated {
             covariance_um2,
         }
     }
+}
+
+/// Degrees of freedom of a mean square over places that vary together: (tr C)²/tr C² (Satterthwaite,
+/// Biometrics Bulletin 2, 1946, 110).
+fn independent_places(covariance_um2: &[Vec<f64>]) -> f64 {
+    let trace: f64 = covariance_um2.iter().enumerate().map(|(place, row)| row[place]).sum();
+    let squares: f64 = covariance_um2.iter().flatten().map(|value| value * value).sum();
+    trace * trace / squares
+}
+
+/// Probability that a mean square of so many degrees of freedom, in units of what chance makes, has
+/// more in it, when as many records have as have not.
+///
+/// The most probable variance is the mean square itself, and no less than that of chance; what that
+/// one value gains in twice the log likelihood of normal numbers, less its price ln ν (Schwarz, Annals
+/// of Statistics 6, 1978, 461).
+fn beyond_chance(ratio: f64, freedom: f64) -> f64 {
+    if ratio.is_infinite() {
+        return 1.0;
+    }
+    let ratio = ratio.max(1.0);
+    let gain = freedom * (ratio - 1.0 - libm::log(ratio)) - libm::log(freedom.max(1.0));
+    1.0 / (1.0 + libm::exp(-gain / 2.0))
 }
 
 fn mean_square(values: &[f64]) -> f64 {
@@ -127,4 +159,28 @@ pub(super) fn without_line(mut values: Vec<f64>) -> Vec<f64> {
         *value -= mean + products / squares * (number(index) - centre);
     }
     values
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What chance makes is improbable to be more, ten times as much is not; of one degree of freedom
+    /// nothing can be told before it.
+    #[test]
+    fn a_difference_counts_by_how_far_it_is_beyond_chance() {
+        assert!((beyond_chance(0.2, 1.0) - 0.5).abs() < 1e-12);
+        assert!((beyond_chance(1.0, 9.0) - 0.25).abs() < 1e-12);
+        assert!(0.999 < beyond_chance(10.0, 9.0));
+        assert!((beyond_chance(f64::INFINITY, 9.0) - 1.0).abs() < 1e-12);
+    }
+
+    /// Nine places that vary alike are one, nine that vary on their own are nine.
+    #[test]
+    fn places_that_vary_together_count_once() {
+        let alike = vec![vec![2.0; 9]; 9];
+        let own = (0..9).map(|k| (0..9).map(|j| if j == k { 2.0 } else { 0.0 }).collect());
+        assert!((independent_places(&alike) - 1.0).abs() < 1e-12);
+        assert!((independent_places(&own.collect::<Vec<Vec<f64>>>()) - 9.0).abs() < 1e-12);
+    }
 }
