@@ -5,6 +5,7 @@
 
 use std::io::Write;
 
+use helixlock_metrology::iso230::coverage::{Axis, Condition};
 use helixlock_metrology::{iso230, screw, straightness};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -25,28 +26,36 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 type Printed = Result<(), Box<dyn std::error::Error>>;
 
 fn of_straightness(out: &mut impl Write) -> Printed {
-    writeln!(out, "| bar | Fourier | least squares |")?;
-    writeln!(out, "|---|---|---|")?;
-    for bar in straightness::coverage::Bar::ALL {
-        let found = straightness::coverage::coverage(bar, 2000, 1)?;
-        let held = [found.fourier, found.least_squares]
+    use straightness::coverage::{Bar, Condition, coverage};
+    writeln!(out, "| bar | | Fourier | least squares | zone, Fourier | zone, least squares |")?;
+    writeln!(out, "|---|---|---|---|---|---|")?;
+    let usual = Bar::ALL.map(|bar| (bar, Condition::Usual, 2000));
+    let others = Condition::ALL.iter().skip(1).flat_map(|condition| {
+        [Bar::Repeating, Bar::NotRepeating, Bar::Wandering].map(|bar| (bar, *condition, 500))
+    });
+    for (bar, condition, records) in usual.into_iter().chain(others) {
+        let found = coverage((bar, condition), records, 1)?;
+        let [by_fourier, by_squares] = found.minimum_zone;
+        let held = [found.fourier, found.least_squares, by_fourier, by_squares]
             .map(|share| format!("{:.1} %", 100.0 * share))
             .join(" | ");
-        writeln!(out, "| {} | {held} |", bar.in_words())?;
+        writeln!(out, "| {} | {} | {held} |", bar.in_words(), condition.in_words())?;
     }
     Ok(writeln!(out)?)
 }
 
 fn of_screws(out: &mut impl Write) -> Printed {
-    let header = "| screw | noise | widened by | left of it | ±1.96 u holds |";
-    writeln!(out, "{header}\n|---|---|---|---|---|")?;
+    let header = "| screw | noise | | widened by | left of it | ±1.96 u holds |";
+    writeln!(out, "{header}\n|---|---|---|---|---|---|")?;
     for kind in screw::coverage::Screw::ALL {
         for noise_um in [0.05, 0.25, 0.6] {
-            let found = screw::coverage::coverage(kind, noise_um, 500, 1);
-            let (widened, left) = (found.widening_um, found.left_um);
-            let (kind, held) = (kind.in_words(), 100.0 * found.held);
-            let sizes = format!("{widened:.2} µm | {left:+.2} µm");
-            writeln!(out, "| {kind} | {noise_um} µm | {sizes} | {held:.1} % |")?;
+            let found = screw::coverage::coverage(kind, noise_um, 1000, 1);
+            for (symbol, found) in ["V300", "V2π"].iter().zip(found) {
+                let (widened, left) = (found.widening_um, found.left_um);
+                let (kind, held) = (kind.in_words(), 100.0 * found.held);
+                let sizes = format!("{widened:.2} µm | {left:+.2} µm");
+                writeln!(out, "| {kind} | {noise_um} µm | {symbol} | {sizes} | {held:.1} % |")?;
+            }
         }
     }
     Ok(writeln!(out)?)
@@ -54,19 +63,30 @@ fn of_screws(out: &mut impl Write) -> Printed {
 
 fn of_axes(out: &mut impl Write) -> Printed {
     let shown = ["A", "E", "M", "B", "B̄", "R", "P", "Ps"];
-    writeln!(out, "| axis | drift | {} |", shown.join(" | "))?;
-    writeln!(out, "|---|---|{}", "---|".repeat(shown.len()))?;
-    for axis in iso230::coverage::Axis::ALL {
-        for variation_um in [0.1, 0.5] {
-            let found = iso230::coverage::coverage(axis, variation_um, 1000, 1)?;
-            let held = |symbol: &&str| {
-                let share = found.iter().find(|(name, _)| name == symbol).map_or(0.0, |one| one.1);
-                format!("{:.1} %", 100.0 * share)
-            };
-            let held: Vec<String> = shown.iter().map(held).collect();
-            let kind = axis.in_words();
-            writeln!(out, "| {kind} | {variation_um} µm | {} |", held.join(" | "))?;
-        }
+    writeln!(out, "| axis | drift | | {} |", shown.join(" | "))?;
+    writeln!(out, "|---|---|---|{}", "---|".repeat(shown.len()))?;
+    for (axis, condition, variation_um) in drawn_axes() {
+        let found = iso230::coverage::coverage((axis, condition), variation_um, 1000, 1)?;
+        let held = |symbol: &&str| {
+            let share = found.iter().find(|(name, _)| name == symbol).map_or(0.0, |one| one.1);
+            format!("{:.1} %", 100.0 * share)
+        };
+        let held: Vec<String> = shown.iter().map(held).collect();
+        let (axis, condition) = (axis.in_words(), condition.in_words());
+        writeln!(out, "| {axis} | {variation_um} µm | {condition} | {} |", held.join(" | "))?;
     }
     Ok(writeln!(out)?)
+}
+
+/// Every axis as usual with little and much drift, then three under every other condition.
+fn drawn_axes() -> Vec<(Axis, Condition, f64)> {
+    let usual = Axis::ALL
+        .iter()
+        .flat_map(|axis| [0.1, 0.5].map(|variation_um| (*axis, Condition::Usual, variation_um)));
+    let others = Condition::ALL.iter().skip(1).flat_map(|condition| {
+        // What drifts is not to make half of the scatter.
+        let variation_um = if *condition == Condition::Still { 0.05 } else { 0.5 };
+        [Axis::Rising, Axis::Waves, Axis::Flat].map(|axis| (axis, *condition, variation_um))
+    });
+    usual.chain(others).collect()
 }

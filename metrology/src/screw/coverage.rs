@@ -2,12 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use rand::SeedableRng;
+use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, Normal, StandardNormal};
 
 use super::{Curve, Weighting, evaluate_travel, without_reading_noise};
-use crate::number::number;
 
 /// What kind of screw is drawn: 600 mm, lead 6 mm, eight samples a turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,21 +36,21 @@ impl Screw {
         }
     }
 
-    fn curve(self) -> Curve {
+    fn drawn(self, random: &mut ChaCha8Rng) -> Curve {
         let travel_mm: Vec<f64> = (0..=800).map(|k| f64::from(k) * 0.75).collect();
-        let mut random = ChaCha8Rng::seed_from_u64(5);
+        let [long, short] = [0, 1].map(|_| random.random_range(0.0..TAU));
         let mut wandered = 0.0;
         let deviation_um: Vec<f64> = travel_mm
             .iter()
             .map(|x| {
-                let step: f64 = StandardNormal.sample(&mut random);
+                let step: f64 = StandardNormal.sample(random);
                 wandered += 0.1 * step;
-                let turn = libm::sin(TAU * x / 6.0);
+                let turn = libm::sin(TAU * x / 6.0 + short);
                 match self {
-                    Self::Waves => 3.0 * libm::sin(TAU * x / 470.0) + 0.8 * turn,
+                    Self::Waves => 3.0 * libm::sin(TAU * x / 470.0 + long) + 0.8 * turn,
                     Self::Wandering => wandered + 0.5 * turn,
                     Self::Bowed => 1e-5 * (x - 300.0) * (x - 300.0) + 0.3 * turn,
-                    Self::Smooth => 4.0 * libm::sin(TAU * x / 1200.0),
+                    Self::Smooth => 4.0 * libm::sin(TAU * x / 1200.0 + long),
                 }
             })
             .collect();
@@ -59,10 +58,10 @@ impl Screw {
     }
 }
 
-/// How V300 and V2π came out, on average.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// How a characteristic came out, on average.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Coverage {
-    /// What noise adds to the bands as measured, µm.
+    /// What noise adds to the band as measured, µm.
     pub widening_um: f64,
     /// What is left of it, µm.
     pub left_um: f64,
@@ -70,14 +69,14 @@ pub struct Coverage {
     pub held: f64,
 }
 
-/// Draws so many records of a screw with noise of a standard deviation, in µm.
+/// Draws so many screws and records of them with noise of a standard deviation, in µm; how V300 and
+/// V2π came out.
 ///
 /// # Panics
 ///
 /// When `noise_um` is not a finite size.
 #[must_use]
-pub fn coverage(screw: Screw, noise_um: f64, records: u32, seed: u64) -> Coverage {
-    let curve = screw.curve();
+pub fn coverage(screw: Screw, noise_um: f64, records: u32, seed: u64) -> [Coverage; 2] {
     let characteristics = |curve: &Curve| {
         let found = evaluate_travel(curve, 6.0, 0.0, Weighting::Samples).expect("6 mm is a lead");
         found.characteristics[2..].to_vec() // V300 and V2π
@@ -86,24 +85,24 @@ pub fn coverage(screw: Screw, noise_um: f64, records: u32, seed: u64) -> Coverag
         let all = characteristics(curve);
         all.iter().filter_map(|one| one.reached.ok()).map(|found| found.value_um).collect()
     };
-    let truth = size(&curve);
     let noise = Normal::new(0.0, noise_um).expect("noise is a finite size");
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let (mut widening_um, mut left_um, mut held) = (0.0, 0.0, 0.0);
-    let bands = f64::from(records) * number(truth.len());
+    let mut all = [Coverage::default(); 2];
+    let share = 1.0 / f64::from(records);
     for record in 0..records {
+        let curve = screw.drawn(&mut random);
         let measured = curve.changed(|deviation_um| deviation_um + noise.sample(&mut random));
         let seed = seed + u64::from(record);
         let estimates = without_reading_noise(&measured, noise_um, seed, &characteristics);
         let found = size(&measured).into_iter().zip(estimates.into_iter().flatten());
-        for (truth, (wide, estimate)) in truth.iter().zip(found) {
+        for (one, (truth, (wide, estimate))) in all.iter_mut().zip(size(&curve).iter().zip(found)) {
             let error_um = estimate.size_um - truth;
-            widening_um += (wide - truth) / bands;
-            left_um += error_um / bands;
+            one.widening_um += (wide - truth) * share;
+            one.left_um += error_um * share;
             if error_um.abs() < 1.96 * estimate.uncertainty_um {
-                held += 1.0 / bands;
+                one.held += share;
             }
         }
     }
-    Coverage { widening_um, left_um, held }
+    all
 }

@@ -27,8 +27,8 @@ pub struct Estimate {
 const DRAWS: u32 = 32;
 
 /// The extrapolation spreads more than the band it starts from. Chosen: ±1.96 times the uncertainty
-/// then hold the truth in 95.8 % of records, 90 to 98 % by kind of curve; with 1.0 in 89 %. The
-/// example `coverage` draws them.
+/// then hold the truth in 96 % of records, 91 to 98 % by kind of screw; with 1.0 in 89 %. The
+/// example `coverage` draws them. Drawn screws spread 1.3 to 1.8 of it.
 const SPREAD_OF_THE_EXTRAPOLATION: f64 = 1.5;
 
 /// Sizes of the characteristics without noise of `noise_um` (standard deviation of one reading,
@@ -106,10 +106,11 @@ mod tests {
     #[test]
     fn the_widening_is_taken_off_and_the_uncertainty_is_true() {
         for screw in Screw::ALL {
-            let found = coverage(screw, 0.25, 60, 1);
-            assert!(0.4 < found.widening_um, "{screw:?}: {found:?}");
-            assert!(found.left_um.abs() < 0.35 * found.widening_um, "{screw:?}: {found:?}");
-            assert!(0.85 < found.held, "{screw:?}: {found:?}");
+            for found in coverage(screw, 0.25, 60, 1) {
+                assert!(0.4 < found.widening_um, "{screw:?}: {found:?}");
+                assert!(found.left_um.abs() < 0.45 * found.widening_um, "{screw:?}: {found:?}");
+                assert!(0.85 < found.held, "{screw:?}: {found:?}");
+            }
         }
     }
 
