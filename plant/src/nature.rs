@@ -9,6 +9,9 @@ pub struct Nature {
     pub play: bool,
     /// True for what comes back with every turn of the spindle, in so many waves.
     pub every_turn: bool,
+    /// True when it shows what the machine does late, as another zero of the position would, but by
+    /// the farther the faster a pass is.
+    pub delays: bool,
     /// Lowest harmonic that does not come without those below it.
     pub high_harmonic: Option<f64>,
     /// Relative uncertainty of the known physics that its parameters multiply.
@@ -24,6 +27,7 @@ impl Nature {
         at_reversal: false,
         play: false,
         every_turn: false,
+        delays: false,
         high_harmonic: None,
         uncertainty: 0.0,
         settings: &[],

@@ -1,14 +1,15 @@
 //! One judge for all mistakes: evidence against the file as it is, and against its effects at any
 //! size or none.
 
-use helixlock_plant::{Model, Parameter, Role, Term};
+use helixlock_plant::{CATALOGUE, Model, Parameter, Role, Term};
 
 use super::column::all_physics;
 use super::common::{curves, slopes};
 use super::doubt::Doubt;
 use super::hypothesis::{Hypothesis, with_effects};
 use super::view::{View, rough_noises};
-use crate::model::{Columns, Fit, Problem, noises_of, settle, with_noise};
+use crate::hypotheses::{candidate, try_candidate};
+use crate::model::{Columns, Component, Fit, Problem, Stage, noises_of, settle, with_noise};
 use crate::numerics::count;
 use crate::policy::mistakes::{DOUBT, NEAR_THE_BEST_DOUBT, SMALLER, WORTH_A_FIT};
 
@@ -108,6 +109,9 @@ impl<'a> Court<'a> {
             rivals.push(self.loosened());
             rivals.extend(self.with_physics().iter().map(|predicted| evidence(predicted)));
         }
+        if best.shifts() {
+            rivals.extend(self.delayed());
+        }
         // Whatever makes a wrong prediction vanish looks like a mend.
         if !best.last_resort() {
             rivals.extend(self.absent.iter().map(|predicted| evidence(predicted)));
@@ -153,6 +157,24 @@ impl<'a> Court<'a> {
     fn loosened(&self) -> f64 {
         let all = all_physics(self.problem);
         self.integrated(all.iter().filter_map(|term| any_size(self.problem, term)))
+    }
+
+    /// That of each effect of the catalogue that delays, at its best.
+    fn delayed(&self) -> Vec<f64> {
+        let stage = Stage::new(self.problem, &self.common[1], &rough_noises(self.problem));
+        let cards =
+            CATALOGUE.iter().filter(|card| card.nature.delays && self.problem.sees(card.entry));
+        let terms = cards.map(|card| Term::candidate(card, self.problem.model.rotary));
+        let found = terms.filter_map(|term| try_candidate(&stage, &candidate(&stage, term)?));
+        found.filter_map(|found| self.evidence_beside(&found.component)).collect()
+    }
+
+    /// Evidence of an effect beside the file's, each of its numbers paid for.
+    fn evidence_beside(&self, effect: &Component) -> Option<f64> {
+        let columns = Columns::of(self.problem, std::slice::from_ref(effect)).ok()?;
+        let numbers = count(effect.width() + effect.term.nonlinear().len());
+        let (evidence, _) = self.evidence(&self.problem.predicted, &columns);
+        Some(evidence - numbers * self.problem.price_of_a_number())
     }
 
     fn integrated(&self, columns: impl Iterator<Item = Columns>) -> f64 {

@@ -38,6 +38,11 @@ impl Hypothesis {
         self.scales || self.last_resort()
     }
 
+    /// True for a zero of the position, which an effect that delays imitates at one speed.
+    pub(super) fn shifts(&self) -> bool {
+        self.what == "shift"
+    }
+
     /// True when it is said only if no mistake of this machine's data is likely.
     pub(super) fn last_resort(&self) -> bool {
         self.what == "another-machine"

@@ -196,6 +196,34 @@ fn another_zero_of_one_pass_is_found() {
     assert!(mend.ends_with("of pass 2"), "{mend}");
 }
 
+/// Three ways along the travel, the last at three times the speed, all 0.4 s late: 0.24 mm, and 0.72.
+#[test]
+fn a_recorder_that_lags_is_no_zero_of_the_faster_pass() {
+    let (wave, _) = WAVES.split_at(WAVES.rfind("[[effect]]").expect("two effects"));
+    let known = machine(150, wave);
+    let lag = "[[effect]]\nkind = 'recorder-lag'\ntime_constant = '0.4 s'\n";
+    let ways = |error_um: &[f64]| {
+        let mut all = table(error_um);
+        let pass = |row: u32| row / 600;
+        let speed = |row: u32| if pass(row) < 2 { 6.0 } else { 18.0 };
+        let along = |row: u32| 0.5 * f64::from(row % 600);
+        let rows = || 0..1800_u32;
+        all.columns[0].values = rows().map(along).collect();
+        let time_s = |row| f64::from(pass(row)) * 700.0 + along(row) / 0.1 / speed(row);
+        all.columns[1].values = rows().map(time_s).collect();
+        let column = |name: &str, values| Column { name: name.to_owned(), values };
+        all.columns.push(column("speed_rpm", rows().map(speed).collect()));
+        all.columns.push(column("pass", rows().map(|row| f64::from(pass(row) + 1)).collect()));
+        all
+    };
+    let late = machine(150, &format!("{wave}{lag}"));
+    let clean = problem(&late, &ways(&[0.0; 1800])).predicted;
+    let mut chance = ChaCha8Rng::seed_from_u64(7);
+    let mut noise = || -> f64 { StandardNormal.sample(&mut chance) };
+    let shown: Vec<f64> = clean.iter().map(|value| value + 0.05 * noise()).collect();
+    assert_eq!(doubted(&known, &ways(&shown)), None);
+}
+
 /// What a clock shows at the start of a record is no part of it.
 #[test]
 fn the_zero_of_the_clock_is_none() {

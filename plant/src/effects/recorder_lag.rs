@@ -28,7 +28,7 @@ pub(super) const CARD: Card = Card {
     source: "first-order lag",
     random: false,
     candidate: true,
-    nature: Nature::PLAIN,
+    nature: Nature { delays: true, ..Nature::PLAIN },
     basis: |_, nonlinear| Ok(Basis::fixed(Lag { time_constant_s: nonlinear[0] })),
 };
 
