@@ -235,12 +235,13 @@ fn axis(stage: &Stage<'_>, parameter: &Parameter) -> Vec<f64> {
     }
 }
 
-/// Values that the record can tell apart: times from a part of an interval on, widths from a small
-/// part of the travel on, neither much longer than the record.
+/// Values that the record can tell apart: times from a part of an interval on, as short as formulas
+/// work on, for a lag far below the rows' own shows by what the model says between them; widths
+/// from a small part of the travel on, neither much longer than the record.
 fn logarithmic(problem: &Problem, parameter: &Parameter) -> Vec<f64> {
     let (mut low, mut high) = (*parameter.range.start(), *parameter.range.end());
     let told = match parameter.unit.suffix().as_str() {
-        "s" => Some((problem.interval_s() / SHORTEST, spread(&problem.record.time_s))),
+        "s" => Some((problem.finest_interval_s() / SHORTEST, spread(&problem.record.time_s))),
         "mm" => {
             let travel_mm = spread(&problem.record.position_mm);
             Some((travel_mm / NARROWEST, travel_mm))
@@ -362,4 +363,54 @@ fn thinned(mut axes: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
         });
     }
     axes
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+    use std::path::Path;
+
+    use helixlock_plant::Model;
+    use helixlock_traces::{Column, Table};
+
+    use super::*;
+    use crate::hypotheses::try_candidate;
+    use crate::measurement::{Measurement, Nominal};
+    use crate::model::{Columns, noises_of};
+
+    /// A wave of 12 mm, of which a machine without comparisons is measured every 1.2 mm and 2 s,
+    /// through a recorder of 0.05 s: `Im(exp(iωt)/(1 + iωτ))`, and a millinoise of no chance.
+    #[test]
+    fn a_lag_far_below_the_rows_is_found_by_what_the_file_says_between_them() {
+        let machine = "workpiece.lead = '6 mm'\nspindle.speed = '6 rpm'\n\
+                       lead_screw.lead = '12 mm'\n[[effect]]\nkind = 'screw-periodic'\n\
+                       amplitude = '2 um'\nphase = '0 deg'\n";
+        let model = Model::parse(machine, Path::new("machine.toml")).expect("a machine");
+        let time_s = |row: u32| 2.0 * f64::from(row);
+        let (omega, tau_s) = (TAU * 0.6 / 12.0, 0.05);
+        let shown = |row: u32| {
+            let angle = omega * time_s(row);
+            let late = libm::sin(angle) - omega * tau_s * libm::cos(angle);
+            let noise = 0.01 * f64::from((row * row * 7919) % 101) / 101.0;
+            -2.0 * late / (1.0 + (omega * tau_s).powi(2)) + noise
+        };
+        let column = |name: &str, value: &dyn Fn(u32) -> f64| Column {
+            name: name.to_owned(),
+            values: (0..500).map(value).collect(),
+        };
+        let table = Table::new(vec![
+            column("time_s", &time_s),
+            column("position_mm", &|row| 0.6 * time_s(row)),
+            column("error_um", &shown),
+        ]);
+        let measurement = Measurement::from_table(&table, &Nominal::of(&model)).expect("samples");
+        let problem = Problem::new(&model, &measurement).expect("all columns");
+        let noises = noises_of(&problem, &problem.residual());
+        let stage = Stage::new(&problem, &Columns::default(), &noises);
+        let card = CATALOGUE.iter().find(|card| card.nature.delays).expect("a lag");
+        let lag = candidate(&stage, Term::candidate(card, false)).expect("a place to look");
+        let found = try_candidate(&stage, &lag).expect("it explains something");
+        let found_s = found.component.term.nonlinear()[0];
+        assert!((found_s - tau_s).abs() < 0.05 * tau_s, "{found_s} s");
+    }
 }

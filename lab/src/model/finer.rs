@@ -1,17 +1,19 @@
 //! The samples behind those of a measurement, for what these do not stand for.
 
 use std::ops::Range;
-use std::sync::OnceLock;
 
 use helixlock_plant::{Machine, Part, Record};
 
 use crate::measurement::means;
 use crate::numerics::median;
+use crate::policy::extent::BETWEEN_A_TURN;
 
 /// A record, those of its samples that were measured, and the groups of these that were averaged,
 /// or chosen as groups of one.
 ///
-/// Samples farther apart than comparisons have others in between: a lag works on every one.
+/// Samples farther apart than comparisons have others in between: a lag works on every one, and on
+/// what the model's formulas say there, not on straight lines. A recorder without comparisons follows
+/// at every instant, and has as many samples in between as its waves ask for.
 ///
 /// A formula of the mean is not the mean of a formula: a jump in the error, as the meter's dead
 /// zone makes it, is smeared in one and lost in the other. And the error counts from the first
@@ -24,23 +26,21 @@ pub(crate) struct Finer {
     pub(crate) measured: Option<Vec<usize>>,
     /// Which measured ones make up each mean.
     pub(crate) groups: Vec<Range<usize>>,
-    interval_s: OnceLock<f64>,
 }
 
-/// Median time between neighbours of the same pass among some samples, s.
+/// Median time between neighbours of the same pass, s.
 #[must_use]
-pub(crate) fn interval_s(record: &Record, samples: impl Iterator<Item = usize> + Clone) -> f64 {
-    let pairs = samples.clone().zip(samples.skip(1));
-    let of_a_pass = pairs.filter(|&(one, next)| record.pass[one] == record.pass[next]);
-    let interval_s = |(one, next): (usize, usize)| (record.time_s[next] - record.time_s[one]).abs();
-    median(&mut of_a_pass.map(interval_s).collect::<Vec<f64>>())
+pub(crate) fn interval_s(record: &Record) -> f64 {
+    let pairs = (1..record.len()).filter(|&row| record.pass[row] == record.pass[row - 1]);
+    let interval_s = |row: usize| (record.time_s[row] - record.time_s[row - 1]).abs();
+    median(&mut pairs.map(interval_s).collect::<Vec<f64>>())
 }
 
 impl Finer {
     /// A record and the groups of its samples that were averaged.
     #[must_use]
     pub(crate) fn of(record: Record, groups: Vec<Range<usize>>) -> Self {
-        Self { record, measured: None, groups, interval_s: OnceLock::new() }
+        Self { record, measured: None, groups }
     }
 
     /// The same samples in other groups.
@@ -49,25 +49,15 @@ impl Finer {
         Self { groups, ..self.clone() }
     }
 
-    /// A record with samples in between at every comparison; `None` if it has them, or none are
-    /// to be had.
+    /// A record with samples in between at every comparison, or as close where there are none;
+    /// `None` if it has them, or none are to be had.
     #[must_use]
     pub(crate) fn between(machine: &Machine, record: &Record) -> Option<Self> {
-        if machine.rotary || !machine.has(Part::Dividers) {
-            return None;
-        }
-        let (record, measured) = record.refined(machine.turns_a_comparison())?;
+        let compares = !machine.rotary && machine.has(Part::Dividers);
+        let turns = if compares { machine.turns_a_comparison() } else { 1.0 / BETWEEN_A_TURN };
+        let (record, measured) = record.refined(turns)?;
         let groups = (0..measured.len()).map(|row| row..row + 1).collect();
         Some(Self { measured: Some(measured), ..Self::of(record, groups) })
-    }
-
-    /// Median time between two samples of a pass as they were measured, s; looked for once.
-    #[must_use]
-    pub(crate) fn interval_s(&self) -> f64 {
-        *self.interval_s.get_or_init(|| match &self.measured {
-            Some(measured) => interval_s(&self.record, measured.iter().copied()),
-            None => interval_s(&self.record, 0..self.record.len()),
-        })
     }
 
     /// True when the groups are the measured samples themselves, with others in between.
@@ -166,6 +156,39 @@ width = "0.8 um"
             for row in rows {
                 assert!((thin[row] - all[groups[row].start] - zero).abs() < 1e-12);
             }
+        }
+    }
+
+    /// Ten rows a wave of 12 mm, 1.2 mm and 2 s apart: what a lag of a second shows of it is
+    /// `Im(exp(iωt)/(1 + iωτ) − exp(iωt))` once it has settled. Straight lines from row to row show
+    /// it a tenth off.
+    #[test]
+    fn a_lag_works_on_the_formula_between_rows_that_are_few_a_wave() {
+        let text = "workpiece.lead = '6 mm'\nspindle.speed = '6 rpm'\nlead_screw.lead = '12 mm'\n\
+                    [[effect]]\nkind = 'screw-periodic'\namplitude = '2 um'\nphase = '0 deg'\n\
+                    [[effect]]\nkind = 'recorder-lag'\ntime_constant = '1 s'\n";
+        let model = Model::parse(text, Path::new("machine.toml")).expect("a machine");
+        let time_s = |row: u32| 2.0 * f64::from(row);
+        let column = |name: &str, value: &dyn Fn(u32) -> f64| Column {
+            name: name.into(),
+            values: (0..100).map(value).collect(),
+        };
+        let table = Table::new(vec![
+            column("time_s", &time_s),
+            column("position_mm", &|row| 0.6 * time_s(row)),
+            column("error_um", &|_| 0.0),
+        ]);
+        let measurement = Measurement::from_table(&table, &Nominal::of(&model)).expect("samples");
+        let problem = Problem::new(&model, &measurement).expect("all columns");
+        let shown = problem.design(&model.effects[1]).expect("a column").fixed.expect("a delta");
+        let omega = std::f64::consts::TAU * 0.6 / 12.0;
+        let square = 1.0 + omega * omega;
+        for row in 10..100 {
+            let angle = omega * time_s(row);
+            let late = (libm::sin(angle) - omega * libm::cos(angle)) / square;
+            let expected = -2.0 * (late - libm::sin(angle));
+            let off = (shown[row as usize] - expected).abs();
+            assert!(off < 0.02 * 2.0 * omega, "{row}: {} {expected}", shown[row as usize]);
         }
     }
 }

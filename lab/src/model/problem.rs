@@ -279,11 +279,10 @@ impl Problem {
         }
     }
 
-    /// Median time between two samples of a pass as they were measured, before any means, s.
+    /// Median time between two samples of a pass before any means, s, those in between among them.
     #[must_use]
-    pub(crate) fn interval_s(&self) -> f64 {
-        let own = || interval_s(&self.record, 0..self.record.len());
-        self.finer.as_deref().map_or_else(own, Finer::interval_s)
+    pub(crate) fn finest_interval_s(&self) -> f64 {
+        interval_s(self.finer.as_deref().map_or(&self.record, |finer| &finer.record))
     }
 
     /// µm a unit of a sensor's prediction: the counter counts steps.
