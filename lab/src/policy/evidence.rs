@@ -39,9 +39,8 @@ pub(crate) const SET_MARGIN: f64 = 10.0;
 
 /// What a high harmonic without the lower ones must bring beyond a named shaft.
 ///
-/// Chosen: odds of one to thirty, 2·ln 30, less than [`MARGIN`], so that it tells no two effects
-/// that the data cannot tell. Doubled: one to a thousand, and it does.
-pub(crate) const HIGH_HARMONIC_PRICE: f64 = 6.8;
+/// Chosen: odds of one to a hundred, 2·ln 100. Doubled: one to ten thousand.
+pub(crate) const HIGH_HARMONIC_PRICE: f64 = 9.2;
 
 /// What a shape of a turn that is no sine must bring beyond the sines of the catalogue.
 ///
