@@ -91,11 +91,15 @@ pub(super) fn with_effects(model: &Model, more: &[Term]) -> Model {
 }
 
 /// The measurement shows nothing of what the file says that its machine has.
+///
+/// What is predicted from a log that holds its readings is not what the machine did between them.
 pub(super) fn another_machine(problem: &Problem) -> Option<Hypothesis> {
     let effects = problem.model.effects.len();
+    let held = |term: &&Term| term.needs().iter().any(|name| problem.measurement.holds(name));
+    let told = problem.model.effects.iter().filter(|term| !held(term)).count();
     let bare = Model { effects: Vec::new(), ..problem.model.clone() };
     let mended = Problem::new(&bare, &problem.measurement).ok()?;
-    (MACHINE_OF_EFFECTS <= effects && mended.has_rows_of(problem)).then(|| Hypothesis {
+    (MACHINE_OF_EFFECTS <= told && mended.has_rows_of(problem)).then(|| Hypothesis {
         what: "another-machine",
         says: format!("none of the file's {effects} effects is in the data: is it this machine?"),
         mend: "take the machine file that belongs to the data".to_owned(),

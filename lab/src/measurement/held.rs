@@ -26,6 +26,17 @@ struct Clock {
 type Change = [f64; 2];
 
 impl Measurement {
+    /// True for a log that repeats its readings, by no clock that would tell when they were taken.
+    pub(crate) fn holds(&self, name: &str) -> bool {
+        let steady = |column: &LoggedColumn| column.bridging != Bridging::Never;
+        let values =
+            self.covariates.get(name).filter(|_| LoggedColumn::named(name).is_some_and(steady));
+        values.is_some_and(|values| {
+            let changes = values.windows(2).filter(|pair| pair[0].to_bits() != pair[1].to_bits());
+            ROWS_A_READING * changes.count() < values.len()
+        })
+    }
+
     /// The same with held readings joined by straight lines, and a note on each.
     ///
     /// One instrument reads several quantities at a time: a column of few changes follows the clock
