@@ -7,6 +7,7 @@
 //! the file's effects at any size; a shift also an effect of the catalogue that delays.
 
 mod along;
+mod clock;
 mod column;
 mod common;
 mod court;
@@ -39,6 +40,10 @@ pub fn doubts(problem: &Problem) -> Vec<Doubt> {
     if let Some(doubt) = along::runs_along(problem) {
         return vec![doubt];
     }
+    let contradicting = contradicting(problem);
+    if !contradicting.is_empty() {
+        return contradicting;
+    }
     let small = problem.thinned(SEARCHED_ROWS);
     // Laid out anew, so that a mend changes nothing but what it mends.
     let small = small.and_then(|small| Problem::new(&small.model, &small.measurement).ok());
@@ -56,10 +61,16 @@ pub fn doubts(problem: &Problem) -> Vec<Doubt> {
     doubts
 }
 
+/// What contradicts itself, whatever effects fit; the rest is told only when that is mended.
+fn contradicting(problem: &Problem) -> Vec<Doubt> {
+    let measurement = &problem.measurement;
+    let clock = clock::contradicted(measurement, &problem.model);
+    direction::denied(measurement).into_iter().chain(clock).collect()
+}
+
 fn hypotheses(problem: &Problem) -> Vec<Hypothesis> {
     let mut all = column::units(problem);
     all.extend(swap::swaps(problem));
-    all.extend(direction::turned(problem));
     all.extend(shift::shifts(problem));
     all.extend(dividers::other_dividers(problem));
     if !follows_steps(problem) {

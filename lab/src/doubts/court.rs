@@ -71,7 +71,8 @@ impl<'a> Court<'a> {
     }
 
     /// True when the data can tell a mistake, and it leaves less than the file as it is: free of slopes and
-    /// curves, or with them and not more without; a wrong pressure is a slope first of all.
+    /// curves, or with them and not more without; a wrong pressure is a slope first of all,
+    /// and a steady one nothing else.
     fn told(&self, [rough, plain]: [&View; 2], one: &Hypothesis) -> bool {
         if DOUBT < one.usual {
             return true;
@@ -82,9 +83,9 @@ impl<'a> Court<'a> {
         let flatter = flat(&one.mended.predicted) < SMALLER * flat(&self.problem.predicted);
         let moved: Vec<f64> =
             one.mended.predicted.iter().zip(&self.problem.predicted).map(|(a, b)| a - b).collect();
-        let smaller = after < SMALLER * before || flatter && after <= before;
+        let smaller = after < SMALLER * before || flatter && after <= before + WORTH_A_FIT;
         let needed = one.lets_go() || self.absent.iter().all(|bare| after < SMALLER * left(bare));
-        WORTH_A_FIT < rough.square(moved) && smaller && needed
+        WORTH_A_FIT < rough.square(moved) + one.usual && smaller && needed
     }
 
     /// What each mistake gains under a fixed noise.

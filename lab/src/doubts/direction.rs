@@ -1,26 +1,28 @@
-//! A direction that says the other way than the travel goes.
+//! A direction that denies the travel: no model is needed to see it.
 
-use super::doubt::recipe;
-use super::hypothesis::Hypothesis;
+use super::doubt::{Doubt, recipe, said_by};
 use crate::measurement::Measurement;
-use crate::model::Problem;
+use crate::policy::mistakes::DENIED;
 
-/// The direction turned, where it denies most of the way that was gone.
-pub(super) fn turned(problem: &Problem) -> Option<Hypothesis> {
-    let measurement = &problem.measurement;
-    if 0.0 <= way_along(measurement) {
+/// The doubt, where nearly all of the way was gone against what `direction` says.
+///
+/// Rows of one way only and without a clock may be listed the other way round.
+pub(super) fn denied(measurement: &Measurement) -> Option<Doubt> {
+    let both = measurement.direction.windows(2).any(|pair| pair[0] * pair[1] < 0.0);
+    if !measurement.timed && !both {
         return None;
     }
-    let direction = measurement.direction.iter().map(|way| -way).collect();
-    let mended = Measurement { direction, ..measurement.clone() };
-    let says = "`direction` is -1 where the travel rises".to_owned();
-    Hypothesis::of_measurement(problem, &mended, ("sign", says, recipe("direction", "sign = -1")))
-}
-
-/// Way inside the passes, counted as the direction has it.
-fn way_along(measurement: &Measurement) -> f64 {
     let (place, pass) = (&measurement.angle_rev, &measurement.pass);
-    let rows = 1..place.len();
-    let inside = rows.filter(|&row| pass[row] == pass[row - 1]);
-    inside.map(|row| measurement.direction[row] * (place[row] - place[row - 1])).sum()
+    let inside = (1..place.len()).filter(|&row| pass[row] == pass[row - 1]);
+    let ways =
+        || inside.clone().map(|row| measurement.direction[row] * (place[row] - place[row - 1]));
+    let whole: f64 = ways().map(f64::abs).sum();
+    let against: f64 = ways().map(|way| (-way).max(0.0)).sum();
+    (0.0 < whole && DENIED * whole <= against).then(|| Doubt {
+        what: "sign",
+        evidence: said_by(ways().filter(|way| *way < 0.0).count()),
+        says: "`direction` is -1 where the travel rises: one of the two counts the other way"
+            .to_owned(),
+        mend: recipe("direction", "sign = -1"),
+    })
 }

@@ -1,5 +1,9 @@
 //! What is said of a mistake.
 
+use std::f64::consts::LN_2;
+
+use crate::numerics::count;
+
 /// A mistake that explains the data better than any effect.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Doubt {
@@ -11,6 +15,11 @@ pub struct Doubt {
     pub says: String,
     /// The line that puts it right: of a recipe for a column, of the machine file for a setting.
     pub mend: String,
+}
+
+/// Evidence of rows that each say so by accident no oftener than every second time.
+pub(super) fn said_by(rows: usize) -> f64 {
+    2.0 * LN_2 * count(rows)
 }
 
 /// The part of an import's recipe that reads a column otherwise.

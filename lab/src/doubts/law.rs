@@ -5,12 +5,16 @@ use helixlock_plant::{Machine, Part};
 use crate::measurement::Measurement;
 use crate::numerics::{count, median, spread};
 use crate::policy::mistakes::{
-    OTHERWISE, OTHERWISE_DEVIATION, SAME_SPEED, SAME_TRAVEL, USUAL, USUAL_SIZE,
+    HIGH_UP, OTHERWISE, OTHERWISE_DEVIATION, SAME_SPEED, SAME_TRAVEL, USUAL, USUAL_SIZE,
+    WEATHER_HPA,
 };
 
 /// Twice the log probability of what a measurement says of its workshop, but for a constant.
 pub(super) fn usualness(measurement: &Measurement, machine: &Machine) -> f64 {
-    readings(measurement) + speeds(measurement, machine) + travel(measurement, machine)
+    readings(measurement)
+        + weather(measurement, machine)
+        + speeds(measurement, machine)
+        + travel(measurement, machine, 1.0)
 }
 
 fn readings(measurement: &Measurement) -> f64 {
@@ -19,6 +23,14 @@ fn readings(measurement: &Measurement) -> f64 {
         Some(-((median(&mut values) - usual) / deviation).powi(2))
     };
     USUAL.iter().filter_map(of).sum()
+}
+
+/// The same of an air pressure that is the machine file's own reference, but for the weather.
+fn weather(measurement: &Measurement, machine: &Machine) -> f64 {
+    let reference = machine.laser.reference.pressure_hpa;
+    let pressure = measurement.covariates.get("air_pressure_hpa");
+    let off = pressure.map(|values| (median(&mut values.clone()) - reference).abs());
+    if off.is_some_and(|off| off < WEATHER_HPA) { -2.0 * libm::log(HIGH_UP) } else { 0.0 }
 }
 
 /// The same of the size of an error column times a factor.
@@ -61,8 +73,9 @@ pub(super) fn clocked_rpm(measurement: &Measurement) -> f64 {
     median(&mut speeds)
 }
 
-fn travel(measurement: &Measurement, machine: &Machine) -> f64 {
-    let way_mm = spread(&measurement.position_mm);
+/// The same of the travel times a factor.
+pub(super) fn travel(measurement: &Measurement, machine: &Machine, factor: f64) -> f64 {
+    let way_mm = factor * spread(&measurement.position_mm);
     if machine.lacks(&[Part::Table, Part::Workpiece]).is_some() || way_mm <= 0.0 {
         return 0.0;
     }

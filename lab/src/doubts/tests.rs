@@ -87,25 +87,80 @@ fn a_sign_and_a_unit_are_told_by_what_the_file_predicts() {
     assert!(what == "unit" && mend.ends_with("unit = \"nm\"\nsign = -1"), "{what} {mend}");
 }
 
-/// The way there and back with play and waves, its direction told the other way round.
+/// 600 rows there and back, the direction told as `way` on the way there.
+fn there_and_back(error_um: &[f64], way: f64) -> Table {
+    let mut table = table(error_um);
+    let places = (0..600_u32).map(|row| 0.5 * f64::from(row.min(600 - row)));
+    table.columns[0].values = places.collect();
+    let directions = (0..600).map(|row| if row < 300 { way } else { -way });
+    table.columns.push(Column { name: "direction".to_owned(), values: directions.collect() });
+    table
+}
+
+/// Play as the machine has it, its direction told the other way round: a negative width would fit.
 #[test]
-fn a_direction_is_told_by_the_travel_and_the_play_of_the_file() {
-    let known = machine(150, &format!("{WAVES}[[effect]]\nkind = 'backlash'\nwidth = '4 um'\n"));
-    let there_and_back = |error_um: &[f64], way: f64| {
-        let mut table = table(error_um);
-        let places = (0..600_u32).map(|row| 0.5 * f64::from(row.min(600 - row)));
-        table.columns[0].values = places.collect();
-        let directions = (0..600).map(|row| if row < 300 { way } else { -way });
-        table.columns.push(Column { name: "direction".to_owned(), values: directions.collect() });
-        table
-    };
-    let clean = problem(&known, &there_and_back(&[0.0; 600], 1.0)).predicted;
+fn a_direction_against_the_travel_is_doubted_whatever_fits() {
+    let play = machine(150, &format!("{WAVES}[[effect]]\nkind = 'backlash'\nwidth = '4 um'\n"));
+    let clean = problem(&play, &there_and_back(&[0.0; 600], 1.0)).predicted;
     let mut chance = ChaCha8Rng::seed_from_u64(7);
     let mut noise = || -> f64 { StandardNormal.sample(&mut chance) };
     let shown: Vec<f64> = clean.iter().map(|value| value + 0.05 * noise()).collect();
-    assert_eq!(doubted(&known, &there_and_back(&shown, 1.0)), None);
-    let (what, mend) = doubted(&known, &there_and_back(&shown, -1.0)).expect("a doubt");
-    assert!(what == "sign" && mend.contains("to = \"direction\"\nsign = -1"), "{what} {mend}");
+    for known in [&play, &machine(150, WAVES)] {
+        assert_eq!(doubted(known, &there_and_back(&shown, 1.0)), None);
+        let (what, mend) = doubted(known, &there_and_back(&shown, -1.0)).expect("a doubt");
+        assert!(what == "sign" && mend.contains("to = \"direction\"\nsign = -1"), "{what} {mend}");
+    }
+}
+
+/// Without a clock, a way back may be listed as one likes.
+#[test]
+fn one_way_without_a_clock_denies_nothing() {
+    let known = machine(150, "");
+    let mut back = measured(&known);
+    back.columns.retain(|column| column.name != "time_s");
+    let rows = back.rows();
+    back.columns.push(Column { name: "direction".to_owned(), values: vec![-1.0; rows] });
+    assert_eq!(doubted(&known, &back), None);
+}
+
+/// A table of 0.5 mm a row at 6 rpm, whatever the file knows of its error.
+#[test]
+fn a_clock_in_another_unit_is_told_by_travel_and_speed() {
+    let known = machine(150, "");
+    let with_speed = |rpm: f64| {
+        let mut table = measured(&known);
+        let rows = table.rows();
+        table.columns.push(Column { name: "speed_rpm".to_owned(), values: vec![rpm; rows] });
+        table
+    };
+    for (unit, factor) in [("ms", 1e-3), ("min", 60.0), ("h", 3600.0)] {
+        for table in [measured(&known), with_speed(6.0)] {
+            let table = changed(table, "time_s", |time_s| time_s / factor);
+            let (what, mend) = doubted(&known, &table).expect("a doubt");
+            assert!(what == "unit" && mend.contains("to = \"time_s\""), "{what} {mend}");
+            assert!(mend.ends_with(&format!("unit = \"{unit}\"")), "{mend}");
+        }
+    }
+    // A spindle that slips, so that the travel is not worked out from the clock.
+    let slipping = changed(with_speed(0.1), "time_s", |time_s| 1.002 * time_s);
+    let (_, mend) = doubted(&known, &slipping).expect("a doubt");
+    assert!(mend.contains("to = \"speed_rpm\""), "{mend}");
+}
+
+/// A speed that is nominal only, an axis that dwells at targets, and one that moves as fast as told.
+#[test]
+fn a_clock_that_is_no_units_factor_off_is_not_doubted() {
+    let known = machine(150, "");
+    for factor in [1.0 / 50.0, 0.5, 10.0, 55.0, 900.0] {
+        let other = changed(measured(&known), "time_s", |time_s| time_s * factor);
+        assert_eq!(doubted(&known, &other), None, "{factor}");
+    }
+    let mut row = 0.0;
+    let dwelling = changed(measured(&known), "time_s", |time_s| {
+        row += 1.0;
+        (time_s + 3.0 * row + 2.0 * libm::sin(row)) / 60.0
+    });
+    assert_eq!(doubted(&known, &dwelling), None);
 }
 
 #[test]
@@ -159,6 +214,31 @@ fn millimetres_of_mercury_are_told_by_the_slope_that_they_make() {
     let mercury = changed(sound, "air_pressure_hpa", |hpa| hpa * 760.0 / 1013.25);
     let (what, mend) = doubted(&known, &mercury).expect("a doubt");
     assert!(what == "unit" && mend.contains("mmhg"), "{what} {mend}");
+}
+
+/// A pressure that is steady: nothing but a slope, which the file's reference makes likely.
+#[test]
+fn millimetres_of_mercury_are_told_by_the_reference_of_the_file() {
+    let known = machine(150, &format!("{WAVES}[[effect]]\nkind = 'air-pressure'\n"));
+    let mut chance = ChaCha8Rng::seed_from_u64(11);
+    let mut weather = table(&vec![0.0; 600]);
+    let steady = |hpa: f64| Column { name: "air_pressure_hpa".to_owned(), values: vec![hpa; 600] };
+    weather.columns.push(steady(1008.0));
+    let clean = problem(&known, &weather).predicted;
+    let mut row = 0;
+    let sound = changed(weather, "error_um", |_| {
+        row += 1;
+        let fresh: f64 = StandardNormal.sample(&mut chance);
+        clean[row - 1] + 0.1 * fresh
+    });
+    assert_eq!(doubted(&known, &sound), None);
+    let mercury = changed(sound, "air_pressure_hpa", |hpa| hpa * 760.0 / 1013.25);
+    let (what, mend) = doubted(&known, &mercury).expect("a doubt");
+    assert!(what == "unit" && mend.contains("mmhg"), "{what} {mend}");
+    let bare = machine(150, "");
+    let mut high_up = measured(&bare);
+    high_up.columns.push(steady(758.0));
+    assert_eq!(doubted(&bare, &high_up), None, "a machine at 2400 m");
 }
 
 #[test]
@@ -277,4 +357,18 @@ fn dividers_of_another_lead_are_doubted_unless_the_data_show_them() {
 fn effects_that_the_data_show_nothing_of_belong_to_another_machine() {
     let doubt = doubted(&machine(150, WAVES), &measured(&machine(150, "")));
     assert_eq!(doubt.expect("a doubt").0, "another-machine");
+}
+
+/// A pressure that was read five times only says little of what the air did between.
+#[test]
+fn what_a_held_log_predicts_is_no_other_machine() {
+    let air =
+        machine(150, "[[effect]]\nkind = 'air-pressure'\n[[effect]]\nkind = 'air-temperature'\n");
+    let mut held = changed(measured(&machine(150, "")), "air_temperature_c", |_| 20.0);
+    let readings = [1004.0, 1011.0, 1001.0, 1012.0, 1003.0];
+    let values = readings.iter().flat_map(|hpa| std::iter::repeat_n(*hpa, 120)).collect();
+    held.columns.push(Column { name: "air_pressure_hpa".to_owned(), values });
+    let holds = problem(&air, &held).measurement.holds("air_pressure_hpa");
+    assert!(holds, "five readings settle no clock");
+    assert_eq!(doubted(&air, &held), None);
 }

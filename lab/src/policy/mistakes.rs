@@ -39,6 +39,16 @@ pub(crate) const USUAL: &[(&str, f64, f64)] = &[
     ("humidity_pct", 50.0, 25.0),
 ];
 
+/// How far weather and a low hill take an air pressure from the reference of the machine file.
+///
+/// Chosen: 500 m of height, or the deepest low. Doubled: mmHg are told from hPa up to 1000 m.
+pub(crate) const WEATHER_HPA: f64 = 60.0;
+
+/// Share of workshops so high up, above 1900 m, that their pressure in hPa is as much in mmHg lower down.
+///
+/// Chosen. Doubled: such a pressure gains 1.4 more; alone it is not enough for a doubt.
+pub(crate) const HIGH_UP: f64 = 1e-3;
+
 /// Usual size of an error, and its deviation: decimal logarithms of µm (arcsec).
 ///
 /// Chosen: a sound machine errs by 0.1 to 100. Doubled: no size is doubted by itself.
@@ -65,7 +75,7 @@ pub(crate) const OTHERWISE: f64 = 0.1;
 /// unit is doubted only where two quantities speak against it.
 pub(crate) const OTHERWISE_DEVIATION: f64 = 1.5;
 
-/// Fewest effects in a file whose absence says that the measurement is another machine's.
+/// Fewest effects in a file, but for those of logs that hold their readings, whose absence says that the measurement is another machine's.
 ///
 /// Derived: one effect can have been repaired. Doubled: files of two and three are not doubted.
 pub(crate) const MACHINE_OF_EFFECTS: usize = 2;
@@ -91,3 +101,21 @@ pub(crate) const RUNS_ALONG: f64 = 0.1;
 ///
 /// Chosen: what is left is a third of the error. Nearer to 1: a position with large errors is no doubt.
 pub(crate) const RUNS_ALONG_SHARE: f64 = 0.9;
+
+/// Share of the way that was gone against `direction`, from which on one of the two is turned.
+///
+/// Chosen: rows at reversals and a jitter while the axis stands are less than the rest. Nearer to 1:
+/// records that reverse every few rows are not doubted.
+pub(crate) const DENIED: f64 = 0.9;
+
+/// Logarithm by which the usual speed may be off that which is told, times the factor of a unit.
+///
+/// Chosen: a spindle's slip and the digits of a clock. Doubled: of speeds that are nominal only one in
+/// fifty has such a factor by accident, and not one in a hundred.
+pub(crate) const AT_A_UNIT: f64 = 0.01;
+
+/// That by which half of the rows may be off.
+///
+/// Chosen: times and places are rounded. Doubled: where an axis dwells for a tenth of its time it may be
+/// doubted.
+pub(crate) const A_ROW_AT_A_UNIT: f64 = 0.05;
