@@ -7,8 +7,8 @@ pub struct Nature {
     pub at_reversal: bool,
     /// True when its nonlinear values are plays, µm, that the corrector's moves get through.
     pub play: bool,
-    /// True for what comes back with every turn of the spindle, in so many waves.
-    pub every_turn: bool,
+    /// Waves a turn of the spindle, of what has always as many.
+    pub every_turn: Option<f64>,
     /// True when it shows what the machine does late, as another zero of the position would, but by
     /// the farther the faster a pass is.
     pub delays: bool,
@@ -26,7 +26,7 @@ impl Nature {
     pub const PLAIN: Self = Self {
         at_reversal: false,
         play: false,
-        every_turn: false,
+        every_turn: None,
         delays: false,
         high_harmonic: None,
         uncertainty: 0.0,

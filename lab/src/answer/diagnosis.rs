@@ -199,8 +199,9 @@ fn searched(problem: &Problem) -> Diagnosis {
     residual.extend(nobodys(&small, &steps));
     residual.extend(disagreements(&small, last));
     for (index, witness) in heard.witnesses {
-        let rivals = found.iter_mut().find(|rivals| rivals.index == index);
-        rivals.into_iter().for_each(|rivals| rivals.confused.push(witness.clone()));
+        if let Some(rivals) = found.iter_mut().find(|rivals| rivals.index == index) {
+            rivals.confused.push(witness);
+        }
     }
     if let Some(winner) = heard.winner {
         let last = &states[states.len() - 1];

@@ -277,11 +277,8 @@ pub(crate) fn resolved(problem: &Problem, component: &Component) -> bool {
 pub(crate) fn turns_once(problem: &Problem, component: &Component) -> bool {
     let term = &component.term;
     let listed = term.parameters.iter().position(|what| what.search == Search::Whole);
-    let harmonic = match listed {
-        Some(place) => term.values[place],
-        None if term.nature().every_turn => 1.0,
-        None => return true,
-    };
+    let listed = listed.map(|place| term.values[place]);
+    let Some(harmonic) = listed.or(term.nature().every_turn) else { return true };
     let mut turns: Vec<f64> = problem.record.turns().collect();
     turns.sort_by(f64::total_cmp);
     turns.dedup();

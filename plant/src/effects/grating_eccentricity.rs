@@ -37,7 +37,7 @@ pub(super) const CARD: Card = Card {
     source: "geometry; agrees with 412·e/D seconds of arc of the encoder makers",
     random: false,
     candidate: true,
-    nature: Nature { every_turn: true, ..Nature::PLAIN },
+    nature: Nature { every_turn: Some(1.0), ..Nature::PLAIN },
     basis: |context, _| {
         let per_micrometre =
             context.machine.delta_per_rad() * 2.0 / (1000.0 * context.machine.grating.diameter_mm);
