@@ -56,6 +56,7 @@ mod original;
 mod outputs;
 mod pages;
 mod parquet_readers;
+mod passes_and_turns;
 mod phase_meter;
 mod print;
 mod programmable_divider;

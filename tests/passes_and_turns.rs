@@ -1,0 +1,98 @@
+//! What is told by whether passes agree, and by whether a part has turned once.
+
+use std::f64::consts::TAU;
+use std::path::Path;
+
+use helixlock_lab::{Diagnosis, Verdict, diagnose};
+use helixlock_plant::Model;
+use helixlock_traces::{Column, Table};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+use crate::support::diagnosed::{diagnosed, names, problem};
+
+/// A stepping motor of fifty poles with an encoder.
+const MOTOR: &str = r#"
+output.rotary = true
+spindle.speed = "60 rpm"
+gear = [{ name = "rotor poles", order = 50 }]
+grating = { lines = 4096, diameter = "20 mm" }
+"#;
+
+/// Rows of so many passes, of time and place each, with white noise.
+fn columns<const N: usize>(
+    [passes, rows]: [u16; 2],
+    noise: f64,
+    row: impl Fn(u16, u16) -> [f64; N],
+) -> [Vec<f64>; N] {
+    let mut chance = ChaCha8Rng::seed_from_u64(7);
+    let mut columns = [const { Vec::new() }; N];
+    for (pass, at) in (0..passes).flat_map(|pass| (0..rows).map(move |at| (pass, at))) {
+        let mut values = row(pass, at);
+        let normal: f64 = StandardNormal.sample(&mut chance);
+        values[N - 1] += noise * normal;
+        columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
+    }
+    columns
+}
+
+/// One pass of the motor over so many turns; noise of 10 arcsec.
+fn motor(turns: f64, error_arcsec: impl Fn(f64) -> f64) -> Diagnosis {
+    let [angle, error] = columns([1, 1200], 10.0, |_, row| {
+        let at = turns * f64::from(row) / 1200.0;
+        [at, error_arcsec(at)]
+    });
+    let column = |name: &str, values| Column { name: name.to_owned(), values };
+    let table = Table::new(vec![column("angle_rev", angle), column("error_arcsec", error)]);
+    let machine = Model::parse(MOTOR, Path::new("machine.toml")).expect("a machine");
+    diagnose(&problem(&machine, &table))
+}
+
+/// Four passes of 300 mm with a wave of the change gear, of a phase of its own each.
+fn gear(phase: impl Fn(u16) -> f64) -> Diagnosis {
+    let [pass, position, error] = columns([4, 500], 0.3, |pass, row| {
+        let at_mm = 0.6 * f64::from(row);
+        let wave = libm::sin(TAU * 2.5 * at_mm / 8.0 + phase(pass));
+        [f64::from(pass), at_mm, wave]
+    });
+    diagnosed(vec![("pass", pass), ("position_mm", position), ("error_um", error)])
+}
+
+/// The detent of a motor turns twice as often as its poles, and nothing at the poles' own order.
+#[test]
+fn a_detent_is_named_without_its_poles() {
+    let found = motor(2.0, |at| 40.0 * libm::sin(TAU * 100.0 * at));
+    assert_eq!((names(&found), found.verdict), (vec!["gear-error"], Verdict::Explained));
+}
+
+/// On half a turn waves of 1.3 and 2.1 a turn are followed by whole ones that are not there.
+#[test]
+fn whole_waves_a_turn_need_a_whole_turn() {
+    let wave = |at: f64| 300.0 * libm::sin(TAU * 1.3 * at) + 200.0 * libm::sin(TAU * 2.1 * at);
+    let found = motor(0.5, wave);
+    assert!(names(&found).is_empty(), "{:?}", names(&found));
+    assert_eq!(found.verdict, Verdict::Unexplained);
+}
+
+/// A gear that was lifted out and put in again half a radian on between the second and third pass.
+#[test]
+fn an_effect_that_passes_disagree_on_is_told() {
+    let agreed = gear(|_| 0.0);
+    assert_eq!((names(&agreed), agreed.verdict), (vec!["gear-error"], Verdict::Explained));
+    let moved = gear(|pass| if pass < 2 { 0.0 } else { 0.5 });
+    assert_eq!(moved.verdict, Verdict::Unexplained);
+    let told = moved.residual.iter().any(|one| one.along == "passes");
+    assert!(told, "{:?}", moved.residual);
+}
+
+/// A warming-up that is over after a tenth of the record shows in no row that may be held out.
+#[test]
+fn a_warming_up_at_the_start_is_named() {
+    let [time, position, error] = columns([1, 1200], 1.0, |_, row| {
+        let t = 8.0 * f64::from(row);
+        [t, 0.5 * f64::from(row), 100.0 * (1.0 - libm::exp(-t / 300.0))]
+    });
+    let found = diagnosed(vec![("time_s", time), ("position_mm", position), ("error_um", error)]);
+    assert!(names(&found).contains(&"headstock-growth"), "{:?}", names(&found));
+}
