@@ -1,16 +1,11 @@
 //! What is told by whether passes agree, and by whether a part has turned once.
 
 use std::f64::consts::TAU;
-use std::path::Path;
 
-use helixlock_lab::{Diagnosis, Verdict, diagnose};
-use helixlock_plant::Model;
-use helixlock_traces::{Column, Table};
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, StandardNormal};
+use helixlock_lab::{Diagnosis, Verdict};
 
-use crate::support::diagnosed::{diagnosed, names, problem};
+use crate::support::diagnosed::{diagnosed, diagnosed_on, names};
+use crate::support::passes::white;
 
 /// A stepping motor of fifty poles with an encoder.
 const MOTOR: &str = r#"
@@ -26,12 +21,11 @@ fn columns<const N: usize>(
     noise: f64,
     row: impl Fn(u16, u16) -> [f64; N],
 ) -> [Vec<f64>; N] {
-    let mut chance = ChaCha8Rng::seed_from_u64(7);
+    let mut noise = white(7, noise);
     let mut columns = [const { Vec::new() }; N];
     for (pass, at) in (0..passes).flat_map(|pass| (0..rows).map(move |at| (pass, at))) {
         let mut values = row(pass, at);
-        let normal: f64 = StandardNormal.sample(&mut chance);
-        values[N - 1] += noise * normal;
+        values[N - 1] += noise();
         columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
     }
     columns
@@ -43,10 +37,7 @@ fn motor(turns: f64, error_arcsec: impl Fn(f64) -> f64) -> Diagnosis {
         let at = turns * f64::from(row) / 1200.0;
         [at, error_arcsec(at)]
     });
-    let column = |name: &str, values| Column { name: name.to_owned(), values };
-    let table = Table::new(vec![column("angle_rev", angle), column("error_arcsec", error)]);
-    let machine = Model::parse(MOTOR, Path::new("machine.toml")).expect("a machine");
-    diagnose(&problem(&machine, &table))
+    diagnosed_on(MOTOR, vec![("angle_rev", angle), ("error_arcsec", error)])
 }
 
 /// Four passes of 300 mm with a wave of the change gear, of a phase of its own each.

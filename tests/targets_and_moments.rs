@@ -1,28 +1,13 @@
 //! What is told by where an axis stands, and by when something happens.
 
 use std::f64::consts::TAU;
-use std::path::Path;
 
 use helixlock_lab::{Diagnosis, Found, Verdict, diagnose, discover};
-use helixlock_plant::Model;
-use helixlock_traces::{Column, Table};
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, StandardNormal};
 
-use crate::support::diagnosed::{diagnosed, names, problem};
-use crate::support::passes::{Passes, noise};
+use crate::support::diagnosed::{diagnosed, diagnosed_on, names};
+use crate::support::passes::{Passes, noise, white};
 
 const OF_TARGETS: &str = "own error of each target, at every visit";
-
-/// White noise of some standard deviation.
-fn white(seed: u64, deviation: f64) -> impl FnMut() -> f64 {
-    let mut chance = ChaCha8Rng::seed_from_u64(seed);
-    move || {
-        let normal: f64 = StandardNormal.sample(&mut chance);
-        deviation * normal
-    }
-}
 
 /// Five runs there and back past nine targets; the error of a run, a target and a direction.
 fn targets(error_um: impl Fn(usize, usize, f64) -> f64) -> Diagnosis {
@@ -151,11 +136,8 @@ fn a_moment_is_as_uncertain_as_the_data_have_it() {
 /// order: what the disc does is nobody's rival for it.
 #[test]
 fn a_wave_without_a_name_confuses_no_effect_beside_it() {
-    let machine = Model::parse(
-        "output.rotary = true\nspindle.speed = \"2 rpm\"\n\
-         grating = { lines = 36000, diameter = \"150 mm\" }\n",
-        Path::new("machine.toml"),
-    );
+    let machine = "output.rotary = true\nspindle.speed = \"2 rpm\"\n\
+                   grating = { lines = 36000, diameter = \"150 mm\" }\n";
     let mut noise = white(1, 1.0);
     let mut columns = ["pass", "angle_rev", "error_arcsec"].map(|name| (name, Vec::new()));
     for pass in 0..2_u8 {
@@ -167,9 +149,7 @@ fn a_wave_without_a_name_confuses_no_effect_beside_it() {
             columns.iter_mut().zip(row).for_each(|((_, values), value)| values.push(value));
         }
     }
-    let column = |(name, values): (&str, Vec<f64>)| Column { name: name.to_owned(), values };
-    let table = Table::new(columns.into_iter().map(column).collect());
-    let found = diagnose(&problem(&machine.expect("a machine"), &table));
+    let found = diagnosed_on(machine, columns.into());
     assert_eq!(names(&found), ["grating-eccentricity", "grating-graduation"]);
     let confused = found.candidates.iter().filter(|one| one.accepted);
     assert!(confused.clone().all(|one| one.confounded_with.is_empty()), "{:?}", found.candidates);

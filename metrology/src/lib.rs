@@ -4,6 +4,7 @@
 
 mod banded;
 mod conformity;
+mod drawn;
 mod error;
 pub mod iso230;
 mod number;

@@ -24,7 +24,12 @@ pub(crate) fn problem(machine: &Model, table: &Table) -> Problem {
 
 /// The diagnosis of some columns of [`MACHINE`].
 pub(crate) fn diagnosed(columns: Vec<(&str, Vec<f64>)>) -> Diagnosis {
-    let machine = Model::parse(MACHINE, Path::new("machine.toml")).expect("a machine");
+    diagnosed_on(MACHINE, columns)
+}
+
+/// The same of another machine.
+pub(crate) fn diagnosed_on(machine: &str, columns: Vec<(&str, Vec<f64>)>) -> Diagnosis {
+    let machine = Model::parse(machine, Path::new("machine.toml")).expect("a machine");
     let column = |(name, values): (&str, Vec<f64>)| Column { name: name.to_owned(), values };
     diagnose(&problem(&machine, &Table::new(columns.into_iter().map(column).collect())))
 }

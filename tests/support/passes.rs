@@ -100,3 +100,12 @@ pub(crate) fn noise(seed: u64, length: f64) -> impl FnMut() -> f64 {
         0.1 * (slow + normal())
     }
 }
+
+/// White noise of some standard deviation.
+pub(crate) fn white(seed: u64, deviation: f64) -> impl FnMut() -> f64 {
+    let mut chance = ChaCha8Rng::seed_from_u64(seed);
+    move || {
+        let normal: f64 = StandardNormal.sample(&mut chance);
+        deviation * normal
+    }
+}

@@ -4,7 +4,7 @@ use helixlock_plant::{HeaderUnit, LoggedColumn, Machine};
 
 use super::column::others;
 use super::doubt::{Doubt, recipe, said_by};
-use super::law::{follows_from_clock, travel};
+use super::law::{clocked, follows_from_clock, travel};
 use crate::measurement::Measurement;
 use crate::numerics::median;
 use crate::policy::mistakes::{A_ROW_AT_A_UNIT, AT_A_UNIT};
@@ -33,13 +33,8 @@ pub(super) fn contradicted(measurement: &Measurement, machine: &Machine) -> Opti
 
 /// Speed by travel and clock over the speed told, by its column or the machine file, row by row.
 fn ratios(measurement: &Measurement, machine: &Machine) -> Vec<f64> {
-    let Measurement { angle_rev, time_s, pass, .. } = measurement;
-    let inside = (1..measurement.len()).filter(|&row| pass[row] == pass[row - 1]);
-    let ratio = |row: usize| {
-        let turns = (angle_rev[row] - angle_rev[row - 1]).abs();
-        60.0 * turns / (time_s[row] - time_s[row - 1]) / told_rpm(measurement, machine, row)
-    };
-    inside.map(ratio).filter(|ratio| ratio.is_finite() && 0.0 < *ratio).collect()
+    let ratio = |(row, rpm): (usize, f64)| rpm / told_rpm(measurement, machine, row);
+    clocked(measurement).map(ratio).filter(|ratio| ratio.is_finite() && 0.0 < *ratio).collect()
 }
 
 fn told_rpm(measurement: &Measurement, machine: &Machine, row: usize) -> f64 {

@@ -60,17 +60,18 @@ fn speeds(measurement: &Measurement, machine: &Machine) -> f64 {
 
 /// Usual speed from one sample to the next, rpm.
 pub(super) fn clocked_rpm(measurement: &Measurement) -> f64 {
-    let rows = 1..measurement.len();
-    let mut speeds: Vec<f64> = rows
-        .filter(|&row| measurement.pass[row] == measurement.pass[row - 1])
-        .map(|row| {
-            let turns = measurement.angle_rev[row] - measurement.angle_rev[row - 1];
-            let time_s = measurement.time_s[row] - measurement.time_s[row - 1];
-            60.0 * (turns / time_s).abs()
-        })
-        .filter(|rpm| rpm.is_finite() && 0.0 < *rpm)
-        .collect();
-    median(&mut speeds)
+    median(&mut clocked(measurement).map(|(_, rpm)| rpm).collect::<Vec<f64>>())
+}
+
+/// Rows that moved since the one before, with the speed by travel and clock, rpm.
+pub(super) fn clocked(measurement: &Measurement) -> impl Iterator<Item = (usize, f64)> {
+    let Measurement { angle_rev, time_s, pass, .. } = measurement;
+    let inside = (1..measurement.len()).filter(|&row| pass[row] == pass[row - 1]);
+    let speed = |row: usize| {
+        let turns = angle_rev[row] - angle_rev[row - 1];
+        (row, 60.0 * (turns / (time_s[row] - time_s[row - 1])).abs())
+    };
+    inside.map(speed).filter(|(_, rpm)| rpm.is_finite() && 0.0 < *rpm)
 }
 
 /// The same of the travel times a factor.

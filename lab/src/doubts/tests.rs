@@ -195,46 +195,40 @@ fn fahrenheit_is_told_by_the_swing_and_by_the_shop() {
     }
 }
 
-/// 1008 hPa swinging by two are 756 mmHg: a slope of 69 µm/m, which anything may have, and a little more.
-#[test]
-fn millimetres_of_mercury_are_told_by_the_slope_that_they_make() {
-    let known = machine(150, "[[effect]]\nkind = 'air-pressure'\n");
+/// Weather in which a machine shows what it is known for is not doubted, and is in mmHg.
+fn mercury_is_told(known: &Model, weather: Table, noise_um: f64) {
+    let clean = problem(known, &weather).predicted;
     let mut chance = ChaCha8Rng::seed_from_u64(11);
-    let mut weather = table(&vec![0.0; 600]);
-    let hpa = (0..600).map(|row| 1008.0 + 2.0 * libm::sin(0.02 * crate::numerics::count(row)));
-    weather.columns.push(Column { name: "air_pressure_hpa".to_owned(), values: hpa.collect() });
-    let clean = problem(&known, &weather).predicted;
     let mut row = 0;
     let sound = changed(weather, "error_um", |_| {
         row += 1;
         let fresh: f64 = StandardNormal.sample(&mut chance);
-        clean[row - 1] + 0.02 * fresh
+        clean[row - 1] + noise_um * fresh
     });
-    assert_eq!(doubted(&known, &sound), None);
+    assert_eq!(doubted(known, &sound), None);
     let mercury = changed(sound, "air_pressure_hpa", |hpa| hpa * 760.0 / 1013.25);
-    let (what, mend) = doubted(&known, &mercury).expect("a doubt");
+    let (what, mend) = doubted(known, &mercury).expect("a doubt");
     assert!(what == "unit" && mend.contains("mmhg"), "{what} {mend}");
+}
+
+/// 1008 hPa swinging by two are 756 mmHg: a slope of 69 µm/m, which anything may have, and a little more.
+#[test]
+fn millimetres_of_mercury_are_told_by_the_slope_that_they_make() {
+    let known = machine(150, "[[effect]]\nkind = 'air-pressure'\n");
+    let mut weather = table(&vec![0.0; 600]);
+    let hpa = (0..600).map(|row| 1008.0 + 2.0 * libm::sin(0.02 * crate::numerics::count(row)));
+    weather.columns.push(Column { name: "air_pressure_hpa".to_owned(), values: hpa.collect() });
+    mercury_is_told(&known, weather, 0.02);
 }
 
 /// A pressure that is steady: nothing but a slope, which the file's reference makes likely.
 #[test]
 fn millimetres_of_mercury_are_told_by_the_reference_of_the_file() {
     let known = machine(150, &format!("{WAVES}[[effect]]\nkind = 'air-pressure'\n"));
-    let mut chance = ChaCha8Rng::seed_from_u64(11);
     let mut weather = table(&vec![0.0; 600]);
     let steady = |hpa: f64| Column { name: "air_pressure_hpa".to_owned(), values: vec![hpa; 600] };
     weather.columns.push(steady(1008.0));
-    let clean = problem(&known, &weather).predicted;
-    let mut row = 0;
-    let sound = changed(weather, "error_um", |_| {
-        row += 1;
-        let fresh: f64 = StandardNormal.sample(&mut chance);
-        clean[row - 1] + 0.1 * fresh
-    });
-    assert_eq!(doubted(&known, &sound), None);
-    let mercury = changed(sound, "air_pressure_hpa", |hpa| hpa * 760.0 / 1013.25);
-    let (what, mend) = doubted(&known, &mercury).expect("a doubt");
-    assert!(what == "unit" && mend.contains("mmhg"), "{what} {mend}");
+    mercury_is_told(&known, weather, 0.1);
     let bare = machine(150, "");
     let mut high_up = measured(&bare);
     high_up.columns.push(steady(758.0));

@@ -33,7 +33,6 @@ pub(crate) fn disagreements(problem: &Problem, state: &State) -> Vec<Structure> 
 
 /// The columns of an effect in each pass by itself, but for the first pass that shows it.
 fn pass_by_pass(problem: &Problem, columns: &[Column]) -> Vec<Column> {
-    let passes = problem.layout.blocks.iter().map(|block| block.pass + 1).max().unwrap_or(0);
     let alone = |pass: usize| {
         columns.iter().map(move |column| {
             let mut part = vec![0.0; column.len()];
@@ -45,5 +44,6 @@ fn pass_by_pass(problem: &Problem, columns: &[Column]) -> Vec<Column> {
         })
     };
     let shown = |pass: &Vec<Column>| pass.iter().any(|part| varies_inside_a_pass(problem, part));
-    (0..passes).map(|pass| alone(pass).collect()).filter(shown).skip(1).flatten().collect()
+    let passes = 0..problem.layout.passes();
+    passes.map(|pass| alone(pass).collect()).filter(shown).skip(1).flatten().collect()
 }

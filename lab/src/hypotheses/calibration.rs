@@ -33,16 +33,16 @@ pub(crate) fn chance(
         return plain;
     }
     let mut gains: Vec<f64> = Vec::new();
-    for batch in 0..MOST_DRAWS / DRAWS {
-        let seeds = (batch * DRAWS..(batch + 1) * DRAWS).into_par_iter();
+    loop {
+        let drawn = gains.len() as u64;
+        let seeds = (drawn..drawn + DRAWS).into_par_iter();
         gains.par_extend(seeds.map(|seed| drawn_gain(problem, model, fit, raw, seed)));
         let law = Law::of(&gains, width);
         let ends = [1.0 / law.within, law.within].map(|by| law.chance(by * gain) < limit);
-        if ends[0] == ends[1] {
-            break;
+        if ends[0] == ends[1] || MOST_DRAWS <= drawn + DRAWS {
+            return law.chance(gain).max(plain);
         }
     }
-    Law::of(&gains, width).chance(gain).max(plain)
 }
 
 /// The law `c·χ²(k)` that has the mean and the variance of some gains (Satterthwaite 1946).

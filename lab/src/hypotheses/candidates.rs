@@ -82,12 +82,14 @@ fn with_overtones(mut candidate: Candidate, problem: &Problem, found: &[Componen
 /// A wave twice as often as a listed gear's, whose own need not be there: an oval wheel, a universal
 /// joint, the detent of a stepping motor. It must pay for that.
 fn doubled(stage: &Stage<'_>, candidate: &Candidate) -> Option<Candidate> {
+    if !candidate.term.is_of_a_gear() {
+        return None;
+    }
     let orders = gear_orders(&stage.problem.model);
     let twice = orders.iter().map(|order| 2.0 * order).filter(|twice| !orders.contains(twice));
     let grid: Vec<Vec<f64>> = twice.map(|order| vec![order]).collect();
     let looks = Looks::at_places(count(grid.len())).times(libm::exp(0.5 * HIGH_HARMONIC_PRICE));
-    let is_one = candidate.term.is_of_a_gear() && !grid.is_empty();
-    is_one.then(|| Candidate { grid, looks, ..candidate.clone() })
+    (!grid.is_empty()).then(|| Candidate { grid, looks, ..candidate.clone() })
 }
 
 /// An effect whose constant is that of a material, with any value of it: nobody looks into an alloy.

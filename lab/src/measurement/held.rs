@@ -32,8 +32,7 @@ impl Measurement {
         let values =
             self.covariates.get(name).filter(|_| LoggedColumn::named(name).is_some_and(steady));
         values.is_some_and(|values| {
-            let changes = values.windows(2).filter(|pair| pair[0].to_bits() != pair[1].to_bits());
-            ROWS_A_READING * changes.count() < values.len()
+            ROWS_A_READING * changes(&self.time_s, &[values]).len() < values.len()
         })
     }
 

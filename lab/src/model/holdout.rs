@@ -92,8 +92,7 @@ fn size(parts: &[Part], of: fn(&Part) -> f64) -> f64 {
 /// Per fold: true for the rows held out.
 fn folds(problem: &Problem, columns: &Columns) -> Vec<Vec<bool>> {
     let layout = &problem.layout;
-    let passes = layout.blocks.iter().map(|block| block.pass + 1).max().unwrap_or(0);
-    let by_pass: Vec<Vec<bool>> = (0..passes)
+    let by_pass: Vec<Vec<bool>> = (0..layout.passes())
         .map(|pass| rows_where(layout, |block, _| layout.blocks[block].pass == pass))
         .filter(|held| held.iter().any(|held| *held))
         .collect();

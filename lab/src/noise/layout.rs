@@ -36,6 +36,12 @@ impl Layout {
         self.clock.len()
     }
 
+    /// Number of passes.
+    #[must_use]
+    pub(crate) fn passes(&self) -> usize {
+        self.blocks.iter().map(|block| block.pass + 1).max().unwrap_or(0)
+    }
+
     /// The layout of one sensor's blocks as those of sensor 0, and the rows they had here.
     #[must_use]
     pub(crate) fn of_sensor(&self, sensor: usize) -> (Self, Range<usize>) {

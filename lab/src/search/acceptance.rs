@@ -56,10 +56,12 @@ fn too_small(problem: &Problem, judged: &Judged, size_um: f64) -> Option<Refusal
 /// Refused when the model with an effect does no better on unseen data than without it.
 fn no_better_unseen(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
     let columns = now.columns.and(&own_columns(problem, judged)?);
-    let without = holdout_rms(problem, &now.columns, &now.fit.noises);
     let helps =
         helps_unseen(problem, (&columns, &judged.fit.noises), (&now.columns, &now.fit.noises));
-    (!helps).then_some(Refusal::Unseen { with_um: judged.holdout_rms_um, without_um: without })
+    (!helps).then(|| Refusal::Unseen {
+        with_um: judged.holdout_rms_um,
+        without_um: holdout_rms(problem, &now.columns, &now.fit.noises),
+    })
 }
 
 /// Refused when a frequency in time was found that an order of the spindle explains as well.

@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution as _, StandardNormal};
 
 use super::{Approaches, Target};
+use crate::drawn::{heavy_tailed, normal};
 use crate::number::number;
 use crate::uncertainty::{Acts, Added, Distribution, Readings, Source, budgets, misalignment};
 
@@ -141,12 +141,7 @@ impl Condition {
 
     /// Scatter of one approach about its mean, its standard deviation one.
     fn scattered(self, chance: &mut ChaCha8Rng) -> f64 {
-        if self != Self::HeavyTails {
-            return normal(chance);
-        }
-        // The variance of Student's t is three for three degrees of freedom.
-        let square: f64 = (0..3).map(|_| normal(chance).powi(2)).sum();
-        normal(chance) / square.sqrt()
+        if self == Self::HeavyTails { heavy_tailed(chance) } else { normal(chance) }
     }
 }
 
@@ -263,10 +258,6 @@ fn error(source: &Source, chance: &mut ChaCha8Rng) -> f64 {
             -source.standard * 5.0_f64.sqrt() * part * part
         }
     }
-}
-
-fn normal(chance: &mut ChaCha8Rng) -> f64 {
-    StandardNormal.sample(chance)
 }
 
 /// Mean over the figures, of the share that is held.

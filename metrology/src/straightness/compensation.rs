@@ -2,10 +2,10 @@
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, StandardNormal};
 
 use super::reference_line::straightness;
 use super::separated::Separated;
+use crate::drawn::normal;
 use crate::number::number;
 
 /// One row of a correction table.
@@ -137,10 +137,6 @@ fn wander(x_mm: &[f64], model: &CompensationModel, chance: &mut ChaCha8Rng) -> V
         previous_mm = x;
     }
     walk
-}
-
-fn normal(chance: &mut ChaCha8Rng) -> f64 {
-    StandardNormal.sample(chance)
 }
 
 fn stepped(value_um: f64, step_um: f64) -> f64 {

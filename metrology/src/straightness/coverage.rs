@@ -2,7 +2,6 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, StandardNormal};
 use std::f64::consts::TAU;
 
 use super::separated::without_line;
@@ -10,6 +9,7 @@ use super::{
     Readings, Repeat, Separated, Spacing, separate_by_fourier, separate_by_least_squares,
     straightness, straightness_uncertainty_um,
 };
+use crate::drawn::{heavy_tailed, normal};
 use crate::number::number;
 
 /// What kind of bar is drawn.
@@ -90,11 +90,7 @@ impl Condition {
     fn noise(self, chance: &mut ChaCha8Rng) -> Vec<f64> {
         let mut last = normal(chance);
         let next = |_| match self {
-            Self::HeavyTails => {
-                // The variance of Student's t is three for three degrees of freedom.
-                let square: f64 = (0..3).map(|_| normal(chance).powi(2)).sum();
-                normal(chance) / square.sqrt()
-            }
+            Self::HeavyTails => heavy_tailed(chance),
             Self::Coloured => {
                 last = 0.5 * last + 0.75_f64.sqrt() * normal(chance);
                 last
@@ -206,10 +202,6 @@ fn readings(heights_um: &[f64], condition: Condition, chance: &mut ChaCha8Rng) -
     };
     let repeats = (0..condition.runs()).map(|_| run()).collect();
     Readings { start_mm: 0.0, step_mm: STEP_MM, repeats }
-}
-
-fn normal(chance: &mut ChaCha8Rng) -> f64 {
-    StandardNormal.sample(chance)
 }
 
 /// Part of the places whose truth lies within ±1.96 u.
