@@ -49,6 +49,45 @@ fn a_reversal_at_targets_without_errors_is_explained() {
     assert_eq!((names(&found), found.verdict), (vec!["backlash"], Verdict::Explained));
 }
 
+/// Errors drawn for each of nine targets, from none to three times the noise: whatever curve they
+/// make, it is nobody's.
+#[test]
+fn a_curve_that_few_targets_make_by_chance_has_no_name() {
+    for seed in 0..24_u8 {
+        let mut own = white(100 + u64::from(seed), f64::from(seed) / 8.0);
+        let own_um: Vec<f64> = (0..9).map(|_| own()).collect();
+        let found = targets(|_, target, _| own_um[target]);
+        assert_ne!(found.verdict, Verdict::Explained, "{seed}: {:?}", names(&found));
+    }
+}
+
+/// A curve that is smooth from target to target is no chance.
+#[test]
+fn a_curve_over_the_targets_is_named() {
+    let found =
+        targets(|_, target, _| 0.9 * (f64::from(u8::try_from(target).unwrap()) - 4.0).powi(2));
+    assert_eq!((names(&found), found.verdict), (vec!["screw-progressive"], Verdict::Explained));
+}
+
+/// A reversal that grows along the travel is, at one speed and from zero in each run, as much a drift
+/// beside a reversal.
+#[test]
+fn one_shape_in_the_place_of_two_names_makes_them_doubtful() {
+    let mut noise = white(9, 1.0);
+    let rows = (0..5_u8).flat_map(|run| (0..18_u8).map(move |visit| (run, visit)));
+    let rows = rows.map(|(run, visit)| {
+        let (target, direction) = if visit < 9 { (visit, 1.0) } else { (17 - visit, -1.0) };
+        let x_mm = 60.0 * f64::from(target);
+        let reversal = -direction * (3.0 + 0.01 * x_mm);
+        let time_s = 15.0 * (18.0 * f64::from(run) + f64::from(visit));
+        [f64::from(run), time_s, x_mm, direction, reversal + noise()]
+    });
+    let found = diagnose(&Passes::of_rows(rows).problem());
+    let last = found.candidates.iter().find(|one| one.name == "backlash").expect("it was tried");
+    assert_eq!(found.verdict, Verdict::Ambiguous, "{:?}", names(&found));
+    assert!(last.confounded_with.iter().any(|one| one.contains("its own line")), "{last:?}");
+}
+
 /// An axis that stands at targets has no clock in its travel.
 #[test]
 fn no_effect_of_time_is_named_at_targets_that_nobody_timed() {

@@ -5,6 +5,7 @@ mod acceptance;
 mod analysis;
 mod court;
 mod likeness;
+mod own_errors;
 mod polish;
 mod pruning;
 mod refusal;
@@ -13,6 +14,7 @@ mod uneven;
 
 pub(crate) use analysis::{Step, search, take_for_a_shape};
 pub(crate) use court::{Claim, Winner, claims, hear, nobodys};
+pub(crate) use own_errors::own_errors;
 pub(crate) use polish::polished;
 pub(crate) use pruning::{Dropped, pruned, pruned_in_doubt};
 pub(crate) use refusal::Refusal;

@@ -19,8 +19,8 @@ use crate::numerics::least_squares::covariance_rows;
 use crate::policy::chance::{AT_AN_END, STANDARD_ERRORS};
 use crate::policy::extent::SEARCHED_ROWS;
 use crate::search::{
-    Dropped, Refusal, Rivals, Step, Winner, hear, nobodys, polished, pruned, pruned_in_doubt,
-    rivals, search, take_for_a_shape,
+    Dropped, Refusal, Rivals, Step, Winner, hear, nobodys, own_errors, polished, pruned,
+    pruned_in_doubt, rivals, search, take_for_a_shape,
 };
 
 /// What can be said about a model and a measurement.
@@ -176,7 +176,8 @@ fn doubtful(problem: &Problem, doubts: Vec<Doubt>) -> Diagnosis {
 fn searched(problem: &Problem) -> Diagnosis {
     let mut small = problem.thinned(SEARCHED_ROWS).unwrap_or_else(|| problem.clone());
     let mut steps = search(&mut small);
-    let of_targets = left_at_targets(problem, &small, &steps);
+    let of_targets =
+        left_at_targets(problem, &small, &steps).or_else(|| own_errors(&small, &steps));
     if of_targets.is_some() {
         small = small.with_targets_free();
         steps = search(&mut small);

@@ -6,7 +6,7 @@ use super::columns::Columns;
 use super::problem::Problem;
 use crate::noise::{Noise, Whitener};
 use crate::numerics::least_squares::{LinearFit, dot};
-use crate::numerics::{count, least_squares};
+use crate::numerics::{count, drawn_sizes_gain, least_squares};
 use crate::policy::chance::MORE_THAN_NOISE;
 
 /// Whitened residual of a model, free of everything the model's columns can explain.
@@ -66,6 +66,19 @@ impl<'a> Stage<'a> {
             project(&self.basis, column);
         }
         orthonormal(white)
+    }
+
+    /// Log likelihood of the model with columns whose coefficients are drawn from one normal law
+    /// about zero, integrated out; the law's size is the likeliest.
+    #[must_use]
+    pub(crate) fn with_sizes_of(&self, columns: &Columns) -> f64 {
+        let mut white = self.whitener.whiten_all(&columns.views());
+        for column in &mut white {
+            column.resize(self.target.len(), 0.0);
+            project(&self.basis, column);
+        }
+        let gain = drawn_sizes_gain(&white, &self.target);
+        -0.5 * (self.square - gain + self.whitener.log_determinant())
     }
 
     /// True when what a fit leaves is no more than the stage's noise: only then are its standard

@@ -5,7 +5,9 @@
 //! name is tried in the place of each effect, of several and of all, and beside all of them. Where
 //! it explains more, nothing is explained.
 
-use helixlock_plant::Entry;
+use std::collections::BTreeSet;
+
+use helixlock_plant::{CATALOGUE, Entry};
 
 use super::acceptance::chance_in_any_noise;
 use super::analysis::{Step, plain_noises};
@@ -47,8 +49,9 @@ pub(crate) struct Winner {
 pub(crate) struct Heard {
     /// The shape that is farthest ahead of the effects in whose place it stands.
     pub(crate) winner: Option<Winner>,
-    /// Relations to a logged column that explain more than an effect which does not know of it,
-    /// though by less than the margin: its place in the model, and what rivals it.
+    /// What rivals an effect without beating it, by its place in the model: a relation to a logged
+    /// column that explains more than an effect which does not know of it, one shape that explains
+    /// as much as effects of several names together.
     pub(crate) witnesses: Vec<(usize, String)>,
 }
 
@@ -62,6 +65,7 @@ pub(crate) fn hear(problem: &Problem, state: &State, found: &[Rivals]) -> Heard 
         let Some(base) = court.without(&group) else { continue };
         let claims = court.claims(&group, &base);
         heard.witnesses.extend(court.witness(&group, &claims));
+        heard.witnesses.extend(court.simpler(&group, &claims));
         let won = court.winner(group, &base, claims);
         let farthest = heard.winner.as_ref().map_or(f64::NEG_INFINITY, |one| one.ahead);
         if won.as_ref().is_some_and(|one| farthest <= one.ahead) {
@@ -142,7 +146,7 @@ fn curve_of_nobody(
 }
 
 /// What a shape may stand in for: nothing, each effect, all but one, all.
-fn groups(components: usize) -> Vec<Vec<usize>> {
+pub(super) fn groups(components: usize) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = vec![Vec::new(), (0..components).collect()];
     for one in 0..components {
         groups.push(vec![one]);
@@ -163,7 +167,7 @@ fn looks(state: &State, found: &[Rivals], index: usize) -> f64 {
 
 /// What a named effect pays: its free numbers, and the places it was looked for at. A size that
 /// physics fixes is none.
-fn price(problem: &Problem, component: &Component, looks: f64) -> f64 {
+pub(super) fn price_at(problem: &Problem, component: &Component, looks: f64) -> f64 {
     let priors = component.term.priors();
     let free = component.kept.iter().zip(&priors).filter(|(kept, known)| **kept && known.is_none());
     count(free.count()) * problem.price_of_a_number() + 2.0 * libm::log(looks.max(1.0))
@@ -216,7 +220,7 @@ impl<'a> Court<'a> {
         (shortlist, most_places): (usize, f64),
     ) -> Self {
         let prices = (0..state.components.len())
-            .map(|index| price(problem, &state.components[index], looks(state, found, index)))
+            .map(|index| price_at(problem, &state.components[index], looks(state, found, index)))
             .collect();
         Self { problem, state, shapes, prices, shortlist, most_places }
     }
@@ -262,6 +266,22 @@ impl<'a> Court<'a> {
         let first = claims.iter().filter(tells).max_by(|a, b| a.ahead.total_cmp(&b.ahead))?;
         let shape = &first.placed.shape;
         Some((index, format!("{} along {}", shape.words, shape.along)))
+    }
+
+    /// The one shape that explains as much as effects of several names, or nearly so.
+    fn simpler(&self, group: &[usize], claims: &[Claim<'a>]) -> Vec<(usize, String)> {
+        let best = claims.iter().max_by(|a, b| a.ahead.total_cmp(&b.ahead));
+        let near = best.filter(|claim| 1 < self.names(group).len() && -MARGIN < claim.ahead);
+        let Some(Placed { shape, .. }) = near.map(|claim| &claim.placed) else { return Vec::new() };
+        group
+            .iter()
+            .map(|&index| (index, format!("{} along {}", shape.words, shape.along)))
+            .collect()
+    }
+
+    /// Names of the effects of a group, each once.
+    fn names(&self, group: &[usize]) -> BTreeSet<&str> {
+        group.iter().map(|&index| self.state.components[index].term.name.as_str()).collect()
     }
 
     /// The best shapes in a group's place: found under the model's noise and under white noise, in
@@ -353,7 +373,10 @@ impl<'a> Court<'a> {
         let own = settle(self.problem, &self.state.columns, &fit.noises).log_likelihood;
         let own = own.max(self.state.fit.log_likelihood);
         let saved: f64 = group.iter().map(|&index| self.prices[index]).sum();
-        2.0 * (fit.log_likelihood - own) + saved
+        // A shape is one of a list, as a name is; every further name was chosen once more.
+        let more_names = count(self.names(group).len().saturating_sub(1));
+        let chosen = 2.0 * more_names * libm::log(count(CATALOGUE.len()));
+        2.0 * (fit.log_likelihood - own) + saved + chosen
     }
 
     /// Chance of what a shape takes away beside all effects in noise, which may have tails.
@@ -379,10 +402,7 @@ impl<'a> Court<'a> {
 
     /// What a shape shows in the place of some effects; its chance is the odds that they are right.
     fn instead_of(&self, group: &[usize], base: &Columns, claim: &Claim<'_>) -> Structure {
-        let name = |&index: &usize| self.state.components[index].term.name.as_str();
-        let mut names: Vec<&str> = group.iter().map(name).collect();
-        names.sort_unstable();
-        names.dedup();
+        let names: Vec<&str> = self.names(group).into_iter().collect();
         let shape = format!("{}, better than {}", claim.placed.shape.words, names.join(" and "));
         let without = settle(self.problem, base, &self.state.fit.noises).left;
         let rms_um = rms(&self.problem.layout, &without);

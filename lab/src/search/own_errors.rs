@@ -1,0 +1,58 @@
+//! Own errors of targets in the place of effects.
+//!
+//! A scale or a rack has at each target an error of its own, which every visit repeats. At few
+//! targets such errors are followed by a curve or a wave more often than noise is; so they stand
+//! before the same judge as one hypothesis with one free number, their common size.
+
+use super::analysis::Step;
+use super::court::{groups, price_at};
+use crate::hypotheses::{Structure, at_targets};
+use crate::model::{Columns, Problem, Stage, State, settle};
+use crate::noise::Noise;
+use crate::numerics::count;
+use crate::policy::evidence::MARGIN;
+
+/// What targets show at every visit, where it explains as much as the effects of a model in whose
+/// place it stands, or nearly so: then it cannot be known whether there are any.
+#[must_use]
+pub(crate) fn own_errors(problem: &Problem, steps: &[Step]) -> Option<Structure> {
+    let targets = Columns::free(problem.columns_of_targets());
+    if targets.raw.is_empty() || !problem.free.raw.is_empty() {
+        return None;
+    }
+    let state = &steps[steps.len() - 1].state;
+    let rivalled = groups(state.components.len()).into_iter().filter(|group| !group.is_empty());
+    let bare = rivalled.filter_map(|group| {
+        let others = State::of(problem, state.without(&group), &state.fit.noises)?;
+        let saved: f64 = group.iter().map(|&index| price(problem, state, steps, index)).sum();
+        let ahead = 2.0 * (log_likelihood(problem, &others, &targets) - state.fit.log_likelihood)
+            - problem.price_of_a_number()
+            + saved;
+        (-MARGIN < ahead).then_some(others)
+    });
+    bare.filter_map(|others| at_targets(problem, &others.columns, &others.fit))
+        .min_by(|a, b| a.p_value.total_cmp(&b.p_value))
+}
+
+/// What an effect of a model pays.
+fn price(problem: &Problem, state: &State, steps: &[Step], index: usize) -> f64 {
+    let component = &state.components[index];
+    let tried = steps.iter().flat_map(|step| &step.tried);
+    let own = tried.filter(|judged| judged.component.term.name == component.term.name);
+    price_at(problem, component, own.map(|judged| judged.looks).fold(1.0, f64::max))
+}
+
+/// Log likelihood of a model beside which every target has an error of its own, all of one size.
+///
+/// The noise is the model's, or what the targets leave; what they take of its rows is given back.
+fn log_likelihood(problem: &Problem, model: &State, targets: &Columns) -> f64 {
+    let columns = model.columns.and(targets);
+    let free = settle(problem, &columns, &model.fit.noises);
+    let rows = count(problem.samples.len());
+    let kept = (rows - count(targets.raw.len())).max(1.0) / rows;
+    let of_targets: Vec<Noise> = free.noises.iter().map(|noise| noise.scaled(1.0 / kept)).collect();
+    [&model.fit.noises, &of_targets]
+        .into_iter()
+        .map(|noises| Stage::new(problem, &model.columns, noises).with_sizes_of(targets))
+        .fold(f64::NEG_INFINITY, f64::max)
+}
