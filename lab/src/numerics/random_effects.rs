@@ -17,7 +17,7 @@ const STEPS: usize = 20;
 ///
 /// With the coefficients integrated out it is `Σ cᵢ²·v/(1+v·λᵢ) − ln(1+v·λᵢ)`, of the eigenvalues
 /// `λᵢ` of the columns' products, the moments `cᵢ` along their vectors and the variance `v` (the
-/// marginal likelihood of random effects: Searle, Casella and McCulloch, *Variance Components*,
+/// marginal likelihood of random effects: Searle and others, *Variance Components*,
 /// 1992, chapter 6).
 #[must_use]
 pub(crate) fn drawn_sizes_gain(columns: &[Vec<f64>], target: &[f64]) -> f64 {
