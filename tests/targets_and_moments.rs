@@ -9,18 +9,24 @@ use crate::support::passes::{Passes, noise, white};
 
 const OF_TARGETS: &str = "own error of each target, at every visit";
 
-/// Five runs there and back past nine targets; the error of a run, a target and a direction.
+/// Run, visit of the run, target and direction of five runs there and back past nine targets.
+fn visits() -> impl Iterator<Item = (u8, u8, u8, f64)> {
+    let all = (0..5_u8).flat_map(|run| (0..18_u8).map(move |visit| (run, visit)));
+    all.map(|(run, visit)| {
+        let (target, direction) = if visit < 9 { (visit, 1.0) } else { (17 - visit, -1.0) };
+        (run, visit, target, direction)
+    })
+}
+
+/// The diagnosis of such runs; the error of a run, a target and a direction.
 fn targets(error_um: impl Fn(usize, usize, f64) -> f64) -> Diagnosis {
     let mut columns =
         ["pass", "position_mm", "direction", "error_um"].map(|name| (name, Vec::new()));
     let mut noise = white(3, 1.0);
-    for run in 0..5_u8 {
-        for visit in 0..18_u8 {
-            let (target, direction) = if visit < 9 { (visit, 1.0) } else { (17 - visit, -1.0) };
-            let error = error_um(run.into(), target.into(), direction) + noise();
-            let row = [f64::from(run), 60.0 * f64::from(target), direction, error];
-            columns.iter_mut().zip(row).for_each(|((_, values), value)| values.push(value));
-        }
+    for (run, _, target, direction) in visits() {
+        let error = error_um(run.into(), target.into(), direction) + noise();
+        let row = [f64::from(run), 60.0 * f64::from(target), direction, error];
+        columns.iter_mut().zip(row).for_each(|((_, values), value)| values.push(value));
     }
     diagnosed(columns.into())
 }
@@ -74,9 +80,7 @@ fn a_curve_over_the_targets_is_named() {
 #[test]
 fn one_shape_in_the_place_of_two_names_makes_them_doubtful() {
     let mut noise = white(9, 1.0);
-    let rows = (0..5_u8).flat_map(|run| (0..18_u8).map(move |visit| (run, visit)));
-    let rows = rows.map(|(run, visit)| {
-        let (target, direction) = if visit < 9 { (visit, 1.0) } else { (17 - visit, -1.0) };
+    let rows = visits().map(|(run, visit, target, direction)| {
         let x_mm = 60.0 * f64::from(target);
         let reversal = -direction * (3.0 + 0.01 * x_mm);
         let time_s = 15.0 * (18.0 * f64::from(run) + f64::from(visit));

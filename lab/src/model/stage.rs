@@ -60,23 +60,14 @@ impl<'a> Stage<'a> {
         let fixed = columns.fixed.iter().filter(|_| columns.raw.is_empty());
         let views: Vec<&[f64]> =
             columns.views().into_iter().chain(fixed.map(|fixed| fixed.as_slice())).collect();
-        let mut white = self.whitener.whiten_all(&views);
-        for column in &mut white {
-            column.resize(self.target.len(), 0.0);
-            project(&self.basis, column);
-        }
-        orthonormal(white)
+        orthonormal(self.beside_model(self.whitener.whiten_all(&views)))
     }
 
     /// Log likelihood of the model with columns whose coefficients are drawn from one normal law
     /// about zero, integrated out; the law's size is the likeliest.
     #[must_use]
     pub(crate) fn with_sizes_of(&self, columns: &Columns) -> f64 {
-        let mut white = self.whitener.whiten_all(&columns.views());
-        for column in &mut white {
-            column.resize(self.target.len(), 0.0);
-            project(&self.basis, column);
-        }
+        let white = self.beside_model(self.whitener.whiten_all(&columns.views()));
         let gain = drawn_sizes_gain(&white, &self.target);
         -0.5 * (self.square - gain + self.whitener.log_determinant())
     }
@@ -97,11 +88,17 @@ impl<'a> Stage<'a> {
         candidates.iter().map(|columns| self.gain_of(columns, own(columns))).collect()
     }
 
-    fn gain_of(&self, columns: &Columns, mut white: Vec<Vec<f64>>) -> Gain {
+    /// Whitened columns as long as the target, free of what the model can explain.
+    fn beside_model(&self, mut white: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
         for column in &mut white {
             column.resize(self.target.len(), 0.0);
             project(&self.basis, column);
         }
+        white
+    }
+
+    fn gain_of(&self, columns: &Columns, white: Vec<Vec<f64>>) -> Gain {
+        let mut white = self.beside_model(white);
         columns.hold_to_priors(&mut white);
         let views: Vec<&[f64]> = white.iter().map(Vec::as_slice).collect();
         let fit = least_squares::fit(&views, &self.target_for(columns));

@@ -5,11 +5,11 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use super::golden_maximum;
 use super::least_squares::dot;
 
-/// Deviations that are tried for the law: so many powers of e about that at which noise and
-/// coefficient count alike.
+/// Variances that are tried for the law: from so many powers of e below that at which the best
+/// known coefficient is half noise, to twice as many above.
 const POWERS: f64 = 6.0;
 
-/// Steps of the search for it, which leave a thousandth.
+/// Steps of the search among them, which leave a thousandth of a power.
 const STEPS: usize = 20;
 
 /// By how much twice the log likelihood grows when whitened columns join whose coefficients are

@@ -167,7 +167,7 @@ fn looks(state: &State, found: &[Rivals], index: usize) -> f64 {
 
 /// What a named effect pays: its free numbers, and the places it was looked for at. A size that
 /// physics fixes is none.
-pub(super) fn price_at(problem: &Problem, component: &Component, looks: f64) -> f64 {
+pub(super) fn price(problem: &Problem, component: &Component, looks: f64) -> f64 {
     let priors = component.term.priors();
     let free = component.kept.iter().zip(&priors).filter(|(kept, known)| **kept && known.is_none());
     count(free.count()) * problem.price_of_a_number() + 2.0 * libm::log(looks.max(1.0))
@@ -201,6 +201,12 @@ pub(crate) struct Claim<'a> {
 }
 
 impl Claim<'_> {
+    /// What rivals an effect, in the words of a person.
+    fn words(&self) -> String {
+        let Shape { words, along, .. } = self.placed.shape;
+        format!("{words} along {along}")
+    }
+
     /// What the shape shows at its best, by itself.
     pub(crate) fn shown(&self, problem: &Problem) -> Structure {
         let placed = &self.placed;
@@ -209,6 +215,11 @@ impl Claim<'_> {
         let shape = placed.shape.words.to_owned();
         structure(placed, shape, rms(&problem.layout, &shown), self.p_value)
     }
+}
+
+/// The claim that is farthest ahead.
+fn farthest<'c, 'a: 'c>(claims: impl IntoIterator<Item = &'c Claim<'a>>) -> Option<&'c Claim<'a>> {
+    claims.into_iter().max_by(|a, b| a.ahead.total_cmp(&b.ahead))
 }
 
 impl<'a> Court<'a> {
@@ -220,7 +231,7 @@ impl<'a> Court<'a> {
         (shortlist, most_places): (usize, f64),
     ) -> Self {
         let prices = (0..state.components.len())
-            .map(|index| price_at(problem, &state.components[index], looks(state, found, index)))
+            .map(|index| price(problem, &state.components[index], looks(state, found, index)))
             .collect();
         Self { problem, state, shapes, prices, shortlist, most_places }
     }
@@ -263,20 +274,14 @@ impl<'a> Court<'a> {
             let along = claim.placed.shape.along.as_str();
             0.0 < claim.ahead && logged.contains_key(along) && !needs.contains(&along)
         };
-        let first = claims.iter().filter(tells).max_by(|a, b| a.ahead.total_cmp(&b.ahead))?;
-        let shape = &first.placed.shape;
-        Some((index, format!("{} along {}", shape.words, shape.along)))
+        Some((index, farthest(claims.iter().filter(tells))?.words()))
     }
 
     /// The one shape that explains as much as effects of several names, or nearly so.
     fn simpler(&self, group: &[usize], claims: &[Claim<'a>]) -> Vec<(usize, String)> {
-        let best = claims.iter().max_by(|a, b| a.ahead.total_cmp(&b.ahead));
-        let near = best.filter(|claim| 1 < self.names(group).len() && -MARGIN < claim.ahead);
-        let Some(Placed { shape, .. }) = near.map(|claim| &claim.placed) else { return Vec::new() };
-        group
-            .iter()
-            .map(|&index| (index, format!("{} along {}", shape.words, shape.along)))
-            .collect()
+        let near = farthest(claims).filter(|claim| -MARGIN < claim.ahead);
+        let Some(claim) = near.filter(|_| 1 < self.names(group).len()) else { return Vec::new() };
+        group.iter().map(|&index| (index, claim.words())).collect()
     }
 
     /// Names of the effects of a group, each once.

@@ -5,7 +5,7 @@
 //! before the same judge as one hypothesis with one free number, their common size.
 
 use super::analysis::Step;
-use super::court::{groups, price_at};
+use super::court::{groups, price};
 use crate::hypotheses::{Structure, at_targets};
 use crate::model::{Columns, Problem, Stage, State, settle};
 use crate::noise::Noise;
@@ -17,14 +17,14 @@ use crate::policy::evidence::MARGIN;
 #[must_use]
 pub(crate) fn own_errors(problem: &Problem, steps: &[Step]) -> Option<Structure> {
     let targets = Columns::free(problem.columns_of_targets());
-    if targets.raw.is_empty() || !problem.free.raw.is_empty() {
+    if targets.raw.is_empty() {
         return None;
     }
     let state = &steps[steps.len() - 1].state;
     let rivalled = groups(state.components.len()).into_iter().filter(|group| !group.is_empty());
     let bare = rivalled.filter_map(|group| {
         let others = State::of(problem, state.without(&group), &state.fit.noises)?;
-        let saved: f64 = group.iter().map(|&index| price(problem, state, steps, index)).sum();
+        let saved: f64 = group.iter().map(|&index| paid(problem, state, steps, index)).sum();
         let ahead = 2.0 * (log_likelihood(problem, &others, &targets) - state.fit.log_likelihood)
             - problem.price_of_a_number()
             + saved;
@@ -35,11 +35,11 @@ pub(crate) fn own_errors(problem: &Problem, steps: &[Step]) -> Option<Structure>
 }
 
 /// What an effect of a model pays.
-fn price(problem: &Problem, state: &State, steps: &[Step], index: usize) -> f64 {
+fn paid(problem: &Problem, state: &State, steps: &[Step], index: usize) -> f64 {
     let component = &state.components[index];
     let tried = steps.iter().flat_map(|step| &step.tried);
     let own = tried.filter(|judged| judged.component.term.name == component.term.name);
-    price_at(problem, component, own.map(|judged| judged.looks).fold(1.0, f64::max))
+    price(problem, component, own.map(|judged| judged.looks).fold(1.0, f64::max))
 }
 
 /// Log likelihood of a model beside which every target has an error of its own, all of one size.
