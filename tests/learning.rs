@@ -349,3 +349,23 @@ fn a_loggers_file_is_diagnosed_like_our_own() {
     let notes = logged["notes"].to_string();
     assert!(notes.contains("`Position [m]` is read as `position_mm`, converted"), "{notes}");
 }
+
+/// The number of a sample is no cause, and says nothing of what is.
+#[test]
+fn a_column_that_numbers_the_rows_is_left_out() {
+    let folder = scratch();
+    let mut numbered = String::new();
+    for (row, line) in example("hidden-gear/data.csv").lines().enumerate() {
+        let number = if row == 0 { "sample".to_owned() } else { row.to_string() };
+        writeln!(numbered, "{line},{number}").expect("memory takes it");
+    }
+    let (data, data_word) = word(&folder, "numbered.csv");
+    put(&data, &numbered);
+    let machine = "examples/hidden-gear/machine.toml";
+    let mut counted = json(&helixlock(&["diagnose", machine, &data_word, "--json"]));
+    let own = json(&helixlock(&["diagnose", machine, "examples/hidden-gear/data.csv", "--json"]));
+    let notes = counted["notes"].to_string();
+    assert!(notes.contains("`sample` counts on from row to row and is left out"), "{notes}");
+    counted["notes"] = own["notes"].clone();
+    assert_eq!(counted, own);
+}

@@ -374,6 +374,13 @@ fn assemble(
     }
 }
 
+/// True for whole numbers that grow from row to row of every pass: the number of a sample, or the
+/// ticks of a clock, which cause nothing.
+fn counts_on(values: &[f64], pass: &[usize]) -> bool {
+    let grows = |row: usize| pass[row] != pass[row + 1] || values[row] < values[row + 1];
+    values.iter().all(|value| value.fract() == 0.0) && (0..values.len() - 1).all(grows)
+}
+
 fn covariates(
     table: &Table,
     nominal: &Nominal,
@@ -400,6 +407,11 @@ fn covariates(
             continue;
         }
         if !COVARIATES.contains(&column.name.as_str()) {
+            if counts_on(&values, &passes.pass) {
+                let name = &column.name;
+                notes.push(format!("column `{name}` counts on from row to row and is left out"));
+                continue;
+            }
             notes.push(format!("column `{}` is not known and kept as a covariate", column.name));
         }
         known.insert(column.name.clone(), passes::bridged(&values, &passes.pass).into());
