@@ -15,12 +15,37 @@ pub(crate) struct LinearFit {
     pub(crate) rank: usize,
 }
 
+/// Share of a square below which a difference of squares has lost half of its digits.
+const NEARLY_ALL: f64 = 1e-8;
+
 /// Fits `target ≈ Σ cᵢ·columnᵢ`, all whitened alike, by the normal equations of scaled columns.
 ///
 /// Directions weaker than 1e-10 of the strongest are left out (their coefficients are the
-/// smallest ones), so that columns which say the same do not blow up.
+/// smallest ones), so that columns which say the same do not blow up. Where nearly all is explained,
+/// what is left of it is fitted once more, for a difference of large squares says nothing of it.
 #[must_use]
 pub(crate) fn fit(columns: &[&[f64]], target: &[f64]) -> LinearFit {
+    let first = by_normal_equations(columns, target);
+    if NEARLY_ALL * dot(target, target) <= first.residual_square {
+        return first;
+    }
+    let rest = left(columns, target, &first.coefficients);
+    let second = by_normal_equations(columns, &rest);
+    let rest = left(columns, &rest, &second.coefficients);
+    let both = first.coefficients.iter().zip(&second.coefficients).map(|(a, b)| a + b);
+    LinearFit { coefficients: both.collect(), residual_square: dot(&rest, &rest), ..first }
+}
+
+/// What a sum of columns leaves of a target.
+fn left(columns: &[&[f64]], target: &[f64], coefficients: &[f64]) -> Vec<f64> {
+    let mut left = target.to_vec();
+    for (column, size) in columns.iter().zip(coefficients) {
+        left.iter_mut().zip(*column).for_each(|(rest, value)| *rest -= size * value);
+    }
+    left
+}
+
+fn by_normal_equations(columns: &[&[f64]], target: &[f64]) -> LinearFit {
     let count = columns.len();
     let total = dot(target, target);
     let norms: Vec<f64> = columns.iter().map(|column| dot(column, column).sqrt()).collect();
@@ -78,4 +103,22 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
 #[must_use]
 pub(crate) fn covariance_rows(matrix: &DMatrix<f64>, from: usize, width: usize) -> Vec<Vec<f64>> {
     (from..from + width).map(|i| (from..from + width).map(|j| matrix[(i, j)]).collect()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Noise beside a slope and a parabola that are 10⁸ times as large.
+    #[test]
+    fn little_that_is_left_of_much_is_told() {
+        let x: Vec<f64> = (0..400).map(f64::from).collect();
+        let square: Vec<f64> = x.iter().map(|x| x * x).collect();
+        let noise: Vec<f64> = x.iter().map(|x| libm::sin(x * x)).collect();
+        let target = |size: f64| -> Vec<f64> {
+            (0..400).map(|i| noise[i] + size * (square[i] - 300.0 * x[i])).collect()
+        };
+        let left = |size| fit(&[&x, &square], &target(size)).residual_square;
+        assert!((left(1e4) / left(0.0) - 1.0).abs() < 1e-6, "{} {}", left(1e4), left(0.0));
+    }
 }
