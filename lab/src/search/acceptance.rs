@@ -15,6 +15,12 @@ use crate::policy::chance::{FEW_SAMPLES, NAMED, NO_ALL_CLEAR, STANDARD_ERRORS};
 use crate::policy::evidence::{MOST_OF_A_NAME, MOST_WHOLE_WAVES, TIME_LOCK};
 use crate::policy::size::SHARE_OF_NOISE;
 
+/// Step from the end of a range to a value inside, against the range.
+const STEP_INSIDE: f64 = 0.01;
+
+/// Share of a gain that is rounding.
+const AS_GOOD: f64 = 1e-6;
+
 /// The clause that keeps the best effect of a round out of a model; `None` when it may join: it is
 /// beyond chance, helps on unseen data and is large enough to matter.
 #[must_use]
@@ -31,7 +37,7 @@ pub(crate) fn refusal(problem: &Problem, now: &State, judged: &Judged) -> Option
         .or_else(|| (!likeness::has_its_time(problem, component)).then_some(Refusal::Untimed))
         .or_else(|| (!likeness::resolved(problem, component)).then_some(Refusal::Targets))
         .or_else(|| (!likeness::lets_motion_through(problem, component)).then_some(Refusal::Play))
-        .or_else(|| at_an_end(component))
+        .or_else(|| at_an_end(problem, now, judged))
         .or_else(|| (!repeats(judged, now)).then_some(Refusal::Again))
         .or_else(|| turns_as_well(problem, now, judged))
         .or_else(|| rests_on_one_sample(problem, now, judged))
@@ -196,13 +202,33 @@ fn implausible(problem: &Problem, judged: &Judged) -> Option<Refusal> {
 
 /// Refused when the fit would go on beyond the range of a nonlinear parameter: what it follows
 /// there is another shape than the one the effect is named for.
-fn at_an_end(component: &Component) -> Option<Refusal> {
-    let term = &component.term;
-    term.nonlinear_indices().iter().find_map(|&index| {
+fn at_an_end(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
+    let term = &judged.component.term;
+    term.nonlinear_indices().iter().enumerate().find_map(|(place, &index)| {
         let (what, value) = (&term.parameters[index], term.values[index]);
         let (low, high) = (*what.range.start(), *what.range.end());
-        let ends = matches!(what.search, Search::Linear | Search::Logarithmic) && low < high;
         let inside = low < value && value < high;
-        (ends && !inside).then(|| Refusal::End { parameter: what.key(), value })
+        let next = match what.search {
+            Search::Logarithmic if value <= low => 2.0 * low,
+            Search::Logarithmic => 0.5 * high,
+            Search::Linear if value <= low => low + STEP_INSIDE * (high - low),
+            Search::Linear => high - STEP_INSIDE * (high - low),
+            _ => return None,
+        };
+        let refused = low < high && !inside && changes(problem, now, judged, (place, next));
+        refused.then(|| Refusal::End { parameter: what.key(), value })
     })
+}
+
+/// True unless the fit is as good with another value of a nonlinear parameter: a way that is shorter
+/// than samples lie apart has no length.
+fn changes(problem: &Problem, now: &State, judged: &Judged, (place, value): (usize, f64)) -> bool {
+    let component = &judged.component;
+    let mut values = component.term.nonlinear();
+    values[place] = value;
+    let other = Component { term: component.term.with_nonlinear(&values), ..component.clone() };
+    let stage = Stage::new(problem, &now.columns, &judged.fit.noises);
+    let gain = |component: &Component| gain_at(&stage, component).map_or(0.0, |gain| gain.gain);
+    let own = gain(component);
+    AS_GOOD * own < (own - gain(&other)).abs()
 }
