@@ -73,6 +73,7 @@ mod scale_lookup;
 mod settable_board;
 mod settings_port;
 mod shapes_of_nobody;
+mod shapes_over_logs;
 mod shards;
 mod simulation;
 mod standard_wave;

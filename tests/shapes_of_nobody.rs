@@ -60,6 +60,15 @@ fn a_dent_with_its_rim_is_no_wear() {
     });
 }
 
+/// A dent whose rim stands up on both sides: a bump follows the middle.
+#[test]
+fn a_dent_between_two_rims_is_no_wear() {
+    is_nobodys(&|_, mm| {
+        let off = (mm - 410.0) / 30.0;
+        0.12 * (1.0 - off * off) * bell(off)
+    });
+}
+
 /// From four to eight waves: fifteen standard errors.
 #[test]
 fn a_wave_of_changing_length_is_seen() {

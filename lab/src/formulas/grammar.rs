@@ -13,7 +13,7 @@ use crate::numerics::{evenly, spread};
 pub(crate) fn nameless(problem: &Problem) -> Vec<Shape> {
     let quantities = Quantities::of(problem);
     let mut all = Vec::new();
-    if 0.0 < spread(&quantities.position.values) {
+    if quantities.have_places() {
         all.extend(moving::along_travel(&quantities));
         all.extend(moving::again_and_again(&quantities));
         all.extend(moving::of_each_pass(&quantities));
@@ -25,10 +25,13 @@ pub(crate) fn nameless(problem: &Problem) -> Vec<Shape> {
     all.extend(moving::late(&quantities));
     for (name, order) in quantities.shafts(problem) {
         all.extend(turning::each_turn(&quantities, &name, order));
+        all.extend(turning::each_way(&quantities, &name, order));
     }
     for column in &quantities.columns {
         all.extend(logged::of_a_column(&quantities, column));
+        all.extend(logged::beyond_a_line(&quantities, column));
     }
+    all.extend(logged::products(&quantities));
     all
 }
 
@@ -40,13 +43,10 @@ pub(crate) fn formulas(problem: &Problem) -> Vec<Shape> {
     all.extend(turning::waves(&quantities, problem));
     all.extend(turning::swelling(&quantities, problem));
     all.extend(turning::resonances(&quantities, problem));
-    if 0.0 < spread(&quantities.position.values) {
+    if quantities.have_places() {
         all.extend(moving::powers(&quantities));
     }
     all.extend(moving::of_the_way(&quantities));
-    for column in &quantities.columns {
-        all.extend(logged::beyond_a_line(&quantities, column));
-    }
     all
 }
 

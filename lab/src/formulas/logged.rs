@@ -8,6 +8,9 @@ use super::quantities::{Quantities, about_mean, less_mean, lowest, of};
 use super::shape::Shape;
 use crate::numerics::{by_factors, evenly, spread};
 
+/// Columns up to which every two are multiplied, for the time it takes.
+const MOST_IN_PRODUCTS: usize = 12;
+
 /// Straight, through the travel, late, late through the travel, and by a relay.
 pub(super) fn of_a_column(all: &Quantities, column: &Arc<Quantity>) -> Vec<Shape> {
     let (x, time) = (&all.position, &all.time);
@@ -81,4 +84,22 @@ pub(super) fn beyond_a_line(all: &Quantities, column: &Arc<Quantity>) -> Vec<Sha
         );
     }
     shapes
+}
+
+/// What two columns make together and neither alone.
+pub(super) fn products(all: &Quantities) -> Vec<Shape> {
+    let columns = if all.columns.len() <= MOST_IN_PRODUCTS { &all.columns[..] } else { &[] };
+    let pairs = columns
+        .iter()
+        .enumerate()
+        .flat_map(|(place, one)| columns[place + 1..].iter().map(move |other| (one, other)));
+    pairs
+        .map(|(one, other)| {
+            let along = format!("{} × {}", one.name, other.name);
+            shape("product of two columns", &along, "a load whose effect another quantity scales")
+                .curve("slope", of(one))
+                .curve("other_slope", of(other))
+                .curve("size", about_mean(one) * about_mean(other))
+        })
+        .collect()
 }

@@ -46,7 +46,8 @@ pub(super) fn along_travel(all: &Quantities) -> Vec<Shape> {
     let from = || of(x) - unknown(0);
     let at_one_of = |places, words, physics| {
         let places = evenly(low, low + range, places);
-        shape(words, "position", physics).unknown("at_mm", mm, places).placed()
+        let name = all.in_unit("at_mm", "at_rev");
+        shape(words, all.way(), physics).unknown(name, mm, places).placed()
     };
     let at = |words, physics| at_one_of(100, words, physics);
     let squared = Expression::Power(Box::new(ramp(from())), 2);
@@ -71,20 +72,30 @@ pub(super) fn along_travel(all: &Quantities) -> Vec<Shape> {
             "stretch at another level",
             "a piece of a scale, rack or guide that was set in or worn flat",
         )
-        .unknown("half_mm", mm, by_factors(0.02 * range, 0.22 * range, 8))
+        .unknown(all.in_unit("half_mm", "half_rev"), mm, by_factors(0.02 * range, 0.22 * range, 8))
         .curve("size", call(Function::Step, unknown(1) - call(Function::Abs, from()))),
         at("root from one place on", "contact that stiffens under load")
             .curve("size", call(Function::Sqrt, ramp(from()))),
-        decay(x, "position", "length_mm"),
-        at_one_of(130, "swing at one place", "a dent with the metal beside it, a joint that tilts")
-            .unknown("width_mm", mm, by_factors(0.005 * range, 0.05 * range, 3))
-            .curve("size", (from() / unknown(1)) * bell(from() / unknown(1))),
+        decay(x, all.way(), all.in_unit("length_mm", "length_rev")),
+        at_one_of(98, "swing at one place", "a dent with the metal beside it, a joint that tilts")
+            .unknown(
+                all.in_unit("width_mm", "width_rev"),
+                mm,
+                by_factors(0.005 * range, 0.1 * range, 4),
+            )
+            .curve("size", (from() / unknown(1)) * bell(from() / unknown(1)))
+            .curve("rim", rim(from() / unknown(1))),
     ]
 }
 
 /// A bell over so many standard deviations.
 fn bell(deviations: Expression) -> Expression {
     call(Function::Exp, number(-0.5) * Expression::Power(Box::new(deviations), 2))
+}
+
+/// A bell and the rim that takes as much away as it adds.
+fn rim(deviations: Expression) -> Expression {
+    (number(1.0) - Expression::Power(Box::new(deviations.clone()), 2)) * bell(deviations)
 }
 
 /// An exponential that dies away.
@@ -105,8 +116,12 @@ pub(super) fn again_and_again(all: &Quantities) -> Vec<Shape> {
     let (start, _) = from_start(x);
     let waves = || start.clone() / unknown(0) + unknown(1);
     let again = |words, physics, fewest: f64, most: f64, points: [usize; 2]| {
-        shape(words, "position", physics)
-            .unknown("period_mm", mm, periods(range, fewest, most, points[0]))
+        shape(words, all.way(), physics)
+            .unknown(
+                all.in_unit("period_mm", "period_rev"),
+                mm,
+                periods(range, fewest, most, points[0]),
+            )
             .unknown("offset_rev", &number, evenly(0.0, 1.0, points[1]))
     };
     vec![
@@ -137,23 +152,26 @@ pub(super) fn again_and_again(all: &Quantities) -> Vec<Shape> {
         .curve("size", triangle(waves())),
         again("half waves", "contact at one side only: what lifts off", 1.0, 4.0, [16, 12])
             .curve("size", ramp(call(Function::Sin, turns(waves())))),
-        wave_of_changing_length(x),
+        wave_of_changing_length(all),
     ]
 }
 
 /// A sine over the travel that is of its period in the middle, and the faster the farther from
 /// there, or the slower.
-fn wave_of_changing_length(x: &Arc<Quantity>) -> Shape {
+fn wave_of_changing_length(all: &Quantities) -> Shape {
+    let x = &all.position;
     let (middle, range) = about_middle(x);
     let growth = evenly(-CHANGE, CHANGE, 21).iter().map(|share| share / range).collect();
     let angle = middle.clone() / unknown(0) * (number(1.0) + unknown(1) * middle);
-    shape("wave of changing length", "position", "a belt that creeps, a mesh of uneven pitch")
-        .unknown("period_mm", &x.dimension, periods(range, 1.0, 12.0, 23))
-        .unknown("growth_per_mm", &x.dimension.to_the(-1), growth)
+    let (period, per_unit) =
+        (all.in_unit("period_mm", "period_rev"), all.in_unit("growth_per_mm", "growth_per_rev"));
+    shape("wave of changing length", all.way(), "a belt that creeps, a mesh of uneven pitch")
+        .unknown(period, &x.dimension, periods(range, 1.0, 12.0, 23))
+        .unknown(per_unit, &x.dimension.to_the(-1), growth)
         .wave("amplitude", "phase_rad", None, turns(angle))
 }
 
-/// A step, a parabola, a rise and its decay.
+/// A step, a kink, a parabola, a rise and its decay.
 pub(super) fn in_time(all: &Quantities) -> Vec<Shape> {
     let t = &all.time;
     let s = &t.dimension;
@@ -168,6 +186,11 @@ pub(super) fn in_time(all: &Quantities) -> Vec<Shape> {
             .unknown("at_s", s, evenly(low + AWAY * range, low + (1.0 - AWAY) * range, 200))
             .placed()
             .curve("size", call(Function::Step, of(t) - unknown(0))),
+        shape("kink at one moment", "time", "a drift that turns: a heater, a door, a valve")
+            .unknown("at_s", s, evenly(low, low + range, 60))
+            .placed()
+            .curve("slope", of(t))
+            .curve("size", ramp(of(t) - unknown(0))),
         shape("parabola", "time", "a load or heat that grows ever faster")
             .curve("slope", of(t))
             .curve("size", Expression::Power(Box::new(start), 2)),
@@ -205,8 +228,8 @@ pub(super) fn in_time(all: &Quantities) -> Vec<Shape> {
 pub(super) fn powers(all: &Quantities) -> Vec<Shape> {
     let (start, _) = from_start(&all.position);
     let mut shapes = vec![
-        cube(&all.position, "position"),
-        shape("parabola", "position", "a bed that sags, a screw of steadily changing lead")
+        cube(&all.position, all.way()),
+        shape("parabola", all.way(), "a bed that sags, a screw of steadily changing lead")
             .curve("slope", of(&all.position))
             .curve("size", Expression::Power(Box::new(start), 2)),
     ];
@@ -256,8 +279,8 @@ pub(super) fn of_each_pass(all: &Quantities) -> Vec<Shape> {
                 .curve("size", of(way) * of(x)),
         );
     }
-    if 1 < all.passes || 0.0 < spread(&way.values) {
-        let longest = spread(&since.values);
+    let longest = spread(&since.values);
+    if 0.0 < longest && (1 < all.passes || 0.0 < spread(&way.values)) {
         let gone = number(-1.0) * of(since) / unknown(0);
         shapes.push(
             shape(

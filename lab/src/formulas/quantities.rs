@@ -13,6 +13,7 @@ use crate::policy::extent::TURNS;
 /// Coordinates and logged columns that vary.
 #[derive(Debug)]
 pub(crate) struct Quantities {
+    /// Travel, or the angle of a rotary chain.
     pub(crate) position: Arc<Quantity>,
     pub(crate) time: Arc<Quantity>,
     /// True when time was measured.
@@ -44,7 +45,11 @@ impl Quantities {
             .filter(|(name, values)| *name != "steps" && 0.0 < spread(values))
             .map(|(name, values)| quantity(name, Dimension::of_column(name), values.clone()));
         Self {
-            position: quantity("position_mm", unit("mm"), record.position_mm.clone()),
+            position: if problem.model.rotary {
+                quantity("angle_rev", Dimension::number(), record.turns().collect())
+            } else {
+                quantity("position_mm", unit("mm"), record.position_mm.clone())
+            },
             time: quantity("time_s", unit("s"), record.time_s.clone()),
             timed: problem.measurement.timed,
             turns: quantity("angle_rev", Dimension::number(), record.turns().collect()),
@@ -69,11 +74,35 @@ impl Quantities {
         }
     }
 
+    /// True where the axis moves. In one pass of a rotary chain that does not turn back an angle is a
+    /// moment, and is looked for as such.
+    pub(crate) fn have_places(&self) -> bool {
+        let told = !self.is_rotary() || self.meet_places_again();
+        told && 0.0 < spread(&self.position.values)
+    }
+
     /// True unless a moment is a place as well, as in one pass that does not turn back.
     pub(crate) fn tell_moments_from_places(&self) -> bool {
-        1 < self.passes
-            || spread(&self.position.values) <= 0.0
-            || 0.0 < spread(&self.direction.values)
+        self.meet_places_again() || !self.have_places()
+    }
+
+    fn meet_places_again(&self) -> bool {
+        1 < self.passes || 0.0 < spread(&self.direction.values)
+    }
+
+    /// True where places are angles.
+    pub(crate) fn is_rotary(&self) -> bool {
+        self.position.dimension.is_number()
+    }
+
+    /// What places stand along, in words.
+    pub(crate) fn way(&self) -> &'static str {
+        if self.is_rotary() { "spindle angle" } else { "position" }
+    }
+
+    /// Name of an unknown in mm, or that in turns.
+    pub(crate) fn in_unit(&self, mm: &'static str, rev: &'static str) -> &'static str {
+        if self.is_rotary() { rev } else { mm }
     }
 
     /// Shafts whose turns the samples resolve, by name and turns a turn of the spindle.

@@ -36,6 +36,20 @@ pub(super) fn each_turn(all: &Quantities, shaft: &str, order: f64) -> Vec<Shape>
     ]
 }
 
+/// A shaft's sine that is another one on the way back, where passes run both ways.
+pub(super) fn each_way(all: &Quantities, shaft: &str, order: f64) -> Option<Shape> {
+    let angle = || turns(shaft_turns(&all.turns, order));
+    let way = &all.direction;
+    (0.0 < spread(&way.values)).then(|| {
+        let physics = "a shaft that is pressed to one side by each way";
+        let mut one = shape("sine of each way its own", shaft, physics)
+            .wave("amplitude", "phase_rad", None, angle())
+            .wave("difference", "difference_phase_rad", Some(of(way)), angle());
+        one.turns = true;
+        one
+    })
+}
+
 /// A sine of any order of the spindle, and of any frequency in time.
 pub(super) fn waves(all: &Quantities, problem: &Problem) -> Vec<Shape> {
     let mut shapes = Vec::new();
