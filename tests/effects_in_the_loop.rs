@@ -4,6 +4,7 @@
 //! The two share the formula of δ and nothing else: one goes through fringes, flip-flops and motor
 //! steps, the other through the sign table.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use helixlock_plant::prediction::{Sensor, predict};
@@ -124,17 +125,17 @@ fn predicted(machine: &Model, trace: &Trace, sensor: Sensor, shift_s: f64) -> Ve
     };
     let rows = trace.time_s.len() + 1;
     let constants = machine.environment.readings.iter();
-    let mut covariates: Vec<_> =
+    let mut covariates: BTreeMap<_, _> =
         constants.map(|(name, value)| (name.clone(), vec![*value; rows].into())).collect();
-    covariates.push(("initial_phase".into(), vec![150.0; rows].into()));
-    covariates.push(("steps".into(), from_start(&steps(trace), 0.0).into()));
+    covariates.insert("initial_phase".into(), vec![150.0; rows].into());
+    covariates.insert("steps".into(), from_start(&steps(trace), 0.0).into());
+    let places_mm = from_start(&trace.position_mm, TRAVEL_MM_S * shift_s);
     let samples = Samples {
-        time_s: Some(from_start(&trace.time_s, shift_s).into()),
-        position_mm: Some(from_start(&trace.position_mm, TRAVEL_MM_S * shift_s).into()),
+        time_s: from_start(&trace.time_s, shift_s).into(),
         covariates,
-        ..Samples::default()
+        ..Samples::forward(machine, places_mm)
     };
-    let record = Record::new(machine, &samples).expect("angle or position");
+    let record = Record::new(machine, &samples);
     predict(machine, &record).expect("every column there").of(sensor)[1..].to_vec()
 }
 

@@ -224,8 +224,7 @@ fn doubtful_input_teaches_nothing() {
 fn turned(machine: &Path, data: &Path) {
     let model = Model::read(machine).expect("a machine");
     let places: Vec<f64> = (0..800).map(|row| 0.5 * f64::from(row)).collect();
-    let samples = Samples { position_mm: Some(places.clone().into()), ..Samples::default() };
-    let record = Record::new(&model, &samples).expect("a record");
+    let record = Record::new(&model, &Samples::forward(&model, places.clone()));
     let shown = predict(&model, &record).expect("a prediction").error_um;
     let mut text = "position_mm,error_um\n".to_owned();
     for (row, (place, error_um)) in places.iter().zip(shown).enumerate() {

@@ -159,16 +159,15 @@ frequency = "160 Hz"
             ("bed_pitch_arcsec".to_owned(), wave(&position_mm, 13.0, 0.0, 1.0)),
         ];
         let samples = Samples {
-            time_s: Some(time_s.clone().into()),
-            position_mm: Some(position_mm.clone().into()),
-            pass: Some(pass.clone().into()),
+            time_s: time_s.clone().into(),
+            pass: (0..).zip(0..self.passes).flat_map(|(pass, _)| vec![pass; self.rows]).collect(),
             covariates: covariates
                 .iter()
                 .map(|(name, log)| (name.clone(), log.clone().into()))
                 .collect(),
-            ..Samples::default()
+            ..Samples::forward(&truth, position_mm.clone())
         };
-        let record = Record::new(&truth, &samples).expect("coordinates");
+        let record = Record::new(&truth, &samples);
         let shown = predict(&truth, &record).expect("all columns");
         let chirp_um = if let Hidden::Chirp(um) = self.hidden { um } else { 0.0 };
         let mut seen = Vec::new();

@@ -7,9 +7,9 @@ mod samples;
 
 use std::f64::consts::TAU;
 
-use crate::Machine;
 pub use column::Column;
 pub use logged::{Bridging, COVARIATES, HeaderUnit, LOGGED_COLUMNS, LoggedColumn, Setting};
+pub use samples::Samples;
 
 /// Index of [`COVARIATES`], for effects to read `now.covariates`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -143,7 +143,7 @@ impl Instant<'_> {
 /// What an instant knows where nothing was logged.
 static UNLOGGED: [f64; COVARIATES.len()] = [f64::NAN; COVARIATES.len()];
 
-/// Samples of one or more passes, as columns of equal length, ordered as they were taken.
+/// [`Samples`] as the effects of a machine read them, with what follows from how it moves.
 #[derive(Clone, Debug, Default)]
 pub struct Record {
     /// Time since the start of the record, s.
@@ -170,36 +170,7 @@ pub struct Record {
     pub(crate) covariates: Column,
 }
 
-/// What is known of where each sample was taken; at least one of the first three is needed.
-#[derive(Clone, Debug, Default)]
-pub struct Samples {
-    /// Time, s, any zero.
-    pub time_s: Option<Column>,
-    /// Travel, mm.
-    pub position_mm: Option<Column>,
-    /// Spindle angle, turns.
-    pub angle_rev: Option<Column>,
-    /// Spindle speed, turns a minute; the machine file's when absent.
-    pub speed_rpm: Option<Column>,
-    /// +1 or −1; from the travel when absent.
-    pub direction: Option<Column>,
-    /// Pass numbers as logged; one pass when absent.
-    pub pass: Option<Column>,
-    /// Any other columns, with their names; all as long as the first ones.
-    pub covariates: Vec<(String, Column)>,
-}
-
 impl Record {
-    /// Works out what the samples do not say, from the machine's lead and speed.
-    ///
-    /// Travel and angle follow from each other by the lead; time from the travel and the speed,
-    /// one pass after the other; travel from the time at the speed, backwards where `direction`
-    /// is −1. `None` when none of time, travel, and angle is there.
-    #[must_use]
-    pub fn new(machine: &Machine, samples: &Samples) -> Option<Self> {
-        samples::complete(machine, samples)
-    }
-
     /// Number of samples.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -281,23 +252,6 @@ impl Record {
     pub fn column(&self, name: &str) -> Option<Vec<f64>> {
         let index = self.columns.index(name).filter(|_| self.columns.has(name))?;
         Some(self.instants().map(|now| now.covariates[index]).collect())
-    }
-
-    /// Sets logged columns; each is as long as the record.
-    #[must_use]
-    pub fn with_covariates(mut self, columns: &[(String, Column)]) -> Self {
-        self.columns = Columns::new(columns.iter().map(|(name, _)| name.as_str()));
-        let width = self.columns.len();
-        let rows = if columns.is_empty() { 0 } else { self.len() };
-        let mut logged = vec![f64::NAN; width * rows];
-        for (name, values) in columns {
-            let Some(column) = self.columns.index(name) else { continue };
-            for (row, value) in logged.chunks_exact_mut(width).zip(values.iter()) {
-                row[column] = *value;
-            }
-        }
-        self.covariates = logged.into();
-        self
     }
 
     /// True when the direction changes between a sample and the one before it.

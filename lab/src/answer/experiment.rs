@@ -4,7 +4,7 @@
 //! itself. One explanation makes what is measured there, the other is fitted to it anew, under the
 //! noise that the record shows: what it cannot follow is the evidence to be expected.
 
-use helixlock_plant::Term;
+use helixlock_plant::{Samples, Term};
 
 use crate::hypotheses::{as_it_stands, try_candidate};
 use crate::measurement::Measurement;
@@ -172,7 +172,7 @@ fn with_experiment(measurement: &Measurement, experiment: &Experiment) -> Measur
     let gap_s = spread(&new.time_s) / count(new.len().max(2) - 1);
     let after_s = spread(&new.time_s) + gap_s;
     (experiment.change)(&mut new);
-    new.time_s.iter_mut().for_each(|time| *time += after_s);
+    new.samples.time_s.iter_mut().for_each(|time| *time += after_s);
     measurement.followed_by(&new)
 }
 
@@ -238,26 +238,26 @@ fn pause_s(measurement: &Measurement) -> f64 {
 }
 
 fn slower(measurement: &mut Measurement) {
-    measurement.time_s.iter_mut().for_each(|time| *time *= 2.0);
-    measurement.speed_rpm.iter_mut().for_each(|speed| *speed *= 0.5);
+    measurement.samples.time_s.iter_mut().for_each(|time| *time *= 2.0);
+    measurement.samples.speed_rpm.iter_mut().for_each(|speed| *speed *= 0.5);
 }
 
 fn reversed(measurement: &mut Measurement) {
     let end = measurement.position_mm.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let turn = measurement.angle_rev.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    measurement.position_mm.iter_mut().for_each(|place| *place = end - *place);
-    measurement.angle_rev.iter_mut().for_each(|angle| *angle = turn - *angle);
-    measurement.direction.iter_mut().for_each(|direction| *direction = -*direction);
+    measurement.samples.position_mm.iter_mut().for_each(|place| *place = end - *place);
+    measurement.samples.angle_rev.iter_mut().for_each(|angle| *angle = turn - *angle);
+    measurement.samples.direction.iter_mut().for_each(|direction| *direction = -*direction);
 }
 
 fn later(measurement: &mut Measurement) {
     let span = spread(&measurement.time_s);
-    measurement.time_s.iter_mut().for_each(|time| *time += span);
+    measurement.samples.time_s.iter_mut().for_each(|time| *time += span);
 }
 
 fn repeat_with(measurement: &mut Measurement, column: &str, value: f64) {
     let rows = measurement.len();
-    measurement.covariates.insert(column.to_owned(), vec![value; rows].into());
+    measurement.samples.covariates.insert(column.to_owned(), vec![value; rows].into());
 }
 
 /// Longest travel of a pass over the shortest.
@@ -299,8 +299,8 @@ fn uneven(measurement: &mut Measurement) {
     let steps = distances_mm(measurement);
     let mean = steps.iter().sum::<f64>() / count(steps.len().max(1));
     let turns_a_mm = spread(&measurement.angle_rev) / spread(&measurement.position_mm);
-    let with_angle = measurement.position_mm.iter_mut().zip(measurement.angle_rev.iter_mut());
-    for (row, (place, angle)) in with_angle.enumerate() {
+    let Samples { position_mm, angle_rev, .. } = &mut measurement.samples;
+    for (row, (place, angle)) in position_mm.iter_mut().zip(angle_rev.iter_mut()).enumerate() {
         let part = GOLDEN * count(row);
         let by = 0.5 * mean * (part - part.floor() - 0.5);
         *place += by;

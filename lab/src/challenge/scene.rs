@@ -1,6 +1,7 @@
 //! The machine, the passes and the instruments of a challenge.
 
 use std::f64::consts::TAU;
+use std::iter::repeat_n;
 use std::path::Path;
 
 use helixlock_plant::prediction::{Sensor, observe, predict};
@@ -102,28 +103,27 @@ pub(super) fn record(machine: &Machine, recipe: &Recipe, chance: &mut ChaCha8Rng
                 place_mm,
                 rpm,
                 if forward { 1.0 } else { -1.0 },
-                count(pass + 1),
                 if recipe.reindexed { 90.0 * count(pass) } else { 0.0 },
             ]);
         }
         now_s =
-            samples.last().map_or(0.0, |last: &[f64; 6]| last[0]) + chance.random_range(20.0..90.0);
+            samples.last().map_or(0.0, |last: &[f64; 5]| last[0]) + chance.random_range(20.0..90.0);
     }
     let of = |index: usize| samples.iter().map(|sample| sample[index]).collect::<Vec<f64>>();
     let mut covariates = logs(&of(0), &of(1), recipe, chance);
     if recipe.reindexed {
-        covariates.push(("grating_index_deg".to_owned(), of(5)));
+        covariates.push(("grating_index_deg".to_owned(), of(4)));
     }
     let samples = Samples {
-        time_s: Some(of(0).into()),
-        position_mm: Some(of(1).into()),
-        angle_rev: None,
-        speed_rpm: Some(of(2).into()),
-        direction: Some(of(3).into()),
-        pass: Some(of(4).into()),
+        time_s: of(0).into(),
+        position_mm: of(1).into(),
+        angle_rev: of(1).iter().map(|place_mm| place_mm / lead_mm).collect(),
+        speed_rpm: of(2).into(),
+        direction: of(3).into(),
+        pass: (0..recipe.passes).flat_map(|pass| repeat_n(pass, rows)).collect(),
         covariates: covariates.into_iter().map(|(name, log)| (name, log.into())).collect(),
     };
-    Record::new(machine, &samples).unwrap_or_default()
+    Record::new(machine, &samples)
 }
 
 /// What the sensors around the machine say: slow waves in time, or in place for the pitch.

@@ -65,19 +65,20 @@ fn hypotheses(
 fn converted(measurement: &Measurement, column: &str, unit: &HeaderUnit) -> Measurement {
     let (_, factor, offset) = unit;
     let mut mended = measurement.clone();
+    let samples = &mut mended.samples;
     let convert = |values: &mut Vec<f64>| {
         for value in values {
             *value = factor * *value + offset;
         }
     };
     match column {
-        "speed_rpm" => convert(&mut mended.speed_rpm),
-        "time_s" => convert(&mut mended.time_s),
+        "speed_rpm" => convert(&mut samples.speed_rpm),
+        "time_s" => convert(&mut samples.time_s),
         "position_mm" => {
-            convert(&mut mended.position_mm);
-            convert(&mut mended.angle_rev);
+            convert(&mut samples.position_mm);
+            convert(&mut samples.angle_rev);
         }
-        name => mended.covariates.get_mut(name).into_iter().for_each(|values| convert(values)),
+        name => samples.covariates.get_mut(name).into_iter().for_each(|values| convert(values)),
     }
     mended
 }

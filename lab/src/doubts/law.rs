@@ -1,6 +1,6 @@
 //! How usual readings are: evidence that needs no prediction.
 
-use helixlock_plant::{Machine, Part};
+use helixlock_plant::{Machine, Part, Samples};
 
 use crate::measurement::Measurement;
 use crate::numerics::{count, median, spread};
@@ -65,8 +65,8 @@ pub(super) fn clocked_rpm(measurement: &Measurement) -> f64 {
 
 /// Rows that moved since the one before, with the speed by travel and clock, rpm.
 pub(super) fn clocked(measurement: &Measurement) -> impl Iterator<Item = (usize, f64)> {
-    let Measurement { angle_rev, time_s, pass, .. } = measurement;
-    let inside = (1..measurement.len()).filter(|&row| pass[row] == pass[row - 1]);
+    let Samples { angle_rev, time_s, pass, .. } = &measurement.samples;
+    let inside = (1..pass.len()).filter(|&row| pass[row] == pass[row - 1]);
     let speed = |row: usize| {
         let turns = angle_rev[row] - angle_rev[row - 1];
         (row, 60.0 * (turns / (time_s[row] - time_s[row - 1])).abs())

@@ -44,8 +44,7 @@ fn zeros(problem: &Problem) -> Vec<Zero> {
         .map(|pass| {
             let blocks = problem.layout.blocks.iter();
             let of_pass = |rows: &Range<usize>| {
-                rows.start < rows.end
-                    && problem.measurement.pass[problem.samples[rows.start]] == pass
+                rows.start < rows.end && problem.measurement.pass[problem.samples[rows.start]] == pass
             };
             let rows = blocks.map(|block| block.rows.clone()).filter(of_pass);
             let (squares, number) = rows.fold((0.0, 0), |(squares, number), rows| {
@@ -94,8 +93,8 @@ impl Zero {
         let turns = shift_mm / problem.model.workpiece.lead.mm();
         for (row, pass) in problem.measurement.pass.iter().enumerate() {
             if !matches!(self, Self::Pass(only) if only != *pass) {
-                mended.position_mm[row] -= shift_mm;
-                mended.angle_rev[row] -= turns;
+                mended.samples.position_mm[row] -= shift_mm;
+                mended.samples.angle_rev[row] -= turns;
             }
         }
         mended

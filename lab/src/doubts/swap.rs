@@ -3,7 +3,7 @@
 use super::column::physics;
 use super::hypothesis::Hypothesis;
 use super::law::usualness;
-use crate::measurement::{Measurement, sensor_column};
+use crate::measurement::sensor_column;
 use crate::model::Problem;
 
 /// Columns of alike readings.
@@ -27,8 +27,8 @@ fn exchanged(problem: &Problem, one: &str, other: &str) -> Vec<Hypothesis> {
         return Vec::new();
     };
     let mut mended = problem.measurement.clone();
-    mended.covariates.insert(one.to_owned(), second.clone());
-    mended.covariates.insert(other.to_owned(), first.clone());
+    mended.samples.covariates.insert(one.to_owned(), second.clone());
+    mended.samples.covariates.insert(other.to_owned(), first.clone());
     let sets = std::iter::once(Vec::new()).chain(physics(problem, &[one, other]));
     sets.filter_map(|more| Hypothesis::with(problem, &mended, &more, words(one, other))).collect()
 }
@@ -48,11 +48,9 @@ fn place_for_error(problem: &Problem) -> Option<Hypothesis> {
         return None;
     }
     let lead_mm = problem.model.workpiece.lead.mm();
-    let mended = Measurement {
-        position_mm: values.clone(),
-        angle_rev: values.iter().map(|place| place / lead_mm).collect(),
-        ..measurement.clone()
-    };
+    let mut mended = measurement.clone();
+    mended.samples.position_mm = values.clone();
+    mended.samples.angle_rev = values.iter().map(|place| place / lead_mm).collect();
     let (what, says, mend) = words(sensor_column(sensor, false), "position_mm");
     Some(Hypothesis {
         what,

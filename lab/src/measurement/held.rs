@@ -61,7 +61,7 @@ impl Measurement {
                 "column `{name}` repeats each reading for {:.3} s: between readings it is interpolated",
                 clock.period
             ));
-            self.covariates.insert((*name).to_owned(), joined.into());
+            self.samples.covariates.insert((*name).to_owned(), joined.into());
         }
         self
     }

@@ -262,9 +262,8 @@ mod tests {
                 ..PulseTrains::default()
             };
             let (table, _) = trains.table(&machine).expect("two good trains");
-            let position_mm = table.column("position_mm").map(|places| places.to_vec().into());
-            let samples = Samples { position_mm, ..Samples::default() };
-            let record = Record::new(&machine, &samples).expect("positions");
+            let places_mm = table.column("position_mm").expect("it is made").to_vec();
+            let record = Record::new(&machine, &Samples::forward(&machine, places_mm));
             let implied = predict(&machine, &record).expect("no effects").error_um;
             for (error, implied) in
                 table.column("error_um").expect("it is made").iter().zip(implied)

@@ -37,7 +37,7 @@ impl Measurement {
             self.notes.push(format!(
                 "column `{name}` is rounded to steps of {step:.3}: between them it is interpolated"
             ));
-            self.covariates.insert((*name).to_owned(), smooth);
+            self.samples.covariates.insert((*name).to_owned(), smooth);
         }
         self
     }

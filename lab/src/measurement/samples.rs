@@ -1,9 +1,11 @@
 //! Measured samples in order: coordinates, sensors and covariates, pass by pass.
 
 use std::collections::BTreeMap;
+use std::iter::repeat_n;
+use std::ops::Deref;
 
 use helixlock_plant::prediction::Sensor;
-use helixlock_plant::{COVARIATES, Column, LoggedColumn, Machine, Part};
+use helixlock_plant::{COVARIATES, Column, LoggedColumn, Machine, Part, Samples};
 use helixlock_traces::{Table, TextColumn};
 
 use super::error::LabError;
@@ -54,23 +56,13 @@ pub fn sensor_column(sensor: Sensor, rotary: bool) -> &'static str {
     }
 }
 
-/// Samples sorted by pass and, within a pass, by time.
+/// [`Samples`] sorted by pass and, within a pass, by time, with what sensors showed of each.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measurement {
     /// True when the unit is arcsec instead of µm.
     pub rotary: bool,
-    /// Time, s, from the start of the record.
-    pub time_s: Column,
-    /// Travel, mm; for rotary chains the angle of the output in degrees is not travel and this is 0.
-    pub position_mm: Column,
-    /// Spindle angle in turns, growing with position.
-    pub angle_rev: Column,
-    /// Spindle speed, rpm.
-    pub speed_rpm: Column,
-    /// +1 forward, −1 reverse.
-    pub direction: Column,
-    /// Index of the pass, from 0.
-    pub pass: Column<usize>,
+    /// Where and when they were taken; gaps of what was logged are bridged from its neighbours.
+    pub samples: Samples,
     /// Names of the passes as in the file.
     pub pass_names: Vec<f64>,
     /// Per sensor one value a sample, NaN where the cell is missing; the counter in µm.
@@ -78,8 +70,6 @@ pub struct Measurement {
     /// Standard deviations of the recorder's values, where the file tells them (`error_um_sd`);
     /// their sizes against each other weigh the samples.
     pub deviations: Option<Column>,
-    /// Logged covariates, known and unknown; gaps are bridged from their neighbours.
-    pub covariates: BTreeMap<String, Column>,
     /// Of covariates that were rounded to steps: standard deviation of what they may be off by where
     /// they passed from one step to the next, in their unit.
     pub off_by: BTreeMap<String, f64>,
@@ -89,6 +79,14 @@ pub struct Measurement {
     pub speed_told: bool,
     /// What a user should know about how the file was read.
     pub notes: Vec<String>,
+}
+
+impl Deref for Measurement {
+    type Target = Samples;
+
+    fn deref(&self) -> &Samples {
+        &self.samples
+    }
 }
 
 /// Column with the standard deviation of each value of the recorder.
@@ -180,30 +178,18 @@ impl Measurement {
         Ok(assemble(table, nominal, &coordinates, passes, notes).without_holds().without_treads())
     }
 
-    /// Number of samples.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.time_s.len()
-    }
-
-    /// True when there is no sample; `from_table` never gives that.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.time_s.is_empty()
-    }
-
     /// These samples and others of the same sensors and columns behind them, as further passes.
     #[must_use]
     pub(crate) fn followed_by(&self, more: &Self) -> Self {
         let mut both = self.clone();
         let passes = self.pass_names.len();
         let last = self.pass_names.iter().copied().fold(0.0, f64::max);
-        both.time_s.extend(&more.time_s);
-        both.position_mm.extend(&more.position_mm);
-        both.angle_rev.extend(&more.angle_rev);
-        both.speed_rpm.extend(&more.speed_rpm);
-        both.direction.extend(&more.direction);
-        both.pass.extend(more.pass.iter().map(|pass| passes + pass));
+        both.samples.time_s.extend(&more.time_s);
+        both.samples.position_mm.extend(&more.position_mm);
+        both.samples.angle_rev.extend(&more.angle_rev);
+        both.samples.speed_rpm.extend(&more.speed_rpm);
+        both.samples.direction.extend(&more.direction);
+        both.samples.pass.extend(more.pass.iter().map(|pass| passes + pass));
         both.pass_names.extend(more.pass_names.iter().map(|name| last + name));
         for (sensor, values) in &mut both.observations {
             values.extend(&more.observations[sensor]);
@@ -219,30 +205,27 @@ impl Measurement {
         }
         for (name, values) in &more.covariates {
             // What is set anew was at its zero before.
-            let own = both.covariates.entry(name.clone());
+            let own = both.samples.covariates.entry(name.clone());
             own.or_insert_with(|| vec![0.0; self.len()].into()).extend(values);
         }
         both
     }
 
-    /// Leaves out the samples that are not kept.
+    /// Leaves out the samples that are not kept, and the passes that have none.
     pub(crate) fn keep(&mut self, kept: &[bool]) {
         let of = |values: &mut Column| {
             let mut kept = kept.iter();
             values.retain(|_| kept.next().copied().unwrap_or(true));
         };
-        let coordinates = [
-            &mut self.time_s,
-            &mut self.position_mm,
-            &mut self.angle_rev,
-            &mut self.speed_rpm,
-            &mut self.direction,
-        ];
-        coordinates.into_iter().for_each(of);
-        let logged = self.observations.values_mut().chain(self.covariates.values_mut());
-        logged.chain(&mut self.deviations).for_each(of);
+        let seen = self.observations.values_mut().chain(&mut self.deviations);
+        self.samples.columns_mut().chain(seen).for_each(of);
         let mut rows = kept.iter();
-        self.pass.retain(|_| rows.next().copied().unwrap_or(true));
+        let mut pass = std::mem::take(&mut self.samples.pass);
+        pass.retain(|_| rows.next().copied().unwrap_or(true));
+        let passes = || pass.chunk_by(|a, b| a == b);
+        self.pass_names = passes().map(|rows| self.pass_names[rows[0]]).collect();
+        let numbered = passes().enumerate().flat_map(|(n, rows)| repeat_n(n, rows.len()));
+        self.samples.pass = numbered.collect();
     }
 
     /// Unit of the observations.
@@ -355,18 +338,21 @@ fn assemble(
     if nominal.closed && covariates.contains_key("steps") {
         notes.push("the steps are known and taken off: the error is that without them".to_owned());
     }
-    Measurement {
-        rotary: nominal.rotary,
+    let samples = Samples {
         time_s: pick(&coordinates.time_s),
         position_mm: pick(&coordinates.position_mm),
         angle_rev: pick(&coordinates.angle_rev),
         speed_rpm: passes.speed_rpm.into(),
         direction: passes.direction.into(),
         pass: passes.pass.into(),
+        covariates,
+    };
+    Measurement {
+        rotary: nominal.rotary,
+        samples,
         pass_names: passes.names,
         observations,
         deviations,
-        covariates,
         off_by: BTreeMap::new(),
         timed: coordinates.timed,
         speed_told: table.column("speed_rpm").is_some(),

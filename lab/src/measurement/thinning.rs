@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use helixlock_plant::Column;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -22,7 +21,9 @@ impl Measurement {
     /// Means of groups of neighbours.
     #[must_use]
     pub(crate) fn averaged(&self, groups: &[Range<usize>]) -> Self {
-        let mean = |values: &[f64]| Column::from(means(values, groups));
+        let mut samples = self.samples.clone();
+        samples.columns_mut().for_each(|values| *values = means(values, groups).into());
+        samples.pass = groups.iter().map(|rows| self.pass[rows.start]).collect();
         let observations: BTreeMap<_, _> = self
             .observations
             .iter()
@@ -31,12 +32,7 @@ impl Measurement {
             })
             .collect();
         Self {
-            time_s: mean(&self.time_s),
-            position_mm: mean(&self.position_mm),
-            angle_rev: mean(&self.angle_rev),
-            speed_rpm: mean(&self.speed_rpm),
-            direction: mean(&self.direction),
-            pass: groups.iter().map(|rows| self.pass[rows.start]).collect(),
+            samples,
             observations,
             deviations: self.deviations.as_deref().map(|told| {
                 let of = |rows: &Range<usize>| {
@@ -46,7 +42,6 @@ impl Measurement {
                 };
                 groups.iter().map(of).collect()
             }),
-            covariates: self.covariates.iter().map(|(n, v)| (n.clone(), mean(v))).collect(),
             ..self.clone()
         }
     }

@@ -4,9 +4,7 @@ use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
 use helixlock_plant::prediction::{Sensor, gain, meter_um, observe, shown};
-use helixlock_plant::{
-    Column, Effect, EffectError, Entry, Machine, Model, Part, Record, Samples, Term,
-};
+use helixlock_plant::{Column, Effect, EffectError, Entry, Model, Part, Record, Term};
 
 use super::columns::Columns;
 use super::designs::Designs;
@@ -111,7 +109,7 @@ impl Problem {
         measurement: &Measurement,
         finer: Option<Finer>,
     ) -> Result<Self, EffectError> {
-        let record = record(model, measurement);
+        let record = Record::new(model, measurement);
         let sensors: Vec<Sensor> = measurement.observations.keys().copied().collect();
         let whole = finer.is_none();
         let lags = whole && sensors.contains(&Sensor::Recorder);
@@ -466,23 +464,6 @@ fn clock(measurement: &Measurement) -> Vec<f64> {
         return time.first().map(|first| first / usual).into_iter().chain(later).collect();
     }
     (0..time.len()).map(count).collect()
-}
-
-fn record(machine: &Machine, measurement: &Measurement) -> Record {
-    let samples = Samples {
-        time_s: Some(measurement.time_s.clone()),
-        position_mm: Some(measurement.position_mm.clone()),
-        angle_rev: Some(measurement.angle_rev.clone()),
-        speed_rpm: Some(measurement.speed_rpm.clone()),
-        direction: Some(measurement.direction.clone()),
-        pass: Some(measurement.pass.iter().map(|&pass| count(pass)).collect()),
-        covariates: measurement.covariates.iter().map(|(n, v)| (n.clone(), v.clone())).collect(),
-    };
-    let mut record = Record::new(machine, &samples).unwrap_or_default();
-    if record.pass == measurement.pass {
-        record.pass = measurement.pass.clone();
-    }
-    record
 }
 
 #[cfg(test)]

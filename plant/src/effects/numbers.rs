@@ -142,11 +142,11 @@ fn turbulence_is_noise_of_the_size_it_says() {
     assert!(1e-4 < (at(7.0, 5.0, 1000.0) - at(8.0, 5.0, 1000.0)).abs());
 }
 
+/// 200 s at 0.6 mm/s.
 fn ramp(machine: &Machine, steps: Option<Vec<f64>>) -> Record {
-    let time_s: Vec<_> = (0..200).map(f64::from).collect();
+    let places_mm = (0..200).map(|second| 0.6 * f64::from(second)).collect();
     let covariates = steps.map(|steps| ("steps".to_owned(), steps.into())).into_iter().collect();
-    let samples = Samples { time_s: Some(time_s.into()), covariates, ..Samples::default() };
-    Record::new(machine, &samples).expect("times")
+    Record::new(machine, &Samples { covariates, ..Samples::forward(machine, places_mm) })
 }
 
 fn with(kind: &str, values: &[f64]) -> Model {

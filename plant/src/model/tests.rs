@@ -324,8 +324,7 @@ mod properties {
             let mut model = parse(SG7430);
             (model.machine.loop_closed, model.machine.filter_cutoff_hz) = (closed, None);
             model.effects.clear();
-            let samples = Samples { position_mm: Some(vec![5.0, 6.0, 8.0].into()), ..Samples::default() };
-            let record = Record::new(&model, &samples).unwrap();
+            let record = Record::new(&model, &Samples::forward(&model, vec![5.0, 6.0, 8.0]));
             let before = predict(&model, &record).unwrap();
             let mut term = Term::new(Term::card("phase-drift").unwrap(), &[3600.0 * slope]).unwrap();
             term.entry = entry;

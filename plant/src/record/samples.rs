@@ -1,117 +1,114 @@
-//! From what a measurement says of its samples to a complete [`Record`].
+//! Samples as they were taken, and the [`Record`] of them that effects read.
 
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use crate::{Column, Machine, Record, Samples};
+use crate::{Column, Columns, Machine, Record};
 
-/// See [`Record::new`].
-pub(crate) fn complete(machine: &Machine, samples: &Samples) -> Option<Record> {
-    let count = [&samples.position_mm, &samples.angle_rev, &samples.time_s]
-        .into_iter()
-        .flatten()
-        .map(|values| values.len())
-        .next()?;
-    let pass = numbered(samples.pass.as_ref(), count);
-    let speed_rpm =
-        samples.speed_rpm.clone().unwrap_or_else(|| vec![machine.spindle.speed_rpm; count].into());
-    let turns = turns(machine, samples, &speed_rpm, &pass)?;
-    let lead_mm = machine.workpiece.lead.mm();
-    let position_mm = samples
-        .position_mm
-        .clone()
-        .unwrap_or_else(|| turns.iter().map(|turn| turn * lead_mm).collect());
-    let mut record = Record {
-        time_s: times(samples, &turns, &speed_rpm, &pass),
-        direction: samples.direction.clone().unwrap_or_else(|| directions(&position_mm, &pass)),
-        spindle_rad: turns.iter().map(|turn| turn * TAU).collect(),
-        error_um: vec![0.0; count].into(),
-        position_mm,
-        speed_rpm,
-        pass,
-        ..Record::default()
-    };
-    (record.travelled_mm, record.since_reversal_mm) = ways(&record, machine);
-    Some(record.with_covariates(&samples.covariates))
+/// Where and when samples were taken and what was logged there: columns of equal length, pass by
+/// pass, ordered as they were taken.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Samples {
+    /// Time, s, any zero.
+    pub time_s: Column,
+    /// Nominal travel, mm; 0 in rotary chains, whose angles are no travel.
+    pub position_mm: Column,
+    /// Spindle angle in turns, growing with position.
+    pub angle_rev: Column,
+    /// Spindle speed, turns a minute.
+    pub speed_rpm: Column,
+    /// +1 forward, −1 in reverse.
+    pub direction: Column,
+    /// Pass, from 0, in blocks: a number never comes back.
+    pub pass: Column<usize>,
+    /// Logged quantities, known and unknown.
+    pub covariates: BTreeMap<String, Column>,
 }
 
-/// Pass numbers as logged, counted anew from 0 in the order they come.
-fn numbered(pass: Option<&Column>, count: usize) -> Column<usize> {
-    let Some(logged) = pass else { return vec![0; count].into() };
-    let mut number = 0;
-    let mut numbers = Vec::with_capacity(count);
-    for (row, value) in logged.iter().enumerate() {
-        number += usize::from(0 < row && value.to_bits() != logged[row - 1].to_bits());
-        numbers.push(number);
-    }
-    numbers.into()
-}
-
-/// Spindle turns of each sample, from angle, else travel, else time at speed and direction.
-fn turns(
-    machine: &Machine,
-    samples: &Samples,
-    speed_rpm: &[f64],
-    pass: &[usize],
-) -> Option<Column> {
-    if let Some(angle_rev) = &samples.angle_rev {
-        return Some(angle_rev.clone());
-    }
-    if let Some(position_mm) = &samples.position_mm {
+impl Samples {
+    /// One pass forward through these places, at the machine's lead and speed.
+    #[must_use]
+    pub fn forward(machine: &Machine, position_mm: Vec<f64>) -> Self {
+        let (rows, speed_rpm) = (position_mm.len(), machine.spindle.speed_rpm);
         let lead_mm = machine.workpiece.lead.mm();
-        return Some(position_mm.iter().map(|position| position / lead_mm).collect());
-    }
-    let time_s = samples.time_s.as_ref()?;
-    let mut turn = 0.0;
-    let mut turns = Vec::with_capacity(time_s.len());
-    for row in 0..time_s.len() {
-        if row == 0 {
-            turn = time_s[0] * speed_rpm[0] / 60.0;
-        } else {
-            let sign = samples.direction.as_ref().map_or(1.0, |direction| direction[row]);
-            let same_pass = pass[row] == pass[row - 1];
-            let elapsed_s = if same_pass { time_s[row] - time_s[row - 1] } else { 0.0 };
-            turn += sign * elapsed_s * speed_rpm[row] / 60.0;
+        let angle_rev: Column = position_mm.iter().map(|place_mm| place_mm / lead_mm).collect();
+        Self {
+            time_s: angle_rev.iter().map(|turn| 60.0 * turn / speed_rpm).collect(),
+            position_mm: position_mm.into(),
+            angle_rev,
+            speed_rpm: vec![speed_rpm; rows].into(),
+            direction: vec![1.0; rows].into(),
+            pass: vec![0; rows].into(),
+            covariates: BTreeMap::new(),
         }
-        turns.push(turn);
     }
-    Some(turns.into())
-}
 
-/// Time since the first sample, s; at constant speed over the turns where it was not logged.
-fn times(samples: &Samples, turns: &[f64], speed_rpm: &[f64], pass: &[usize]) -> Column {
-    if let Some(time_s) = &samples.time_s {
-        let start_s = time_s.iter().copied().fold(f64::INFINITY, f64::min);
+    /// Number of samples.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.time_s.len()
+    }
+
+    /// True when there is no sample.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.time_s.is_empty()
+    }
+
+    /// All columns but the passes.
+    pub fn columns_mut(&mut self) -> impl Iterator<Item = &mut Column> {
+        let Self { time_s, position_mm, angle_rev, speed_rpm, direction, covariates, .. } = self;
+        let coordinates = [time_s, position_mm, angle_rev, speed_rpm, direction];
+        coordinates.into_iter().chain(covariates.values_mut())
+    }
+
+    /// Time since the first sample, s.
+    fn since_start_s(&self) -> Column {
+        let start_s = self.time_s.iter().copied().fold(f64::INFINITY, f64::min);
         if start_s == 0.0 {
-            return time_s.clone();
+            return self.time_s.clone();
         }
-        return time_s.iter().map(|time| time - start_s).collect();
+        self.time_s.iter().map(|time| time - start_s).collect()
     }
-    let mut now_s = 0.0;
-    let mut times = Vec::with_capacity(turns.len());
-    for row in 0..turns.len() {
-        if 0 < row && pass[row] == pass[row - 1] {
-            now_s += (turns[row] - turns[row - 1]).abs() / speed_rpm[row] * 60.0;
+
+    /// Logged quantities row by row, as an effect reads them, and what they are called.
+    fn logged(&self) -> (Columns, Column) {
+        let columns = Columns::new(self.covariates.keys().map(String::as_str));
+        let width = columns.len();
+        let rows = if self.covariates.is_empty() { 0 } else { self.len() };
+        let mut logged = vec![f64::NAN; width * rows];
+        for (name, values) in &self.covariates {
+            let Some(column) = columns.index(name) else { continue };
+            for (row, value) in logged.chunks_exact_mut(width).zip(values) {
+                row[column] = *value;
+            }
         }
-        times.push(now_s);
+        (columns, logged.into())
     }
-    times.into()
 }
 
-/// +1 or −1 by the next move within the pass; the last sample goes on as before.
-fn directions(position_mm: &[f64], pass: &[usize]) -> Column {
-    let mut directions = vec![1.0; position_mm.len()];
-    for row in (0..position_mm.len()).rev() {
-        let next = row + 1;
-        if next < position_mm.len() && pass[next] == pass[row] {
-            let move_mm = position_mm[next] - position_mm[row];
-            directions[row] = if move_mm == 0.0 { directions[next] } else { move_mm.signum() };
-        } else if 0 < row && pass[row - 1] == pass[row] {
-            let move_mm = position_mm[row] - position_mm[row - 1];
-            directions[row] = if move_mm < 0.0 { -1.0 } else { 1.0 };
-        }
+impl Record {
+    /// What effects of a machine may know of samples.
+    #[must_use]
+    pub fn new(machine: &Machine, samples: &Samples) -> Self {
+        let (columns, covariates) = samples.logged();
+        let mut record = Self {
+            time_s: samples.since_start_s(),
+            position_mm: samples.position_mm.clone(),
+            spindle_rad: samples.angle_rev.iter().map(|turn| turn * TAU).collect(),
+            speed_rpm: samples.speed_rpm.clone(),
+            direction: samples.direction.clone(),
+            pass: samples.pass.clone(),
+            travelled_mm: Column::default(),
+            since_reversal_mm: Column::default(),
+            error_um: vec![0.0; samples.len()].into(),
+            columns,
+            covariates,
+        };
+        (record.travelled_mm, record.since_reversal_mm) = ways(&record, machine);
+        record
     }
-    directions.into()
 }
 
 /// Way since the start of the pass and since the last reversal in it, mm.
@@ -206,12 +203,11 @@ drive = { step = "0.0125 um", frequency = "160 Hz" }
             time_s.iter().map(|time_s| value(&motion.at(*time_s))).collect::<Vec<f64>>()
         };
         let samples = Samples {
-            time_s: Some(time_s.clone().into()),
-            position_mm: Some(of(|now| now.position_mm).into()),
-            direction: Some(of(|now| now.direction).into()),
-            ..Samples::default()
+            time_s: time_s.clone().into(),
+            direction: of(|now| now.direction).into(),
+            ..Samples::forward(&machine, of(|now| now.position_mm))
         };
-        let record = complete(&machine, &samples).unwrap();
+        let record = Record::new(&machine, &samples);
         for (row, now) in time_s.iter().map(|time_s| motion.at(*time_s)).enumerate() {
             assert!((record.travelled_mm[row] - now.travelled_mm).abs() < 1e-9, "row {row}");
             let (found_mm, due_mm) = (record.since_reversal_mm[row], now.since_reversal_mm);
@@ -225,12 +221,11 @@ drive = { step = "0.0125 um", frequency = "160 Hz" }
     fn a_rest_at_the_turn_is_no_way() {
         let machine = Model::parse(MACHINE, Path::new("machine.toml")).unwrap();
         let samples = Samples {
-            time_s: Some(vec![0.0, 1.0, 2.0, 62.0, 63.0, 64.0].into()),
-            position_mm: Some(vec![0.0, 0.6, 1.2, 1.2, 0.6, 0.0].into()),
-            direction: Some(vec![1.0, 1.0, 1.0, -1.0, -1.0, -1.0].into()),
-            ..Samples::default()
+            time_s: vec![0.0, 1.0, 2.0, 62.0, 63.0, 64.0].into(),
+            direction: vec![1.0, 1.0, 1.0, -1.0, -1.0, -1.0].into(),
+            ..Samples::forward(&machine, vec![0.0, 0.6, 1.2, 1.2, 0.6, 0.0])
         };
-        let record = complete(&machine, &samples).unwrap();
+        let record = Record::new(&machine, &samples);
         assert!((record.since_reversal_mm[3] - 0.3).abs() < 1e-12);
         assert!((record.travelled_mm[5] - 3.0).abs() < 1e-12);
     }
