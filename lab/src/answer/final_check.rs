@@ -54,7 +54,7 @@ pub fn final_check(
     learned: &Model,
 ) -> Result<Option<FinalCheck>, Error> {
     let Some(rows) = forward_pass(problem) else { return Ok(None) };
-    let end_mm = problem.measurement.position_mm[rows.end - 1];
+    let end_mm = problem.record.position_mm[rows.end - 1];
     let before = run(file, end_mm)?;
     let after = run(learned, end_mm)?;
     let check = |(sensor, values): (Sensor, Column)| {
@@ -70,7 +70,7 @@ pub fn final_check(
         })
     };
     Ok(Some(FinalCheck {
-        pass: problem.measurement.pass_names[problem.measurement.pass[rows.start]],
+        pass: problem.measurement.pass_names[problem.record.pass[rows.start]],
         hunting_um: after.course.swing_um / f64::sqrt(2.0),
         sensors: measured(problem).into_iter().filter_map(check).collect(),
         left_out: after.left_out,
@@ -86,7 +86,7 @@ fn run(model: &Model, end_mm: f64) -> Result<Simulation, Error> {
 
 /// Samples of the first pass whose travel never falls.
 fn forward_pass(problem: &Problem) -> Option<std::ops::Range<usize>> {
-    let position_mm = &problem.measurement.position_mm;
+    let position_mm = &problem.record.position_mm;
     problem.record.passes().into_iter().find(|rows| {
         let steps = position_mm[rows.clone()].windows(2);
         let (mut forward, mut moves) = (true, false);
@@ -133,7 +133,7 @@ struct Series<'a> {
 impl Series<'_> {
     /// Travel, measured, simulated; the last two about their mean.
     fn against(&self, shown: &[[f64; 2]]) -> Vec<[f64; 3]> {
-        let position_mm = &self.problem.measurement.position_mm;
+        let position_mm = &self.problem.record.position_mm;
         let mut points: Vec<[f64; 3]> = self
             .rows
             .clone()

@@ -23,13 +23,12 @@ pub(super) fn runs_along(problem: &Problem) -> Option<Doubt> {
 /// Share of the travel in values, and its evidence; every pass has a zero of its own.
 fn along(problem: &Problem, sensor: usize, values: &[f64]) -> Option<(f64, f64)> {
     let (mut xx, mut xy, mut yy, mut rows) = (0.0, 0.0, 0.0, 0);
-    let measurement = &problem.measurement;
     let travel = |row: usize| {
         let sample = problem.samples[row];
-        if measurement.rotary {
-            1_296_000.0 * measurement.angle_rev[sample]
+        if problem.measurement.rotary {
+            1_296_000.0 * problem.measurement.angle_rev[sample]
         } else {
-            1000.0 * measurement.position_mm[sample]
+            1000.0 * problem.record.position_mm[sample]
         }
     };
     for block in problem.layout.blocks.iter().filter(|block| block.sensor == sensor) {

@@ -44,7 +44,7 @@ fn zeros(problem: &Problem) -> Vec<Zero> {
         .map(|pass| {
             let blocks = problem.layout.blocks.iter();
             let of_pass = |rows: &Range<usize>| {
-                rows.start < rows.end && problem.measurement.pass[problem.samples[rows.start]] == pass
+                rows.start < rows.end && problem.record.pass[problem.samples[rows.start]] == pass
             };
             let rows = blocks.map(|block| block.rows.clone()).filter(of_pass);
             let (squares, number) = rows.fold((0.0, 0), |(squares, number), rows| {
@@ -91,7 +91,7 @@ impl Zero {
     fn shifted(self, problem: &Problem, shift_mm: f64) -> Measurement {
         let mut mended = problem.measurement.clone();
         let turns = shift_mm / problem.model.workpiece.lead.mm();
-        for (row, pass) in problem.measurement.pass.iter().enumerate() {
+        for (row, pass) in problem.record.pass.iter().enumerate() {
             if !matches!(self, Self::Pass(only) if only != *pass) {
                 mended.samples.position_mm[row] -= shift_mm;
                 mended.samples.angle_rev[row] -= turns;

@@ -386,11 +386,11 @@ fn quantiles(values: &[f64], points: usize) -> Vec<f64> {
 
 /// A straight relation to every logged covariate, to direction and to speed.
 fn covariates(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
-    let measured = &problem.measurement;
+    let logged = problem.measurement.covariates.iter();
     let mut columns: Vec<(&str, &Column)> =
-        measured.covariates.iter().map(|(name, values)| (name.as_str(), values)).collect();
-    columns.push(("direction", &measured.direction));
-    columns.push(("speed_rpm", &measured.speed_rpm));
+        logged.map(|(name, values)| (name.as_str(), values)).collect();
+    columns.push(("direction", &problem.record.direction));
+    columns.push(("speed_rpm", &problem.record.speed_rpm));
     columns.extend(problem.velocity_rpm().map(|values| ("velocity_rpm", values)));
     columns
         .into_iter()

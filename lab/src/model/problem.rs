@@ -294,7 +294,7 @@ impl Problem {
             let values = &self.measurement.observations[&sensor];
             for rows in self.record.passes() {
                 let start = samples.len();
-                let pass = self.measurement.pass[rows.start];
+                let pass = self.record.pass[rows.start];
                 samples.extend(rows.filter(|&sample| values[sample].is_finite()));
                 if start < samples.len() {
                     let rows = start..samples.len();

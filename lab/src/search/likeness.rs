@@ -111,8 +111,8 @@ fn slips_at_reversal(problem: &Problem, component: &Component) -> bool {
         return true;
     }
     let window = near.saturating_sub(REVERSAL_REACH)..(near + REVERSAL_REACH).min(record.len());
-    let passes = problem.measurement.pass[window.clone()].windows(2).all(|p| p[0] == p[1]);
-    passes && 0.0 < spread(&problem.measurement.direction[window])
+    let passes = record.pass[window.clone()].windows(2).all(|p| p[0] == p[1]);
+    passes && 0.0 < spread(&record.direction[window])
 }
 
 /// True unless a play is so wide that none of the motor's moves gets through it: a loop that made

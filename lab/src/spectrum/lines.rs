@@ -141,7 +141,7 @@ pub(crate) fn wave(problem: &Problem, sensor: usize, turns: &[f64], order: f64) 
 
 fn named(problem: &Problem, sensor: usize, line: Line) -> NamedLine {
     let machine = &problem.model;
-    let mut speeds = problem.measurement.speed_rpm.clone();
+    let mut speeds = problem.record.speed_rpm.clone();
     let usual = median(&mut speeds);
     let period_s = 60.0 / (usual * line.frequency);
     let resolution = 1.0 / spread(&problem.measurement.angle_rev).max(f64::MIN_POSITIVE);
