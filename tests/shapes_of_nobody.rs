@@ -65,7 +65,7 @@ fn a_dent_with_its_rim_is_no_wear() {
 fn a_dent_between_two_rims_is_no_wear() {
     is_nobodys(&|_, mm| {
         let off = (mm - 410.0) / 30.0;
-        0.12 * (1.0 - off * off) * bell(off)
+        0.16 * (1.0 - off * off) * bell(off)
     });
 }
 

@@ -109,6 +109,12 @@ fn the_product_of_two_columns_is_seen() {
     is_nobodys(|seed| on_a_slide(seed, &|row| 0.8 * row.load * row.coolant));
 }
 
+/// A sensor whose reading wavers three times over its range.
+#[test]
+fn a_wave_over_a_column_is_seen() {
+    is_nobodys(|seed| on_a_slide(seed, &|row| libm::sin(TAU * 0.75 * row.load)));
+}
+
 /// Two arcs of a ring that meet at an angle, on a table that turns by a quarter.
 #[test]
 fn a_kink_along_an_angle_is_seen() {

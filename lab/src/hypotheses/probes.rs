@@ -19,8 +19,8 @@ use crate::noise::{Whitener, rms, swift_rms, weighed_rms};
 use crate::numerics::{chi_squared_tail, count, spread};
 use crate::policy::chance::{MANY_COLUMNS, NAMED, PROBES, SIGNIFICANCE};
 use crate::policy::extent::{
-    BUMP_ORDER, COLUMNS_OF_PASSES, CURVE_OF_A_PASS, CURVE_ORDER, HARMONICS, ROWS_A_COLUMN, TURNS,
-    WAVE_ORDER,
+    BUMP_ORDER, COLUMNS_OF_PASSES, CURVE_OF_A_LOG, CURVE_OF_A_PASS, CURVE_ORDER, HARMONICS,
+    ROWS_A_COLUMN, TURNS, WAVE_ORDER,
 };
 use crate::policy::size::{FAR_ABOVE, LOOP_JUMP, SHARE_OF_NOISE};
 use crate::spectrum::Line;
@@ -69,11 +69,11 @@ pub(crate) fn no_larger_than(left_um: f64, told: &mut [Structure]) {
 /// Words for what targets show.
 const AT_TARGETS: &str = "own error of each target, at every visit";
 
-/// Number of probes, for they are counted together: every logged column is one more, and a speed
-/// that changes within a pass.
+/// Number of probes, for they are counted together: every logged column is two more, and a speed
+/// that changes within a pass one.
 pub(super) fn probes(problem: &Problem) -> f64 {
     let columns = problem.measurement.covariates.len();
-    PROBES + count(columns + usize::from(problem.velocity_rpm().is_some()))
+    PROBES + count(2 * columns + usize::from(problem.velocity_rpm().is_some()))
 }
 
 /// True for something beyond chance and large enough to change a figure: as much against the swift
@@ -116,6 +116,7 @@ pub(crate) fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> V
     all.extend(waves::bands(problem, fit));
     all.extend(step(problem, model, fit));
     all.extend(covariates(problem, model, fit));
+    all.extend(curves_of_logs(problem, model, fit));
     all.sort_by(|a, b| a.p_value.total_cmp(&b.p_value).then(b.rms_um.total_cmp(&a.rms_um)));
     all
 }
@@ -399,6 +400,21 @@ fn covariates(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
             let (rms_um, p_value) =
                 probe(problem, model, fit, &stacked(problem, std::slice::from_ref(values)));
             Structure::without_place(name, "straight relation", rms_um, p_value)
+        })
+        .collect()
+}
+
+/// Any curve of what a column shows, but for what was told of the motor.
+fn curves_of_logs(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
+    if problem.samples.len() < ROWS_A_COLUMN * CURVE_OF_A_LOG {
+        return Vec::new();
+    }
+    let logs = problem.measurement.covariates.iter();
+    logs.filter(|(name, values)| *name != "steps" && 0.0 < spread(values))
+        .map(|(name, values)| {
+            let raw = stacked(problem, &chebyshev(values, CURVE_OF_A_LOG));
+            let (rms_um, p_value) = probe(problem, model, fit, &raw);
+            Structure::without_place(name, "curve over the column", rms_um, p_value)
         })
         .collect()
 }

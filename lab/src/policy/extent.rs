@@ -161,6 +161,12 @@ pub(crate) const BUMP_ORDER: usize = 24;
 /// See [`CURVE_ORDER`].
 pub(crate) const WAVE_ORDER: usize = 64;
 
+/// Order of a curve over what a logged column shows.
+///
+/// Chosen: three waves over its range, as a sensor's own nonlinearity has them. Doubled: six waves are
+/// seen, and a bend needs more evidence.
+pub(crate) const CURVE_OF_A_LOG: usize = 12;
+
 /// Rows that each column of such a curve needs.
 ///
 /// Chosen. Doubled: short files are not looked at for bumps.
