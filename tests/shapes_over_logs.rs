@@ -21,72 +21,74 @@ const PASSES: usize = 3;
 const ROWS: usize = 250;
 const SEEDS: u64 = 6;
 
-/// A row: pass, share of the travel, load and coolant about their means.
+/// A row: pass and its way, share of the travel, load and coolant about their means.
 struct Row {
     pass: f64,
+    forward: bool,
+    time_s: f64,
     share: f64,
     load: f64,
     coolant: f64,
 }
 
+type Column<'a> = (&'static str, &'a dyn Fn(&Row) -> f64);
+
 /// Rows of passes there and back by turns, with logs that repeat with neither travel nor pass.
 fn rows() -> Vec<Row> {
     let of_pass = |pass: usize| {
         (0..ROWS).map(move |row| {
-            let run = row as f64 / ROWS as f64;
-            let time = pass as f64 + run;
-            let share = if pass % 2 == 0 { run } else { 1.0 - run };
-            let load = libm::sin(TAU * 1.3 * time) + libm::sin(TAU * 0.7 * time + 1.0);
-            let coolant = libm::sin(TAU * 1.7 * time + 2.0) + libm::sin(TAU * 0.4 * time);
-            Row { pass: pass as f64, share, load, coolant }
+            let (pass, run) = (pass as f64, row as f64 / ROWS as f64);
+            let forward = pass % 2.0 < 1.0;
+            let time = pass + run;
+            Row {
+                pass,
+                forward,
+                time_s: 200.0 * pass + 160.0 * run,
+                share: if forward { run } else { 1.0 - run },
+                load: libm::sin(TAU * 1.3 * time) + libm::sin(TAU * 0.7 * time + 1.0),
+                coolant: libm::sin(TAU * 1.7 * time + 2.0) + libm::sin(TAU * 0.4 * time),
+            }
         })
     };
     (0..PASSES).flat_map(of_pass).collect()
 }
 
-/// White noise of 1 and a shape, in units of its deviation.
-fn with_noise(seed: u64, deviation: f64, shape: &dyn Fn(&Row) -> f64) -> Vec<f64> {
+/// The diagnosis of some columns and of an error: a shape in units of the deviation of its noise.
+fn diagnosed(
+    machine: &str,
+    columns: &[Column<'_>],
+    (error, deviation): (&'static str, f64),
+    (seed, shape): (u64, &dyn Fn(&Row) -> f64),
+) -> Diagnosis {
     let mut chance = ChaCha8Rng::seed_from_u64(seed);
+    let rows = rows();
     let noisy = |row: &Row| {
         let noise: f64 = StandardNormal.sample(&mut chance);
         deviation * (noise + shape(row))
     };
-    rows().iter().map(noisy).collect()
-}
-
-fn columns(of: &[(&'static str, &dyn Fn(&Row) -> f64)]) -> Vec<(&'static str, Vec<f64>)> {
-    let column = |(name, value): &(&'static str, &dyn Fn(&Row) -> f64)| {
-        (*name, rows().iter().map(value).collect())
-    };
-    of.iter().map(column).collect()
-}
-
-/// Seconds since the start of the record.
-fn time_s(row: &Row) -> f64 {
-    let run = if row.pass % 2.0 == 0.0 { row.share } else { 1.0 - row.share };
-    200.0 * row.pass + 160.0 * run
+    let error = (error, rows.iter().map(noisy).collect());
+    let told = columns.iter().map(|(name, value)| (*name, rows.iter().map(value).collect()));
+    diagnosed_on(machine, told.chain([error]).collect())
 }
 
 fn on_a_slide(seed: u64, shape: &dyn Fn(&Row) -> f64) -> Diagnosis {
-    let mut all = columns(&[
+    let columns: [Column<'_>; 5] = [
         ("pass", &|row| row.pass),
-        ("time_s", &time_s),
+        ("time_s", &|row| row.time_s),
         ("position_mm", &|row| 640.0 * row.share),
         ("load_pct", &|row| 40.0 + 12.0 * row.load),
         ("coolant_c", &|row| 22.0 + row.coolant),
-    ]);
-    all.push(("error_um", with_noise(seed, 0.05, shape)));
-    diagnosed_on(MACHINE, all)
+    ];
+    diagnosed(MACHINE, &columns, ("error_um", 0.05), (seed, shape))
 }
 
 fn on_a_table(seed: u64, shape: &dyn Fn(&Row) -> f64) -> Diagnosis {
-    let mut all = columns(&[
+    let columns: [Column<'_>; 3] = [
         ("pass", &|row| row.pass),
-        ("time_s", &time_s),
+        ("time_s", &|row| row.time_s),
         ("angle_rev", &|row| 0.27 * row.share),
-    ]);
-    all.push(("error_arcsec", with_noise(seed, 0.5, shape)));
-    diagnosed_on(ROTARY, all)
+    ];
+    diagnosed(ROTARY, &columns, ("error_arcsec", 0.5), (seed, shape))
 }
 
 fn is_nobodys(of: impl Fn(u64) -> Diagnosis) {
@@ -124,7 +126,7 @@ fn a_kink_along_an_angle_is_seen() {
 /// The room warms until a door is opened.
 #[test]
 fn a_drift_that_turns_is_seen() {
-    is_nobodys(|seed| on_a_slide(seed, &|row| -0.02 * (time_s(row) - 290.0).abs()));
+    is_nobodys(|seed| on_a_slide(seed, &|row| -0.02 * (row.time_s - 290.0).abs()));
 }
 
 /// A wave of the screw on the way forward, and none on the way back.
@@ -132,8 +134,8 @@ fn a_drift_that_turns_is_seen() {
 fn a_wave_of_one_way_is_no_wave_of_the_screw() {
     for seed in 0..SEEDS {
         let wave = |row: &Row| {
-            let forward = if row.pass == 1.0 { 0.0 } else { 1.2 };
-            forward * libm::sin(TAU * 64.0 * row.share)
+            let size = if row.forward { 1.2 } else { 0.0 };
+            size * libm::sin(TAU * 64.0 * row.share)
         };
         assert_ne!(on_a_slide(seed, &wave).verdict, Verdict::Explained, "{seed}");
     }
