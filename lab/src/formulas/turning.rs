@@ -44,7 +44,7 @@ pub(super) fn each_way(all: &Quantities, shaft: &str, order: f64) -> Option<Shap
         let physics = "a shaft that is pressed to one side by each way";
         let mut one = shape("sine of each way its own", shaft, physics)
             .wave("amplitude", "phase_rad", None, angle())
-            .wave("difference", "difference_phase_rad", Some(of(way)), angle());
+            .wave("amplitude_by_way", "phase_by_way_rad", Some(of(way)), angle());
         one.turns = true;
         one
     })

@@ -11,7 +11,9 @@ use crate::model::{Columns, Component, Judged, Problem, Stage, State, helps_unse
 use crate::noise::{effective_samples, swift_rms};
 use crate::numerics::least_squares::covariance_rows;
 use crate::numerics::{chi_squared_tail, count};
-use crate::policy::chance::{FEW_SAMPLES, NAMED, NO_ALL_CLEAR, STANDARD_ERRORS};
+use crate::policy::chance::{
+    FEW_SAMPLES, NAMED, NAMED_IN_UNEVEN_NOISE, NO_ALL_CLEAR, STANDARD_ERRORS,
+};
 use crate::policy::evidence::{MOST_OF_A_NAME, MOST_WHOLE_WAVES, TIME_LOCK};
 use crate::policy::size::SHARE_OF_NOISE;
 
@@ -104,7 +106,8 @@ fn follows_slow_noise(problem: &Problem, now: &State, judged: &Judged) -> Option
 /// as much.
 fn follows_uneven_noise(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
     let p_value = chance_in_uneven_noise(problem, now, judged);
-    (NAMED <= p_value).then_some(Refusal::Chance { p_value })
+    let refused = judged.p_value < p_value && NAMED_IN_UNEVEN_NOISE <= p_value;
+    refused.then_some(Refusal::Chance { p_value })
 }
 
 /// The chance of an effect's gain in whatever kind of noise makes as much most often.
