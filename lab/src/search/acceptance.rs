@@ -12,7 +12,7 @@ use crate::noise::{effective_samples, swift_rms};
 use crate::numerics::least_squares::covariance_rows;
 use crate::numerics::{chi_squared_tail, count};
 use crate::policy::chance::{
-    FEW_SAMPLES, NAMED, NAMED_IN_UNEVEN_NOISE, NO_ALL_CLEAR, STANDARD_ERRORS,
+    FEW_SAMPLES, NAMED, NAMED_IN_OTHER_NOISE, NO_ALL_CLEAR, STANDARD_ERRORS,
 };
 use crate::policy::evidence::{MOST_OF_A_NAME, MOST_WHOLE_WAVES, TIME_LOCK};
 use crate::policy::size::SHARE_OF_NOISE;
@@ -92,7 +92,13 @@ fn turns_as_well(problem: &Problem, now: &State, judged: &Judged) -> Option<Refu
 /// Refused when one sample alone speaks for an effect, which the tails of the noise explain too.
 fn rests_on_one_sample(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
     let chance = chance_without_one_sample(problem, now, judged);
-    (NAMED < chance).then_some(Refusal::OneSample { chance })
+    is_too_much(judged, chance).then_some(Refusal::OneSample { chance })
+}
+
+/// True for a chance in noise of another kind that is larger than in the noise of the model, and too
+/// large for a name.
+fn is_too_much(judged: &Judged, chance: f64) -> bool {
+    judged.p_value < chance && NAMED_IN_OTHER_NOISE <= chance
 }
 
 /// Refused when drawn noise, as slow as what is left without an effect, is followed as well by its
@@ -106,8 +112,7 @@ fn follows_slow_noise(problem: &Problem, now: &State, judged: &Judged) -> Option
 /// as much.
 fn follows_uneven_noise(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
     let p_value = chance_in_uneven_noise(problem, now, judged);
-    let refused = judged.p_value < p_value && NAMED_IN_UNEVEN_NOISE <= p_value;
-    refused.then_some(Refusal::Chance { p_value })
+    is_too_much(judged, p_value).then_some(Refusal::Chance { p_value })
 }
 
 /// The chance of an effect's gain in whatever kind of noise makes as much most often.
