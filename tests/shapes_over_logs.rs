@@ -8,7 +8,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use crate::support::diagnosed::{MACHINE, diagnosed_on, names};
+use crate::support::diagnosed::{MACHINE, diagnosed_on, is_nobodys};
 
 const ROTARY: &str = r#"
 output.rotary = true
@@ -89,14 +89,6 @@ fn on_a_table(seed: u64, shape: &dyn Fn(&Row) -> f64) -> Diagnosis {
         ("angle_rev", &|row| 0.27 * row.share),
     ];
     diagnosed(ROTARY, &columns, ("error_arcsec", 0.5), (seed, shape))
-}
-
-fn is_nobodys(of: impl Fn(u64) -> Diagnosis) {
-    for seed in 0..SEEDS {
-        let found = of(seed);
-        assert_eq!(found.verdict, Verdict::Unexplained, "{seed}");
-        assert!(names(&found).is_empty(), "{seed}: {:?}", names(&found));
-    }
 }
 
 /// Dissipation grows with the square of the load.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use helixlock_lab::{Diagnosis, Measurement, Nominal, Problem, diagnose};
+use helixlock_lab::{Diagnosis, Measurement, Nominal, Problem, Verdict, diagnose};
 use helixlock_plant::Model;
 use helixlock_traces::{Column, Table};
 
@@ -38,4 +38,13 @@ pub(crate) fn diagnosed_on(machine: &str, columns: Vec<(&str, Vec<f64>)>) -> Dia
 pub(crate) fn names(diagnosis: &Diagnosis) -> Vec<&str> {
     let last = diagnosis.rounds.last().expect("there is always a round 0");
     last.effects.iter().map(|effect| effect.name.as_str()).collect()
+}
+
+/// Nothing is named in the diagnosis of any of six seeds, and no all-clear given.
+pub(crate) fn is_nobodys(diagnosed: impl Fn(u64) -> Diagnosis) {
+    for seed in 0..6 {
+        let found = diagnosed(seed);
+        assert_eq!(found.verdict, Verdict::Unexplained, "{seed}");
+        assert!(names(&found).is_empty(), "{seed}: {:?}", names(&found));
+    }
 }

@@ -4,6 +4,7 @@ use helixlock_plant::Column;
 use rayon::prelude::*;
 
 use crate::noise::Whitener;
+use crate::numerics::least_squares;
 
 /// Columns of all components, stacked for one least-squares fit.
 #[derive(Debug, Clone, Default)]
@@ -86,12 +87,10 @@ impl Columns {
     /// What is left of a residual when the columns weigh so much.
     #[must_use]
     pub(crate) fn left(&self, residual: &[f64], coefficients: &[f64]) -> Vec<f64> {
-        let mut left = residual.to_vec();
-        let weighted = self.raw.iter().zip(coefficients.iter().copied());
-        let fixed = self.fixed.iter().map(|fixed| (fixed, 1.0));
-        for (column, weight) in weighted.chain(fixed) {
-            left.iter_mut().zip(column).for_each(|(value, part)| *value -= weight * part);
+        let left = least_squares::left(&self.views(), residual, coefficients);
+        match &self.fixed {
+            Some(fixed) => least_squares::left(&[fixed], &left, &[1.0]),
+            None => left,
         }
-        left
     }
 }

@@ -36,8 +36,9 @@ pub(crate) fn fit(columns: &[&[f64]], target: &[f64]) -> LinearFit {
     LinearFit { coefficients: both.collect(), residual_square: dot(&rest, &rest), ..first }
 }
 
-/// What a sum of columns leaves of a target.
-fn left(columns: &[&[f64]], target: &[f64], coefficients: &[f64]) -> Vec<f64> {
+/// What columns that weigh so much leave of a target.
+#[must_use]
+pub(crate) fn left(columns: &[&[f64]], target: &[f64], coefficients: &[f64]) -> Vec<f64> {
     let mut left = target.to_vec();
     for (column, size) in columns.iter().zip(coefficients) {
         left.iter_mut().zip(*column).for_each(|(rest, value)| *rest -= size * value);

@@ -439,12 +439,5 @@ fn anywhere(single: f64, looks: f64) -> f64 {
 #[must_use]
 pub(crate) fn remainder(columns: &[Vec<f64>], target: &[f64]) -> Vec<f64> {
     let views: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-    let fit = least_squares::fit(&views, target);
-    let mut left = target.to_vec();
-    for (column, coefficient) in columns.iter().zip(&fit.coefficients) {
-        for (value, part) in left.iter_mut().zip(column) {
-            *value -= coefficient * part;
-        }
-    }
-    left
+    least_squares::left(&views, target, &least_squares::fit(&views, target).coefficients)
 }
