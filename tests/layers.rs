@@ -7,15 +7,16 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("rtl", &[]),
     ("netlist", &[]),
     ("original", &[]),
+    ("fourier", &[]),
     ("traces", &[]),
-    ("import", &["traces"]),
-    ("metrology", &[]),
+    ("import", &["fourier", "traces"]),
+    ("metrology", &["fourier"]),
     ("report", &[]),
     ("workbench", &[]),
     ("plant", &["traces"]),
     ("gen", &["netlist"]),
     ("sim", &["rtl", "netlist", "original", "plant", "traces"]),
-    ("lab", &["sim", "plant", "traces"]),
+    ("lab", &["fourier", "sim", "plant", "traces"]),
 ];
 
 fn read(path: &str) -> String {

@@ -2,8 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use rustfft::FftPlanner;
-use rustfft::num_complex::Complex;
+use helixlock_fourier::{Complex, forward};
 
 /// Waves on the whole way below which a line is drift of the lamp, not fringes.
 const FEWEST: usize = 8;
@@ -37,7 +36,7 @@ pub(super) fn rad_a_unit(way: &[f64], light: &[f64]) -> Option<f64> {
             Complex::new(taper * value, 0.0)
         })
         .collect();
-    FftPlanner::new().plan_fft_forward(points).process(&mut grid);
+    forward(&mut grid);
     let power: Vec<f64> = grid[..points / 2].iter().map(Complex::norm_sqr).collect();
     let most = way.len() / 2;
     let best =

@@ -1,9 +1,6 @@
 //! Fourier sums over unevenly placed samples in O(n log n).
 
-use std::cell::RefCell;
-
-use rustfft::FftPlanner;
-use rustfft::num_complex::Complex;
+use helixlock_fourier::{Complex, forward};
 
 /// Cells of the grid a frequency; the highest is at half of what the grid resolves.
 const OVERSAMPLING: f64 = 4.0;
@@ -14,11 +11,6 @@ const REACH: usize = 4;
 /// Deviation in cells of the Gaussian it is spread by: what is cut off and what comes back from
 /// beyond the grid are 2e-4 each at the highest frequency, and far less below.
 const DEVIATION: f64 = 0.95;
-
-thread_local! {
-    /// Keeps the twiddle factors of lengths that were used before.
-    static PLANNER: RefCell<FftPlanner<f64>> = RefCell::new(FftPlanner::new());
-}
 
 /// Sizes `|Σ weightᵢ·exp(−2πi·f·uᵢ)|` at `f = k·step`, `k = 0 … count − 1`.
 ///
@@ -35,8 +27,7 @@ pub(crate) fn sizes(places: &[f64], weights: &[f64], step: f64, count: usize) ->
     for (place, weight) in places.iter().zip(weights) {
         gaussian.spread(&mut grid, (place - start) * step * cells, *weight);
     }
-    let transform = PLANNER.with_borrow_mut(|planner| planner.plan_fft_forward(pairs));
-    transform.process(&mut grid);
+    forward(&mut grid);
     (0..count)
         .map(|index| {
             let cycles = super::count(index) / cells;

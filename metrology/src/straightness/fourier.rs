@@ -7,8 +7,7 @@
 
 use std::f64::consts::TAU;
 
-use rustfft::FftPlannerScalar;
-use rustfft::num_complex::Complex;
+use helixlock_fourier::{Complex, backward, forward};
 
 use super::readings::Combined;
 use super::separated::{Separated, without_line};
@@ -61,12 +60,8 @@ const MOST_WITH_COVARIANCE: usize = 2000;
 /// Forward transform, division by `A_k·e^(iψ_k)`, backward transform.
 fn divide(z_um: &[f64], kept: &[Harmonic]) -> Vec<f64> {
     let samples = z_um.len();
-    // The scalar planner gives the same bits on every processor.
-    let mut planner = FftPlannerScalar::new();
-    let (forward, backward) =
-        (planner.plan_fft_forward(samples), planner.plan_fft_inverse(samples));
     let mut spectrum: Vec<Complex<f64>> = z_um.iter().map(|&z| Complex::new(z, 0.0)).collect();
-    forward.process(&mut spectrum);
+    forward(&mut spectrum);
     let mut divided = vec![Complex::new(0.0, 0.0); samples];
     for harmonic in kept {
         let (sin, cos) = libm::sincos(harmonic.phase_rad);
@@ -75,7 +70,7 @@ fn divide(z_um: &[f64], kept: &[Harmonic]) -> Vec<f64> {
         divided[harmonic.number] = quotient;
         divided[samples - harmonic.number] = quotient.conj();
     }
-    backward.process(&mut divided);
+    backward(&mut divided);
     divided.iter().map(|value| value.re / number(samples)).collect()
 }
 

@@ -2,8 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use rustfft::FftPlannerScalar;
-use rustfft::num_complex::Complex;
+use helixlock_fourier::{Complex, forward};
 
 use super::method::Sample;
 use crate::Error;
@@ -71,8 +70,7 @@ pub fn order_spectrum(samples: &[Sample], shafts: &[Shaft]) -> Result<OrderSpect
     let flat_rad = flat(whole, slope_rad_per_turn);
     let mut spectrum: Vec<Complex<f64>> =
         flat_rad.iter().map(|&value| Complex::new(value, 0.0)).collect();
-    // The scalar planner gives the same bits on every processor.
-    FftPlannerScalar::new().plan_fft_forward(spectrum.len()).process(&mut spectrum);
+    forward(&mut spectrum);
     let line = |index: usize| OrderLine {
         order: number(index) / turns,
         amplitude_rad: 2.0 * spectrum[index].norm() / number(spectrum.len()),
