@@ -20,6 +20,7 @@ pub(crate) fn nameless(problem: &Problem) -> Vec<Shape> {
     }
     if quantities.timed && 0.0 < spread(&quantities.time.values) {
         all.extend(moving::in_time(&quantities));
+        all.extend(moving::warming(&quantities));
     }
     all.extend(moving::since_a_reversal(&quantities));
     all.extend(moving::late(&quantities));
@@ -32,6 +33,7 @@ pub(crate) fn nameless(problem: &Problem) -> Vec<Shape> {
         all.extend(logged::beyond_a_line(&quantities, column));
     }
     all.extend(logged::products(&quantities));
+    all.extend(turning::sized_by_a_column(&quantities, problem));
     all
 }
 

@@ -4,12 +4,9 @@ use std::sync::Arc;
 
 use super::expression::{Expression, Function, Quantity, call};
 use super::grammar::{shape, unknown};
-use super::quantities::{Quantities, about_mean, less_mean, lowest, of};
+use super::quantities::{Quantities, about_mean, about_middle, less_mean, lowest, of};
 use super::shape::Shape;
 use crate::numerics::{by_factors, evenly, spread};
-
-/// Columns up to which every two are multiplied, for the time it takes.
-const MOST_IN_PRODUCTS: usize = 12;
 
 /// Straight, through the travel, late, late through the travel, and by a relay.
 pub(super) fn of_a_column(all: &Quantities, column: &Arc<Quantity>) -> Vec<Shape> {
@@ -40,6 +37,17 @@ pub(super) fn of_a_column(all: &Quantities, column: &Arc<Quantity>) -> Vec<Shape
             )
             .curve("slope", of(x))
             .curve("size", of(x) * about_mean(column)),
+        );
+        let (middle, _) = about_middle(x);
+        shapes.push(
+            of_column(
+                "relation that bends along the travel",
+                "a bed, beam or screw that bows with the column",
+            )
+            .curve("slope", of(x))
+            .curve("level", of(column))
+            .curve("tilt", middle.clone() * about_mean(column))
+            .curve("size", Expression::Power(Box::new(middle), 2) * about_mean(column)),
         );
         let late_times_travel = |words, physics, stretch| {
             of_column(words, physics)
@@ -88,7 +96,7 @@ pub(super) fn beyond_a_line(all: &Quantities, column: &Arc<Quantity>) -> Vec<Sha
 
 /// What two columns make together and neither alone.
 pub(super) fn products(all: &Quantities) -> Vec<Shape> {
-    let columns = if all.columns.len() <= MOST_IN_PRODUCTS { &all.columns[..] } else { &[] };
+    let columns = all.few_columns();
     let pairs = columns
         .iter()
         .enumerate()

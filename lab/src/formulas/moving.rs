@@ -44,6 +44,9 @@ pub(super) fn along_travel(all: &Quantities) -> Vec<Shape> {
     let mm = &x.dimension;
     let (low, range) = (lowest(&x.values), spread(&x.values));
     let from = || of(x) - unknown(0);
+    let before = || unknown(0) - of(x);
+    let length = all.in_unit("over_mm", "over_rev");
+    let dying = |way: Expression| call(Function::Exp, number(-1.0) * way / unknown(1));
     let at_one_of = |places, words, physics| {
         let places = evenly(low, low + range, places);
         let name = all.in_unit("at_mm", "at_rev");
@@ -77,6 +80,20 @@ pub(super) fn along_travel(all: &Quantities) -> Vec<Shape> {
         at("root from one place on", "contact that stiffens under load")
             .curve("size", call(Function::Sqrt, ramp(from()))),
         decay(x, all.way(), all.in_unit("length_mm", "length_rev")),
+        at_one_of(
+            100,
+            "edge that dies away behind",
+            "a joint or a step whose jump a slide takes up over a way",
+        )
+        .unknown(length, mm, by_factors(0.01 * range, 0.2 * range, 6))
+        .curve("size", call(Function::Step, from()) * dying(ramp(from()))),
+        at_one_of(
+            100,
+            "edge that rises from before",
+            "a joint or a step that a slide meets before it is there",
+        )
+        .unknown(length, mm, by_factors(0.01 * range, 0.2 * range, 6))
+        .curve("size", call(Function::Step, before()) * dying(ramp(before()))),
         at_one_of(98, "swing at one place", "a dent with the metal beside it, a joint that tilts")
             .unknown(
                 all.in_unit("width_mm", "width_rev"),
@@ -171,11 +188,25 @@ fn wave_of_changing_length(all: &Quantities) -> Shape {
         .wave("amplitude", "phase_rad", None, turns(angle))
 }
 
+/// Moments with as many samples between them everywhere: in a pause between passes there are none.
+fn moments(t: &Quantity, points: usize) -> Vec<f64> {
+    let mut times = t.values.to_vec();
+    times.sort_by(f64::total_cmp);
+    let mut moments: Vec<f64> =
+        (0..points).map(|point| times[point * (times.len() - 1) / (points - 1)]).collect();
+    moments.dedup();
+    moments
+}
+
 /// A step, a kink, a parabola, a rise and its decay.
 pub(super) fn in_time(all: &Quantities) -> Vec<Shape> {
     let t = &all.time;
     let s = &t.dimension;
     let (low, range) = (lowest(&t.values), spread(&t.values));
+    let inside = |mut moments: Vec<f64>| {
+        moments.retain(|at| (AWAY..=1.0 - AWAY).contains(&((at - low) / range)));
+        moments
+    };
     let peaks: Vec<f64> = evenly(0.03, 0.75, 24).iter().map(|share| share * range).collect();
     let (start, _) = from_start(t);
     let share = start.clone() / unknown(0);
@@ -183,11 +214,11 @@ pub(super) fn in_time(all: &Quantities) -> Vec<Shape> {
     let widths = by_factors(0.005 * range / count(passes), 0.1 * range / count(passes), 4);
     let mut shapes = vec![
         shape("step at one moment", "time", "something slipped or was knocked and stayed so")
-            .unknown("at_s", s, evenly(low + AWAY * range, low + (1.0 - AWAY) * range, 200))
+            .unknown("at_s", s, inside(moments(t, 200)))
             .placed()
             .curve("size", call(Function::Step, of(t) - unknown(0))),
         shape("kink at one moment", "time", "a drift that turns: a heater, a door, a valve")
-            .unknown("at_s", s, evenly(low, low + range, 60))
+            .unknown("at_s", s, moments(t, 60))
             .placed()
             .curve("slope", of(t))
             .curve("size", ramp(of(t) - unknown(0))),
@@ -199,7 +230,7 @@ pub(super) fn in_time(all: &Quantities) -> Vec<Shape> {
             .curve("size", share.clone() * call(Function::Exp, number(1.0) - share)),
     ];
     if all.tell_moments_from_places() {
-        let moments = evenly(low, low + range, PLACES_A_PASS * passes.min(MOST_PASSES));
+        let instants = moments(t, PLACES_A_PASS * passes.min(MOST_PASSES));
         let off = (of(t) - unknown(0)) / unknown(1);
         shapes.push(
             shape(
@@ -207,7 +238,7 @@ pub(super) fn in_time(all: &Quantities) -> Vec<Shape> {
                 "time",
                 "a blow, a chip under the slide, a hand on the bed",
             )
-            .unknown("at_s", s, moments)
+            .unknown("at_s", s, instants)
             .unknown("width_s", s, widths)
             .placed()
             .curve("size", bell(off)),
@@ -215,13 +246,26 @@ pub(super) fn in_time(all: &Quantities) -> Vec<Shape> {
         let off = call(Function::Abs, of(t) - unknown(0));
         shapes.push(
             shape("spell at another level", "time", "something gave way and came back")
-                .unknown("at_s", s, evenly(low, low + range, 48 * passes.min(MOST_PASSES)))
+                .unknown("at_s", s, moments(t, 48 * passes.min(MOST_PASSES)))
                 .unknown("half_s", s, by_factors(0.02 * range, 0.22 * range, 8))
                 .placed()
                 .curve("size", call(Function::Step, unknown(1) - off)),
         );
     }
     shapes
+}
+
+/// A slope that settles as a screw or scale warms, where a place is met at several moments.
+pub(super) fn warming(all: &Quantities) -> Option<Shape> {
+    let (x, t) = (&all.position, &all.time);
+    let range = spread(&t.values);
+    let (start, _) = from_start(t);
+    (all.have_places() && all.tell_moments_from_places()).then(|| {
+        shape("slope that settles in time", "time", "a screw, scale or bed that warms as it runs")
+            .unknown("constant_s", &t.dimension, by_factors(0.02 * range, 2.0 * range, 16))
+            .curve("slope", of(x))
+            .curve("size", of(x) * call(Function::Exp, number(-1.0) * start / unknown(0)))
+    })
 }
 
 /// Powers along travel and time, and a decay in time.

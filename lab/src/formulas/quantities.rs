@@ -10,6 +10,9 @@ use crate::model::Problem;
 use crate::numerics::{count, spread};
 use crate::policy::extent::TURNS;
 
+/// Logged columns up to which every one is put together with others, for the time it takes.
+const MOST_TOGETHER: usize = 12;
+
 /// Coordinates and logged columns that vary.
 #[derive(Debug)]
 pub(crate) struct Quantities {
@@ -103,6 +106,11 @@ impl Quantities {
     /// Name of an unknown in mm, or that in turns.
     pub(crate) fn in_unit(&self, mm: &'static str, rev: &'static str) -> &'static str {
         if self.is_rotary() { rev } else { mm }
+    }
+
+    /// Logged columns, if they are few enough to be put together with others.
+    pub(crate) fn few_columns(&self) -> &[Arc<Quantity>] {
+        if self.columns.len() <= MOST_TOGETHER { &self.columns } else { &[] }
     }
 
     /// Shafts whose turns the samples resolve, by name and turns a turn of the spindle.

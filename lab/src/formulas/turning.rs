@@ -1,10 +1,12 @@
 //! Shapes over the turns of shafts.
 
+use std::sync::Arc;
+
 use super::dimension::Dimension;
-use super::expression::{Expression, Function, call, number, turns};
+use super::expression::{Expression, Function, Quantity, call, number, turns};
 use super::grammar::{shape, unknown};
 use super::moving::triangle;
-use super::quantities::{Quantities, of, shaft_turns};
+use super::quantities::{Quantities, about_mean, of, shaft_turns};
 use super::shape::{Band, Shape};
 use crate::model::Problem;
 use crate::numerics::{evenly, spread, usual_rate};
@@ -107,6 +109,25 @@ pub(super) fn swelling(all: &Quantities, problem: &Problem) -> Vec<Shape> {
                 .wave("swell", "swell_phase_rad", Some(swell), angle(carrier))
         })
         .collect()
+}
+
+/// A shaft's sine whose size another quantity sets: a torque, a temperature, the speed, the time.
+pub(super) fn sized_by_a_column(all: &Quantities, problem: &Problem) -> Vec<Shape> {
+    let mut by: Vec<&Arc<Quantity>> = all.few_columns().iter().collect();
+    by.push(&all.speed);
+    by.extend(Some(&all.time).filter(|_| all.timed));
+    by.extend(Some(&all.position).filter(|_| all.have_places()));
+    by.retain(|quantity| 0.0 < spread(&quantity.values));
+    let of_order = |order: f64, by: &Arc<Quantity>| {
+        let angle = || turns(shaft_turns(&all.turns, order));
+        let physics =
+            "a mesh or a joint that gives way under a load, a wave that heat or wear takes away";
+        shape("sine whose size follows a column", &format!("order {order} by {}", by.name), physics)
+            .wave("amplitude", "phase_rad", None, angle())
+            .wave("swell", "swell_phase_rad", Some(about_mean(by)), angle())
+    };
+    let orders = orders(all, problem);
+    orders.iter().flat_map(|order| by.iter().map(move |by| of_order(*order, by))).collect()
 }
 
 /// A shaft's sine through a resonance that the speeds of the passes go over.
