@@ -22,6 +22,7 @@ mod documentation;
 mod documented_waveforms;
 mod effects_by_card;
 mod effects_in_the_loop;
+mod even_rows;
 mod example_data;
 mod examples;
 mod faults;

@@ -25,6 +25,7 @@ const ROOTS: &[(&str, &str)] = &[
     ("cli", "cli/lib.rs"),
     ("python", "python/src/lib.rs"),
     ("evidence", "evidence/src/lib.rs"),
+    ("fourier", "fourier/src/lib.rs"),
     ("xtask", "xtask/src/lib.rs"),
 ];
 

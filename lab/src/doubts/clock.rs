@@ -4,7 +4,7 @@ use helixlock_plant::{HeaderUnit, LoggedColumn, Machine};
 
 use super::column::others;
 use super::doubt::{Doubt, recipe, said_by};
-use super::law::{clocked, follows_from_clock, travel};
+use super::law::{follows_from_clock, travel};
 use crate::measurement::Measurement;
 use crate::numerics::median;
 use crate::policy::mistakes::{A_ROW_AT_A_UNIT, AT_A_UNIT};
@@ -34,7 +34,7 @@ pub(super) fn contradicted(measurement: &Measurement, machine: &Machine) -> Opti
 /// Speed by travel and clock over the speed told, by its column or the machine file, row by row.
 fn ratios(measurement: &Measurement, machine: &Machine) -> Vec<f64> {
     let ratio = |(row, rpm): (usize, f64)| rpm / told_rpm(measurement, machine, row);
-    clocked(measurement).map(ratio).filter(|ratio| ratio.is_finite() && 0.0 < *ratio).collect()
+    measurement.clocked().map(ratio).filter(|ratio| ratio.is_finite() && 0.0 < *ratio).collect()
 }
 
 fn told_rpm(measurement: &Measurement, machine: &Machine, row: usize) -> f64 {

@@ -1,6 +1,6 @@
 //! How usual readings are: evidence that needs no prediction.
 
-use helixlock_plant::{Machine, Part, Samples};
+use helixlock_plant::{Machine, Part};
 
 use crate::measurement::Measurement;
 use crate::numerics::{count, median, spread};
@@ -47,31 +47,14 @@ pub(super) fn size_of_error(values: &[f64], factor: f64) -> f64 {
 
 /// Speed by the clock, by its column, and by the machine file.
 fn speeds(measurement: &Measurement, machine: &Machine) -> f64 {
-    let mut told = measurement.speed_rpm.clone();
-    let told = median(&mut told);
-    let clocked = clocked_rpm(measurement);
+    let told = measurement.over_the_way(|row, _| measurement.speed_rpm[row]);
+    let clocked = measurement.over_the_way(|_, rpm| rpm);
     let nominal = machine.spindle.speed_rpm;
     let pairs = [(told, clocked), (told, nominal)];
     let of = |(one, other): (f64, f64)| {
         if 0.0 < one && 0.0 < other { same(libm::log(one / other), SAME_SPEED) } else { 0.0 }
     };
     pairs.into_iter().map(of).sum()
-}
-
-/// Usual speed from one sample to the next, rpm.
-pub(super) fn clocked_rpm(measurement: &Measurement) -> f64 {
-    median(&mut clocked(measurement).map(|(_, rpm)| rpm).collect::<Vec<f64>>())
-}
-
-/// Rows that moved since the one before, with the speed by travel and clock, rpm.
-pub(super) fn clocked(measurement: &Measurement) -> impl Iterator<Item = (usize, f64)> {
-    let Samples { angle_rev, time_s, pass, .. } = &measurement.samples;
-    let inside = (1..pass.len()).filter(|&row| pass[row] == pass[row - 1]);
-    let speed = |row: usize| {
-        let turns = angle_rev[row] - angle_rev[row - 1];
-        (row, 60.0 * (turns / (time_s[row] - time_s[row - 1])).abs())
-    };
-    inside.map(speed).filter(|(_, rpm)| rpm.is_finite() && 0.0 < *rpm)
 }
 
 /// The same of the travel times a factor.

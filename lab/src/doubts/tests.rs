@@ -163,6 +163,26 @@ fn a_clock_that_is_no_units_factor_off_is_not_doubted() {
     assert_eq!(doubted(&known, &dwelling), None);
 }
 
+/// Two readings at each target, between which the axis trembles: at no speed, and no clock is doubted.
+#[test]
+fn an_axis_that_trembles_at_its_targets_tells_no_speed() {
+    let known = machine(150, "");
+    for tremble_mm in [3e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3] {
+        let mut row = -1.0_f64;
+        let visits = changed(measured(&known), "position_mm", |_| {
+            row += 1.0;
+            let read = 3.0 * (0.5 * row).floor() + tremble_mm * libm::sin(37.0 * row * row);
+            (1e5 * read).round() / 1e5
+        });
+        let mut row = -1.0_f64;
+        let visits = changed(visits, "time_s", |_| {
+            row += 1.0;
+            2.0 * row + 2.5 * (0.5 * row).floor() + 0.3 * libm::sin(11.0 * row)
+        });
+        assert_eq!(doubted(&known, &visits), None, "{tremble_mm} mm");
+    }
+}
+
 #[test]
 fn a_slipped_decimal_point_is_told_where_every_effect_grew() {
     let known = machine(150, WAVES);

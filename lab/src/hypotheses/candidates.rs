@@ -138,8 +138,22 @@ pub(crate) fn candidate(stage: &Stage<'_>, term: Term) -> Option<Candidate> {
     let axes = thinned(axes);
     let continuous = continuous(stage, &term, &axes);
     let looks = looks(stage, &term, &axes);
-    let candidate = Candidate { term, grid: product(&axes), steps, continuous, looks };
-    stage.problem.design(&candidate.at(0)).is_ok().then_some(candidate)
+    let mut candidate = Candidate { term, grid: product(&axes), steps, continuous, looks };
+    keep_resolved(stage.problem, &mut candidate);
+    let sound = |one: &Candidate| !one.grid.is_empty() && stage.problem.design(&one.at(0)).is_ok();
+    Some(candidate).filter(sound)
+}
+
+/// Leaves out harmonics that the samples do not tell from a lower one.
+fn keep_resolved(problem: &Problem, candidate: &mut Candidate) {
+    if candidate.term.parameters.iter().all(|what| what.search != Search::Whole) {
+        return;
+    }
+    let waves = |point| Component::new(candidate.at(point)).waves_a_turn(problem);
+    let told: Vec<bool> =
+        (0..candidate.grid.len()).map(|point| waves(point) <= problem.highest_order).collect();
+    let mut told = told.into_iter();
+    candidate.grid.retain(|_| told.next().unwrap_or(false));
 }
 
 /// Axes along which the curve of an effect turns, with their values; of an instant, all gaps between

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use helixlock_traces::Table;
 
 use super::coordinates::Coordinates;
-use crate::numerics::{count, median, spread};
+use crate::numerics::{count, median, spread, weighted_median};
 use crate::policy::reading::{
     DIRECTION_REACH, JUMP_OF_MOVES, JUMP_OF_TRAVEL, LONE_PASSES, REVERSAL_REACH, ROWS_A_PASS,
     ROWS_A_REVERSAL,
@@ -193,17 +193,18 @@ fn turn_at_extremes(signs: &mut [f64], angle: impl Fn(usize) -> f64, time: impl 
     }
 }
 
+/// Speed as told, or the usual one over the way of the pass: where an axis dwells it only trembles.
 fn speed(table: &Table, coordinates: &Coordinates, members: &[usize]) -> Vec<f64> {
-    let mut measured: Vec<f64> = members
+    let mut pieces: Vec<(f64, f64)> = members
         .windows(2)
         .map(|pair| {
-            let turns = coordinates.angle_rev[pair[1]] - coordinates.angle_rev[pair[0]];
+            let turns = (coordinates.angle_rev[pair[1]] - coordinates.angle_rev[pair[0]]).abs();
             let time = coordinates.time_s[pair[1]] - coordinates.time_s[pair[0]];
-            60.0 * (turns / time).abs()
+            (60.0 * turns / time.abs(), turns)
         })
-        .filter(|rpm| rpm.is_finite() && 0.0 < *rpm)
+        .filter(|(rpm, _)| rpm.is_finite() && 0.0 < *rpm)
         .collect();
-    let usual = median(&mut measured);
+    let usual = weighted_median(&mut pieces);
     let given = table.column("speed_rpm");
     let told = |row: usize| given.map(|column| column[row]).filter(|rpm| rpm.is_finite());
     members.iter().map(|&row| told(row).unwrap_or(usual)).collect()

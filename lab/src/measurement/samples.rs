@@ -10,7 +10,7 @@ use helixlock_traces::{Table, TextColumn};
 
 use super::error::LabError;
 use super::{coordinates, headers, passes, plausible};
-use crate::numerics::spread;
+use crate::numerics::{spread, weighted_median};
 use crate::policy::reading::FEWEST_SAMPLES;
 
 /// What the machine file says that a data file may leave out.
@@ -117,6 +117,26 @@ fn is_of_another_run(name: &str) -> bool {
 }
 
 impl Measurement {
+    /// Rows that moved since the one before, with the speed by travel and clock, rpm.
+    pub(crate) fn clocked(&self) -> impl Iterator<Item = (usize, f64)> {
+        let Samples { angle_rev, time_s, pass, .. } = &self.samples;
+        let inside = (1..pass.len()).filter(|&row| pass[row] == pass[row - 1]);
+        let speed = |row: usize| {
+            let turns = angle_rev[row] - angle_rev[row - 1];
+            (row, 60.0 * (turns / (time_s[row] - time_s[row - 1])).abs())
+        };
+        inside.map(speed).filter(|(_, rpm)| rpm.is_finite() && 0.0 < *rpm)
+    }
+
+    /// Median over the way of a speed of each row, given with its own by the clock, rpm: over the
+    /// rows it would be that of a trembling axis where it dwells.
+    pub(crate) fn over_the_way(&self, speed: impl Fn(usize, f64) -> f64) -> f64 {
+        let angle = &self.samples.angle_rev;
+        let piece =
+            |(row, rpm): (usize, f64)| (speed(row, rpm), (angle[row] - angle[row - 1]).abs());
+        weighted_median(&mut self.clocked().map(piece).collect::<Vec<_>>())
+    }
+
     /// Orders and completes the samples of a table.
     ///
     /// Columns such as `Position [m]` are converted where name and unit leave no doubt. Rows without

@@ -1,5 +1,7 @@
 //! An effect inside a fit: which of its columns are in use, and what they weigh.
 
+use std::f64::consts::TAU;
+
 use helixlock_plant::{Context, EffectError, Estimate, Role, Smoothness, Term};
 
 use super::columns::Columns;
@@ -59,6 +61,24 @@ impl Component {
     pub(crate) fn new(term: Term) -> Self {
         let width = term.priors().len();
         Self { term, kept: vec![true; width], whole: vec![None; width] }
+    }
+
+    /// Waves that the effect makes a turn of the spindle.
+    #[must_use]
+    pub(crate) fn waves_a_turn(&self, problem: &Problem) -> f64 {
+        let context = Context { machine: &problem.model, columns: &problem.record.columns };
+        let basis = self.term.basis(&context).map(|basis| basis.columns).unwrap_or_default();
+        let turn_mm = problem.model.workpiece.lead.mm();
+        let rate = |turns_per_s: f64| {
+            let moving =
+                basis.iter().map(|wave| wave.smoothness(TAU * turns_per_s, turn_mm * turns_per_s));
+            let rates = moving.map(|smoothness| match smoothness {
+                Smoothness::Band { rate_per_s, .. } => rate_per_s,
+                Smoothness::Polynomial | Smoothness::Rough => 0.0,
+            });
+            rates.fold(0.0, f64::max)
+        };
+        (rate(1.0) - rate(0.0)) / TAU
     }
 
     /// Columns that stand or fall together: a sine with its cosine, any other alone.

@@ -3,23 +3,39 @@
 use super::columns::Columns;
 use super::problem::Problem;
 use crate::numerics::spread;
-use crate::policy::evidence::VISITS;
+use crate::policy::evidence::{PASSING, VISITS};
 use crate::policy::extent::ROWS_A_COLUMN;
 
 /// Places that count as one, against the travel.
 const ONE_PLACE: f64 = 1e-6;
 
 impl Problem {
-    /// Places of the targets, turns of the spindle, lowest first; `None` unless all samples stand at
-    /// places that are met several times.
+    /// Places of the targets, where all samples lie at a few places and the axis may have stopped there.
+    fn targets(&self) -> Option<Vec<f64>> {
+        self.places().filter(|_| !self.goes_as_told())
+    }
+
+    /// Places of the samples, turns of the spindle, lowest first; `None` unless each is met several
+    /// times.
     #[must_use]
-    pub(crate) fn targets(&self) -> Option<Vec<f64>> {
+    pub(crate) fn places(&self) -> Option<Vec<f64>> {
         let mut turns: Vec<f64> = self.record.turns().collect();
         let samples = turns.len();
         turns.sort_by(f64::total_cmp);
         let apart = ONE_PLACE * spread(&turns);
         turns.dedup_by(|next, before| *next - *before <= apart);
         (VISITS * turns.len() <= samples).then_some(turns)
+    }
+
+    /// True where time was measured and the axis goes as fast as it is told to: it stops nowhere.
+    fn goes_as_told(&self) -> bool {
+        let measurement = &self.measurement;
+        let nominal = self.model.spindle.speed_rpm;
+        let told = |row: usize| {
+            if measurement.speed_told { measurement.speed_rpm[row] } else { nominal }
+        };
+        let share = measurement.over_the_way(|row, rpm| rpm / told(row));
+        measurement.timed && libm::log(share).abs() < PASSING
     }
 
     /// What each target shows at every visit, a column a target and sensor; none where there are no

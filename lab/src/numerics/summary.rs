@@ -22,6 +22,19 @@ pub(crate) fn median(values: &mut [f64]) -> f64 {
     one_in(values, 2)
 }
 
+/// Median of values with weights: half of all weight is on it and on smaller ones; 0 of none.
+#[must_use]
+pub(crate) fn weighted_median(pairs: &mut [(f64, f64)]) -> f64 {
+    pairs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    let half = 0.5 * pairs.iter().map(|(_, weight)| weight).sum::<f64>();
+    let mut passed = 0.0;
+    let middle = pairs.iter().find(|(_, weight)| {
+        passed += weight;
+        half <= passed
+    });
+    middle.map_or(0.0, |(value, _)| *value)
+}
+
 /// The largest value but for one in so many; 0 of none.
 #[must_use]
 pub(crate) fn one_in(values: &mut [f64], parts: usize) -> f64 {

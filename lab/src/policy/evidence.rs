@@ -70,6 +70,11 @@ pub(crate) const WAVES_A_PASS: f64 = 3.0;
 /// Chosen: ISO 230-2 asks for ten. Doubled: three runs there and back are none.
 pub(crate) const VISITS: usize = 4;
 
+/// Logarithm by which the speed by the clock may be off that which is told where an axis stops nowhere.
+///
+/// Chosen: a spindle's slip. Doubled: one that stands for a tenth of its time is said to pass.
+pub(crate) const PASSING: f64 = 0.05;
+
 /// Most effects of one name: lines come in numbers, and so do slips.
 ///
 /// Chosen. Doubled: a shape of no catalogue may be made up of six slips.

@@ -1,10 +1,9 @@
 //! Likenesses that physics knows beforehand, whatever the evidence says of them.
 
-use std::f64::consts::TAU;
 use std::ops::Range;
 
 use helixlock_plant::prediction::gain;
-use helixlock_plant::{CATALOGUE, Context, Entry, Role, Search, Smoothness, Term};
+use helixlock_plant::{CATALOGUE, Entry, Role, Search, Term};
 
 use crate::model::{Component, Problem, State, pattern};
 use crate::noise::{Block, Whitener};
@@ -257,18 +256,18 @@ fn has_two_speeds(speed_rpm: &[f64]) -> bool {
 #[must_use]
 pub(crate) fn has_its_time(problem: &Problem, component: &Component) -> bool {
     let by_time = component.term.parameters.iter().any(|what| what.unit.is_of_time());
-    !by_time || problem.measurement.timed || problem.targets().is_none()
+    !by_time || problem.measurement.timed || problem.places().is_none()
 }
 
-/// True unless all samples stand at targets that do not tell a wave over the travel from a longer
+/// True unless all samples lie at a few places that do not tell a wave over the travel from a longer
 /// one, as even ones with less than two in a wave: what it shows there is each target's own.
 #[must_use]
 pub(crate) fn resolved(problem: &Problem, component: &Component) -> bool {
     if component.term.parameters.iter().all(|what| what.role != Role::Amplitude) {
         return true;
     }
-    let Some(turns) = problem.targets() else { return true };
-    resolves(&turns, waves_a_turn(problem, component))
+    let Some(turns) = problem.places() else { return true };
+    resolves(&turns, component.waves_a_turn(problem))
 }
 
 /// True unless an effect is one of whole waves a turn of a part of which the record has not a whole
@@ -284,25 +283,8 @@ pub(crate) fn turns_once(problem: &Problem, component: &Component) -> bool {
     turns.dedup();
     // Places at even steps all around end a step short of the turn.
     let step = spread(&turns) / count(turns.len().max(2) - 1);
-    let part_turns = waves_a_turn(problem, component) / harmonic * (spread(&turns) + step);
+    let part_turns = component.waves_a_turn(problem) / harmonic * (spread(&turns) + step);
     1.0 - SHAPE < part_turns
-}
-
-/// Waves that an effect makes a turn of the spindle.
-fn waves_a_turn(problem: &Problem, component: &Component) -> f64 {
-    let context = Context { machine: &problem.model, columns: &problem.record.columns };
-    let basis = component.term.basis(&context).map(|basis| basis.columns).unwrap_or_default();
-    let turn_mm = problem.model.workpiece.lead.mm();
-    let rate = |turns_per_s: f64| {
-        let moving =
-            basis.iter().map(|wave| wave.smoothness(TAU * turns_per_s, turn_mm * turns_per_s));
-        let rates = moving.map(|smoothness| match smoothness {
-            Smoothness::Band { rate_per_s, .. } => rate_per_s,
-            Smoothness::Polynomial | Smoothness::Rough => 0.0,
-        });
-        rates.fold(0.0, f64::max)
-    };
-    (rate(1.0) - rate(0.0)) / TAU
 }
 
 /// Values about the mean of each pass of each sensor.

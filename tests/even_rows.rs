@@ -1,0 +1,74 @@
+//! Rows at the same places in every pass, and passes between long pauses.
+#![expect(clippy::cast_precision_loss, reason = "some hundred rows")]
+
+use std::f64::consts::TAU;
+
+use helixlock_lab::{Diagnosis, Verdict};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+use crate::support::diagnosed::{diagnosed, names};
+
+/// Deviation, µm.
+const NOISE_UM: f64 = 0.05;
+
+/// Passes forward at 4 mm/s with a row every so many millimetres, one beginning every so many seconds.
+struct Run {
+    passes: usize,
+    rows: usize,
+    step_mm: f64,
+    every_s: f64,
+}
+
+impl Run {
+    /// The diagnosis of it with noise and a shape of pass and place, µm of mm.
+    fn with_shape(&self, seed: u64, shape: &dyn Fn(usize, f64) -> f64) -> Diagnosis {
+        let mut chance = ChaCha8Rng::seed_from_u64(seed);
+        let mut columns = [const { Vec::new() }; 4];
+        for pass in 0..self.passes {
+            for row in 0..self.rows {
+                let noise: f64 = StandardNormal.sample(&mut chance);
+                let mm = self.step_mm * (row as f64 + 0.5);
+                let time_s = self.every_s * pass as f64 + mm / 4.0;
+                let error_um = NOISE_UM * noise + shape(pass, mm);
+                let cells = [pass as f64, time_s, mm, error_um];
+                columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+            }
+        }
+        let names = ["pass", "time_s", "position_mm", "error_um"];
+        diagnosed(names.into_iter().zip(columns).collect())
+    }
+}
+
+/// An axis that passes its places does not stop there: what it shows at each is no target's own
+/// error. With nine rows a turn the eighth harmonic is the first over again.
+#[test]
+fn a_wave_met_at_the_same_angles_is_the_slowest_of_its_like() {
+    let run = Run { passes: 6, rows: 540, step_mm: 10.0 / 9.0, every_s: 300.0 };
+    for seed in 0..4 {
+        let found = run.with_shape(seed, &|_, mm| 0.05 * libm::sin(TAU * mm / 10.0 + 0.5));
+        assert_eq!(names(&found), ["screw-periodic"], "{seed}: {:?}", found.verdict);
+        let last = found.rounds.last().expect("a round");
+        let harmonic = last.effects[0].parameters.iter().find(|one| one.key == "harmonic");
+        assert!(harmonic.is_some_and(|one| one.value.to_bits() == 1.0_f64.to_bits()), "{seed}");
+    }
+}
+
+/// Three fringes lost shortly before a pass ends: a step at any moment pays for the moments at which
+/// there are samples, not for those of the pauses.
+#[test]
+fn a_slip_between_long_pauses_is_a_slip() {
+    let fringe_um = 0.5 * 0.632_819_83;
+    let run = Run { passes: 3, rows: 92, step_mm: 6.5, every_s: 4000.0 };
+    let slip = |pass: usize, mm: f64| match pass {
+        0 => 0.0,
+        1 if mm < 540.0 => 0.0,
+        _ => 3.0 * fringe_um,
+    };
+    for seed in 0..4 {
+        let found = run.with_shape(seed, &slip);
+        assert_eq!(found.verdict, Verdict::Explained, "{seed}");
+        assert_eq!(names(&found), ["fringe-slip"], "{seed}");
+    }
+}
