@@ -42,16 +42,9 @@ pub(super) fn triangle(waves: Expression) -> Expression {
 pub(super) fn along_travel(all: &Quantities) -> Vec<Shape> {
     let x = &all.position;
     let mm = &x.dimension;
-    let (low, range) = (lowest(&x.values), spread(&x.values));
+    let range = spread(&x.values);
     let from = || of(x) - unknown(0);
-    let before = || unknown(0) - of(x);
-    let length = all.in_unit("over_mm", "over_rev");
-    let dying = |way: Expression| call(Function::Exp, number(-1.0) * way / unknown(1));
-    let at_one_of = |places, words, physics| {
-        let places = evenly(low, low + range, places);
-        let name = all.in_unit("at_mm", "at_rev");
-        shape(words, all.way(), physics).unknown(name, mm, places).placed()
-    };
+    let at_one_of = |places, words, physics| at_one_of(all, places, words, physics);
     let at = |words, physics| at_one_of(100, words, physics);
     let squared = Expression::Power(Box::new(ramp(from())), 2);
     vec![
@@ -80,20 +73,6 @@ pub(super) fn along_travel(all: &Quantities) -> Vec<Shape> {
         at("root from one place on", "contact that stiffens under load")
             .curve("size", call(Function::Sqrt, ramp(from()))),
         decay(x, all.way(), all.in_unit("length_mm", "length_rev")),
-        at_one_of(
-            100,
-            "edge that dies away behind",
-            "a joint or a step whose jump a slide takes up over a way",
-        )
-        .unknown(length, mm, by_factors(0.01 * range, 0.2 * range, 6))
-        .curve("size", call(Function::Step, from()) * dying(ramp(from()))),
-        at_one_of(
-            100,
-            "edge that rises from before",
-            "a joint or a step that a slide meets before it is there",
-        )
-        .unknown(length, mm, by_factors(0.01 * range, 0.2 * range, 6))
-        .curve("size", call(Function::Step, before()) * dying(ramp(before()))),
         at_one_of(98, "swing at one place", "a dent with the metal beside it, a joint that tilts")
             .unknown(
                 all.in_unit("width_mm", "width_rev"),
@@ -102,6 +81,43 @@ pub(super) fn along_travel(all: &Quantities) -> Vec<Shape> {
             )
             .curve("size", (from() / unknown(1)) * bell(from() / unknown(1)))
             .curve("rim_size", rim(from() / unknown(1))),
+    ]
+}
+
+/// A shape at one of so many places.
+fn at_one_of(all: &Quantities, places: usize, words: &'static str, physics: &'static str) -> Shape {
+    let x = &all.position;
+    let low = lowest(&x.values);
+    let places = evenly(low, low + spread(&x.values), places);
+    let name = all.in_unit("at_mm", "at_rev");
+    shape(words, all.way(), physics).unknown(name, &x.dimension, places).placed()
+}
+
+/// Edges that die away along the travel, behind them or before.
+pub(super) fn edges(all: &Quantities) -> [Shape; 2] {
+    let x = &all.position;
+    let range = spread(&x.values);
+    let edge = |words, physics, way: Expression| {
+        let gone = number(-1.0) * ramp(way.clone()) / unknown(1);
+        at_one_of(all, 100, words, physics)
+            .unknown(
+                all.in_unit("over_mm", "over_rev"),
+                &x.dimension,
+                by_factors(0.01 * range, 0.2 * range, 6),
+            )
+            .curve("size", call(Function::Step, way) * call(Function::Exp, gone))
+    };
+    [
+        edge(
+            "edge that dies away behind",
+            "a joint or a step whose jump a slide takes up over a way",
+            of(x) - unknown(0),
+        ),
+        edge(
+            "edge that rises from before",
+            "a joint or a step that a slide meets before it is there",
+            unknown(0) - of(x),
+        ),
     ]
 }
 
