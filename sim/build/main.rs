@@ -7,7 +7,7 @@ use std::path::Path;
 
 use helixlock_netlist::{Library, Netlist, elaborate};
 use helixlock_rtl::{APART, BLOCKS, BlockCard};
-use random_design::{Dice, random_design};
+use random_design::{Dice, random_bits, random_design};
 
 #[path = "../src/engine/random_design.rs"]
 mod random_design;
@@ -16,7 +16,10 @@ mod rust_source;
 /// Random designs compiled into the tests: they take a minute to compile.
 const RANDOM_DESIGNS: u64 = 32;
 
-/// How many of them run in lanes too, which take longest to compile.
+/// Designs of flip-flops alone, besides.
+const RANDOM_BITS: u64 = 4;
+
+/// How many of the former run in lanes too, which take longest to compile.
 const RANDOM_LANES: u64 = 6;
 
 #[expect(clippy::print_stdout, reason = "a build script speaks to Cargo so")]
@@ -41,7 +44,7 @@ fn flat(card: &BlockCard) -> Result<Netlist, Box<dyn Error>> {
 /// Kernels of random designs and of every block, and a list of each.
 fn samples() -> Result<String, Box<dyn Error>> {
     let mut source = String::new();
-    let [mut random, mut lanes, mut blocks] = [const { String::new() }; 3];
+    let [mut random, mut bits, mut lanes, mut blocks] = [const { String::new() }; 4];
     for seed in 0..RANDOM_DESIGNS {
         let (name, design) = (format!("Random{seed}"), random_design(&mut Dice(seed)));
         source += &rust_source::generate(&design, &name);
@@ -51,12 +54,18 @@ fn samples() -> Result<String, Box<dyn Error>> {
             write!(lanes, "check_lanes::<{name}>, ")?;
         }
     }
+    for seed in 0..RANDOM_BITS {
+        let (name, design) = (format!("Bits{seed}"), random_bits(&mut Dice(seed)));
+        source += &rust_source::generate(&design, &name);
+        write!(bits, "check::<{name}>, ")?;
+    }
     for (index, card) in BLOCKS.iter().chain(APART).enumerate() {
         let name = format!("Block{index}");
         source += &rust_source::generate(&flat(card)?, &name);
         write!(blocks, "check::<{name}>, ")?;
     }
-    for (list, checks) in [("RANDOM", random), ("LANES", lanes), ("BLOCKS", blocks)] {
+    let lists = [("RANDOM", random), ("BITS", bits), ("LANES", lanes), ("BLOCKS", blocks)];
+    for (list, checks) in lists {
         writeln!(source, "pub(super) const {list}: &[Check] = &[{checks}];")?;
     }
     Ok(source)

@@ -1,16 +1,22 @@
 //! A design as Rust source: compiled ahead of time, it runs at the speed of hand-written code.
 //!
 //! The source names what `src/engine` defines (`Kernel`, `Moment`, …) and is included beside it; it
-//! computes on 64-bit words, one word a signal; branches only pass over what has nothing to do.
+//! computes on 64-bit words, one word a signal but for bits that are packed to be looked up;
+//! branches only pass over what has nothing to do.
 
 mod activity;
 mod blocks;
+mod cuts;
 mod dense;
+mod gather;
 mod lanes;
+mod layout;
 mod outside;
+mod packing;
 mod pieces;
 mod plan;
 mod signals;
+mod tables;
 mod words;
 
 use helixlock_netlist::Netlist;

@@ -15,8 +15,8 @@ use crate::engine::{Circuit, Compiled, Lanes, Leap};
 #[allow(unused_variables, reason = "bits that nobody takes: the compiler drops them")]
 mod generated {
     use crate::engine::{
-        AllSignals, Coasting, DenseKernel, Kernel, LANE_WORDS, Lane, LaneKernel, Moment, Vector,
-        choose, shift_down, shift_up,
+        AllSignals, Coasting, DenseKernel, Kernel, LANE_WORDS, Lane, LaneKernel, Moment, Rest,
+        Vector, choose, shift_down, shift_up,
     };
 
     include!(concat!(env!("OUT_DIR"), "/device.rs"));

@@ -30,6 +30,7 @@ mod moment;
 mod program;
 #[cfg(test)]
 mod random_design;
+mod rest;
 #[cfg(test)]
 mod samples;
 mod state;
@@ -53,6 +54,7 @@ pub use leap::Leap;
 pub use moment::{Coasting, Kernel, Moment};
 #[cfg(test)]
 pub(crate) use random_design::Dice;
+pub use rest::Rest;
 pub use state::{FlipFlops, Snapshot, SnapshotError, differences};
 pub use vector::Vector;
 pub(crate) use words::{choose, shift_down, shift_up};

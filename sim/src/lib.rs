@@ -25,7 +25,7 @@ pub use device::{
 };
 pub use engine::{
     AllSignals, Circuit, Coasting, Compiled, DenseKernel, Engine, FlipFlops, InterpretedPieces,
-    Interpreter, Kernel, LANE_WORDS, LANES, Lane, LaneKernel, Lanes, Leap, Moment, Snapshot,
+    Interpreter, Kernel, LANE_WORDS, LANES, Lane, LaneKernel, Lanes, Leap, Moment, Rest, Snapshot,
     SnapshotError, Stop, Vector, differences,
 };
 pub use error::{Error, SettingsError};

@@ -83,6 +83,19 @@ impl Blocks {
         }
     }
 
+    /// Takes a register out of its block.
+    pub(super) fn take_out(&mut self, register: usize) {
+        for block in &mut self.blocks {
+            block.registers.retain(|other| *other != register);
+        }
+        self.outside.push(register);
+    }
+
+    /// A block that has nothing left but blocks inside, each of which has its own condition.
+    pub(super) fn hollow(&self) -> Site {
+        self.blocks.iter().position(|block| block.registers.is_empty())
+    }
+
     /// Gives the registers of a block to the one around it.
     pub(super) fn dissolve(&mut self, index: usize) {
         let block = self.blocks.remove(index);

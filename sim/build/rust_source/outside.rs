@@ -1,77 +1,133 @@
-//! The order in which registers outside all blocks are updated: few values at a time.
-//!
-//! A processor has sixteen registers; what does not fit goes to the stack and back. So each register
-//! is written as soon as all that read its old value have been computed, those with the fewest
-//! readers left first: a chain of flip-flops is shifted from its end.
+//! What is computed at every clock: what tables say, packed registers, and the few registers that
+//! are left outside all blocks.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
+use super::gather::gathered;
+use super::packing::Packing;
 use super::plan::Plan;
+use super::tables::Table;
 use super::words::number;
 
-/// Statements that update the registers outside and compute what blocks need.
-pub(super) fn lines(plan: &Plan) -> Vec<String> {
-    let mut outside = Outside { plan, computed: BTreeSet::new(), lines: vec![] };
-    let mut open = plan.blocks.outside.clone();
-    while let Some(place) = outside.least_read(&open) {
-        outside.update(open.remove(place));
+/// Statements that ask all tables, in `found`, compute what packed registers become, in `next`, and
+/// the values that the other registers outside all blocks take next.
+pub(super) fn lines(plan: &Plan, packing: &Packing) -> Vec<String> {
+    let mut outside = Outside::new(plan, packing);
+    outside.look_up();
+    for register in packing.left_outside(plan) {
+        outside.compute(number(plan.next[register]));
     }
-    for word in plan.computed_in(None) {
-        outside.compute(word);
+    outside.lines
+}
+
+/// Statements that compute what blocks need when `known` and `found` are.
+pub(super) fn needed_by_blocks(plan: &Plan, packing: &Packing) -> Vec<String> {
+    let mut outside = Outside::new(plan, packing);
+    outside.found = packing.places.keys().copied().collect();
+    for word in plan.needed_by_blocks() {
+        outside.compute(Some(word));
     }
     outside.lines
 }
 
 struct Outside<'a> {
     plan: &'a Plan<'a>,
+    packing: &'a Packing,
+    /// Functions that tables have been asked for.
+    found: BTreeSet<usize>,
     computed: BTreeSet<usize>,
     lines: Vec<String>,
 }
 
-impl Outside<'_> {
-    /// The place of the register whose old value the fewest words still wait for.
-    fn least_read(&self, open: &[usize]) -> Option<usize> {
-        (0..open.len()).min_by_key(|place| {
-            let register = open[*place];
-            let others = open.iter().filter(|other| **other != register);
-            let copies = others.filter(|other| self.copies(**other, register)).count();
-            copies + self.waiting(register).len()
-        })
+impl<'a> Outside<'a> {
+    fn new(plan: &'a Plan<'a>, packing: &'a Packing) -> Self {
+        let [found, computed] = [BTreeSet::new(), BTreeSet::new()];
+        Self { plan, packing, found, computed, lines: vec![] }
     }
 
-    /// True when a register takes the old value of another as it is.
-    fn copies(&self, register: usize, of: usize) -> bool {
-        let word = number(self.plan.next[register]);
-        word.is_some() && word == self.plan.reading(of)
+    fn look_up(&mut self) {
+        let packing = self.packing;
+        self.lines.push("let mut found = 0_u64;".to_owned());
+        let at_once = packing.tables.partition_point(|table| table.depth == 1);
+        let (first, later) = packing.tables.split_at(at_once);
+        self.ask_all(first);
+        self.update_packed();
+        for tables in later.chunk_by(|one, next| one.depth == next.depth) {
+            self.ask_all(tables);
+        }
     }
 
-    /// Words not computed yet that read the old value of a register.
-    fn waiting(&self, register: usize) -> Vec<usize> {
-        let Some(old) = self.plan.reading(register) else { return vec![] };
-        let open = self.plan.computed_in(None).filter(|word| !self.computed.contains(word));
-        open.filter(|word| self.plan.operands(*word).contains(&old)).collect()
+    fn ask_all(&mut self, tables: &[Table]) {
+        for table in tables {
+            self.ask(table);
+        }
+        self.found.extend(tables.iter().flat_map(|table| &table.functions));
     }
 
-    fn update(&mut self, register: usize) {
-        if let Some(word) = number(self.plan.next[register]) {
-            self.compute(word);
+    fn ask(&mut self, table: &Table) {
+        let (bits, alone) = self.packing.entering(table);
+        let (mut order, mut index) = (vec![], vec![]);
+        if !bits.is_empty() {
+            let places: Vec<u32> = bits.keys().copied().collect();
+            let (text, places) = gathered(&places);
+            index.push(text);
+            order.extend(places.iter().map(|place| bits[place]));
         }
-        for word in self.waiting(register) {
-            self.compute(word);
+        for word in alone {
+            self.compute(Some(word));
+            index.push(format!("w{word} << {}", order.len()));
+            order.push(word);
         }
-        if let Some(old) = self.plan.reading(register) {
-            self.compute(old);
+        let entries = table.entries(self.plan, &order, &self.packing.places);
+        let (length, index) = (entries.len(), index.join(" | "));
+        // The mask is there for the compiler, which needs not look whether an entry is there.
+        self.lines.push(format!(
+            "found |= {{ static TABLE: [u64; {length}] = {entries:?}; TABLE[({index}) as usize & {:#x}] }};",
+            length - 1
+        ));
+    }
+
+    fn update_packed(&mut self) {
+        let packing = self.packing;
+        let steady: u64 = packing.steady.iter().map(|kept| 1 << packing.bits[&kept.word]).sum();
+        let mut found = 0_u64;
+        let mut shifted: BTreeMap<i64, u64> = BTreeMap::new();
+        let mut parts = vec![];
+        for (register, bit) in &packing.registers {
+            let next = self.plan.next[*register];
+            let place = number(next).and_then(|word| packing.places.get(&word));
+            let source = number(next).and_then(|word| packing.bits.get(&word));
+            if place == Some(bit) {
+                found |= 1 << bit;
+            } else if let Some(source) = source {
+                *shifted.entry(i64::from(*bit) - i64::from(*source)).or_default() |= 1 << source;
+            } else {
+                self.compute(number(next));
+                parts.push(format!("{next} << {bit}"));
+            }
         }
-        self.lines.push(self.plan.update(register));
+        parts.push(format!("known & {steady:#x}"));
+        parts.push(format!("found & {found:#x}"));
+        for (distance, mask) in shifted {
+            let shift = if distance < 0 { ">>" } else { "<<" };
+            parts.push(format!("(known & {mask:#x}) {shift} {}", distance.abs()));
+        }
+        self.lines.push(format!("let mut next = {};", parts.join(" | ")));
     }
 
     /// Computes a word and, before it, those it needs.
-    fn compute(&mut self, word: usize) {
-        if self.computed.insert(word) {
-            for operand in self.plan.operands(word) {
-                self.compute(*operand);
-            }
-            self.lines.push(self.plan.line(word));
+    fn compute(&mut self, word: Option<usize>) {
+        let Some(word) = word.filter(|word| self.computed.insert(*word)) else { return };
+        if let Some(bit) = self.packing.bits.get(&word) {
+            return self.lines.push(format!("let w{word} = known >> {bit} & 1;"));
         }
+        if self.found.contains(&word) {
+            let bit = self.packing.places[&word];
+            return self.lines.push(format!("let w{word} = found >> {bit} & 1;"));
+        }
+        for operand in self.plan.operands(word) {
+            self.compute(Some(*operand));
+        }
+        self.lines.push(self.plan.line(word));
     }
 }

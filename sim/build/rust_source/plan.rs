@@ -7,9 +7,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::blocks::{Blocks, Site};
+use super::cuts::Cuts;
 use super::words::{Operand, Words, number};
-use helixlock_netlist::Netlist;
 use helixlock_netlist::drivers::{Driver, Drivers};
+use helixlock_netlist::{Netlist, Register};
 
 /// A block that spares fewer operations than this is dissolved: a branch costs as much.
 const FEWEST_SPARED: usize = 8;
@@ -46,6 +47,8 @@ pub(super) struct Plan<'a> {
     pub(super) places: BTreeMap<usize, Site>,
     pub(super) kept: Vec<Kept>,
     leaves: BTreeMap<usize, Leaf>,
+    /// Of every register.
+    widths: Vec<u32>,
 }
 
 impl<'a> Plan<'a> {
@@ -53,11 +56,21 @@ impl<'a> Plan<'a> {
         let mut words = Words::new(netlist);
         let leaves = leaves(&mut words, netlist);
         let registers = netlist.registers.iter();
+        let width = |register: &Register| netlist.signal(register.output).width;
+        let widths = registers.clone().map(width).collect();
         let next = registers.map(|register| words.signal(register.input)).collect();
         let blocks = Blocks::new(&mut words, netlist);
         let places = BTreeMap::new();
-        let mut plan = Self { words, blocks, next, places, kept: vec![], leaves };
+        let mut plan = Self { words, blocks, next, places, kept: vec![], leaves, widths };
         plan.places = plan.placed();
+        while let Some(register) = plan.looked_up() {
+            plan.blocks.take_out(register);
+            plan.places = plan.placed();
+        }
+        while let Some(hollow) = plan.blocks.hollow() {
+            plan.blocks.dissolve(hollow);
+            plan.places = plan.placed();
+        }
         while let Some(poor) = plan.poor_block() {
             plan.blocks.dissolve(poor);
             plan.places = plan.placed();
@@ -75,6 +88,36 @@ impl<'a> Plan<'a> {
     /// The place of a word among those kept.
     fn kept_at(&self, word: usize) -> Option<usize> {
         self.kept.iter().position(|kept| kept.word == word)
+    }
+
+    /// True for a word that is read from an input or a register.
+    pub(super) fn is_read(&self, word: usize) -> bool {
+        self.leaves.contains_key(&word)
+    }
+
+    /// The input that a word reads as it is.
+    pub(super) fn input_of(&self, word: usize) -> Option<usize> {
+        match self.leaves.get(&word) {
+            Some(Leaf::Input(input)) => Some(*input),
+            _ => None,
+        }
+    }
+
+    /// True for a register of one bit.
+    pub(super) fn is_bit(&self, register: usize) -> bool {
+        self.widths[register] == 1
+    }
+
+    /// Words computed outside all blocks that blocks are computed from.
+    pub(super) fn needed_by_blocks(&self) -> BTreeSet<usize> {
+        let inside = self.places.iter().filter(|(_, site)| site.is_some());
+        let operands = inside.flat_map(|(word, _)| &self.words.all()[*word].operands).copied();
+        let blocks = &self.blocks.blocks;
+        let active = blocks.iter().filter_map(|block| number(block.active));
+        let registers = blocks.iter().flat_map(|block| &block.registers);
+        let next = registers.filter_map(|register| number(self.next[*register]));
+        let all = operands.chain(active).chain(next);
+        all.filter(|word| self.places.get(word) == Some(&None)).collect()
     }
 
     /// The statement that computes a word, or takes it from where it is kept.
@@ -97,10 +140,19 @@ impl<'a> Plan<'a> {
 
     /// A word and all it is computed from.
     pub(super) fn cone(&self, word: usize) -> BTreeSet<usize> {
+        self.cone_up_to([word], &BTreeSet::new())
+    }
+
+    /// Words and all they are computed from when some are known.
+    pub(super) fn cone_up_to(
+        &self,
+        words: impl IntoIterator<Item = usize>,
+        known: &BTreeSet<usize>,
+    ) -> BTreeSet<usize> {
         let mut cone = BTreeSet::new();
-        let mut open = vec![word];
+        let mut open: Vec<usize> = words.into_iter().collect();
         while let Some(word) = open.pop() {
-            if cone.insert(word) {
+            if cone.insert(word) && !known.contains(&word) {
                 open.extend(&self.words.all()[word].operands);
             }
         }
@@ -152,10 +204,26 @@ impl<'a> Plan<'a> {
         matches!(self.leaves.get(&word), Some(Leaf::Register(register)) if outside(register))
     }
 
-    /// The word that reads a register, if it is needed.
-    pub(super) fn reading(&self, register: usize) -> Option<usize> {
+    /// The word that reads a register, if there is one.
+    pub(super) fn leaf_of(&self, register: usize) -> Option<usize> {
         let found = self.leaves.iter().find(|(_, leaf)| **leaf == Leaf::Register(register));
-        found.map(|(word, _)| *word).filter(|word| self.places.contains_key(word))
+        found.map(|(word, _)| *word)
+    }
+
+    /// A one-bit register in a block that is looked up as cheaply: outside it costs nothing, and its
+    /// block may be passed over while it stands still under a condition that lasts.
+    fn looked_up(&self) -> Option<usize> {
+        let cuts = Cuts::new(self);
+        let outside = |word: &usize| {
+            self.is_steady(*word) || self.is_read(*word) || self.places.get(word) == Some(&None)
+        };
+        let looked_up = |register: &usize| {
+            let next = number(self.next[*register]).filter(|word| cuts.depth(*word) == 1);
+            let entering = next.and_then(|word| cuts.entering(word));
+            entering.is_some_and(|entering| entering.iter().all(outside))
+        };
+        let inside = self.blocks.blocks.iter().flat_map(|block| &block.registers);
+        inside.copied().filter(|register| self.is_bit(*register)).find(looked_up)
     }
 
     /// A block that spares too little.
@@ -177,31 +245,34 @@ impl<'a> Plan<'a> {
         for word in self.places.keys().filter(|word| !steady.contains(word)) {
             seen.extend(&self.words.all()[*word].operands);
         }
-        steady.intersection(&seen).filter_map(|word| self.keep(*word)).collect()
+        let worth = |word: &usize| {
+            let computed = self.cone(*word).into_iter().filter(|word| !self.is_read(*word));
+            FEWEST_KEPT <= computed.count()
+        };
+        steady.intersection(&seen).copied().filter(worth).map(|word| self.kept(word)).collect()
     }
 
     /// True when it can change only with an input or a block.
-    fn is_steady(&self, word: usize) -> bool {
+    pub(super) fn is_steady(&self, word: usize) -> bool {
         self.cone(word).iter().all(|word| match self.leaves.get(word) {
             Some(Leaf::Register(register)) => !self.blocks.outside.contains(register),
             _ => true,
         })
     }
 
-    fn keep(&self, word: usize) -> Option<Kept> {
-        let cone = self.cone(word);
-        let leaves: Vec<Leaf> =
-            cone.iter().filter_map(|word| self.leaves.get(word).copied()).collect();
-        let inputs = leaves.iter().filter_map(|leaf| match leaf {
-            Leaf::Input(input) => Some(*input),
-            Leaf::Register(_) => None,
-        });
-        let roots = leaves.iter().filter_map(|leaf| match leaf {
-            Leaf::Input(_) => None,
-            Leaf::Register(register) => self.blocks.root(self.blocks.of_register(*register)),
-        });
-        let kept = Kept { word, inputs: inputs.collect(), roots: roots.collect() };
-        (FEWEST_KEPT <= cone.len() - leaves.len()).then_some(kept)
+    /// A steady word, and what it depends on.
+    pub(super) fn kept(&self, word: usize) -> Kept {
+        let mut kept = Kept { word, inputs: BTreeSet::new(), roots: BTreeSet::new() };
+        for word in self.cone(word) {
+            match self.leaves.get(&word) {
+                Some(Leaf::Input(input)) => kept.inputs.extend([*input]),
+                Some(Leaf::Register(register)) => {
+                    kept.roots.extend(self.blocks.root(self.blocks.of_register(*register)));
+                }
+                None => {}
+            }
+        }
+        kept
     }
 }
 

@@ -39,6 +39,11 @@ impl fmt::Display for Operand {
 pub(super) struct Word {
     /// Rust that computes it.
     text: String,
+    /// Number of bits it may have.
+    pub(super) width: u32,
+    /// The operator that computes it, on words, which it calls signals; none when it is read from
+    /// somewhere.
+    rule: Option<Expression>,
     /// Words it is computed from; none when it is read from somewhere.
     pub(super) operands: Vec<usize>,
     /// The gate it is, when it is one of one bit.
@@ -66,7 +71,8 @@ impl<'a> Words<'a> {
 
     /// Says where the value of a signal is found; it is read there once.
     pub(super) fn place(&mut self, signal: SignalId, place: &str) {
-        let word = self.word(place.to_owned(), &[], None);
+        let width = self.netlist.signal(signal).width;
+        let word = self.word(place.to_owned(), width, None);
         self.signals.insert(signal, word);
     }
 
@@ -102,15 +108,16 @@ impl<'a> Words<'a> {
         let operands = expression.operands();
         let words: Vec<Operand> = operands.iter().map(|operand| self.value(operand)).collect();
         let text = computed(expression, &words, operands[0].width);
-        let gate = (expression.width == 1).then(|| gate(&expression.node, &words)).flatten();
-        self.word(text, &words, gate)
+        let leaves = words.iter().zip(&operands).map(|(word, of)| leaf(*word, of.width));
+        let node = with_operands(&expression.node, leaves.map(Box::new));
+        self.word(text, expression.width, Some(Expression { width: expression.width, node }))
     }
 
     /// Complement of one bit.
     pub(super) fn not(&mut self, a: Operand) -> Operand {
         match a {
             Operand::Constant(bit) => Operand::Constant(bit ^ 1),
-            Operand::Word(_) => self.word(format!("{a} ^ 0x1"), &[a], Some(Gate::Not(a))),
+            Operand::Word(_) => self.gate(format!("{a} ^ 0x1"), Node::Not(leaf(a, 1).into())),
         }
     }
 
@@ -119,7 +126,7 @@ impl<'a> Words<'a> {
         match (a, b) {
             (Operand::Constant(0), _) | (_, Operand::Constant(0)) => Operand::Constant(0),
             (Operand::Constant(_), other) | (other, Operand::Constant(_)) => other,
-            _ => self.word(format!("{a} & {b}"), &[a, b], Some(Gate::And(a, b))),
+            _ => self.gate(format!("{a} & {b}"), Node::And(leaf(a, 1).into(), leaf(b, 1).into())),
         }
     }
 
@@ -128,7 +135,7 @@ impl<'a> Words<'a> {
         match (a, b) {
             (Operand::Constant(0), other) | (other, Operand::Constant(0)) => other,
             (Operand::Constant(_), _) | (_, Operand::Constant(_)) => Operand::Constant(1),
-            _ => self.word(format!("{a} | {b}"), &[a, b], Some(Gate::Or(a, b))),
+            _ => self.gate(format!("{a} | {b}"), Node::Or(leaf(a, 1).into(), leaf(b, 1).into())),
         }
     }
 
@@ -147,13 +154,27 @@ impl<'a> Words<'a> {
         (0..self.computed.len()).map(|index| self.line(index)).collect()
     }
 
+    /// What a word is when all that it is computed from have the given values, one a word.
+    pub(super) fn evaluate(&self, index: usize, values: &[u64]) -> u64 {
+        let rule = self.computed[index].rule.as_ref();
+        rule.expect("only a word that is computed is evaluated").evaluate(values)
+    }
+
+    fn gate(&mut self, text: String, node: Node) -> Operand {
+        self.word(text, 1, Some(Expression { width: 1, node }))
+    }
+
     /// A word holding what is computed, new unless the same has been computed before.
-    fn word(&mut self, text: String, operands: &[Operand], gate: Option<Gate>) -> Operand {
+    fn word(&mut self, text: String, width: u32, rule: Option<Expression>) -> Operand {
         let next = self.computed.len();
         let index = *self.known.entry(text.clone()).or_insert(next);
         if index == next {
-            let operands = operands.iter().copied().filter_map(number).collect();
-            self.computed.push(Word { text, operands, gate });
+            let mut operands = vec![];
+            if let Some(rule) = &rule {
+                rule.for_each_signal(&mut |word| operands.push(word.0 as usize));
+            }
+            let gate = rule.as_ref().and_then(gate);
+            self.computed.push(Word { text, width, rule, operands, gate });
         }
         Operand::Word(index)
     }
@@ -167,12 +188,58 @@ pub(super) fn number(operand: Operand) -> Option<usize> {
     }
 }
 
-fn gate(node: &Node, operands: &[Operand]) -> Option<Gate> {
-    match (node, operands) {
-        (Node::Not(_), [a]) => Some(Gate::Not(*a)),
-        (Node::And(..), [a, b]) => Some(Gate::And(*a, *b)),
-        (Node::Or(..), [a, b]) => Some(Gate::Or(*a, *b)),
+fn gate(rule: &Expression) -> Option<Gate> {
+    match &rule.node {
+        _ if rule.width != 1 => None,
+        Node::Not(a) => Some(Gate::Not(operand(a))),
+        Node::And(a, b) => Some(Gate::And(operand(a), operand(b))),
+        Node::Or(a, b) => Some(Gate::Or(operand(a), operand(b))),
         _ => None,
+    }
+}
+
+/// A word or a constant as the operand of a rule.
+fn leaf(operand: Operand, width: u32) -> Expression {
+    match operand {
+        Operand::Constant(value) => Expression::constant(width, value),
+        Operand::Word(index) => {
+            let word = u32::try_from(index).expect("a design has few words");
+            Expression::signal(width, SignalId(word))
+        }
+    }
+}
+
+/// What [`leaf`] made an operand of a rule of.
+fn operand(leaf: &Expression) -> Operand {
+    match leaf.node {
+        Node::Signal(word) => Operand::Word(word.0 as usize),
+        Node::Constant(value) => Operand::Constant(value),
+        _ => unreachable!("the operands of a rule are words and constants"),
+    }
+}
+
+/// An operator on other operands.
+fn with_operands(node: &Node, mut operands: impl Iterator<Item = Box<Expression>>) -> Node {
+    let mut next = || operands.next().expect("as many operands as before");
+    match node {
+        Node::Constant(_) | Node::Signal(_) => node.clone(),
+        Node::Not(_) => Node::Not(next()),
+        Node::And(..) => Node::And(next(), next()),
+        Node::Or(..) => Node::Or(next(), next()),
+        Node::Xor(..) => Node::Xor(next(), next()),
+        Node::Add(..) => Node::Add(next(), next()),
+        Node::Subtract(..) => Node::Subtract(next(), next()),
+        Node::ShiftUp(..) => Node::ShiftUp(next(), next()),
+        Node::ShiftDown(..) => Node::ShiftDown(next(), next()),
+        Node::Equal(..) => Node::Equal(next(), next()),
+        Node::Less(..) => Node::Less(next(), next()),
+        Node::LessOrEqual(..) => Node::LessOrEqual(next(), next()),
+        Node::All(_) => Node::All(next()),
+        Node::Any(_) => Node::Any(next()),
+        Node::Parity(_) => Node::Parity(next()),
+        Node::Slice { low, .. } => Node::Slice { of: next(), low: *low },
+        Node::Extend(_) => Node::Extend(next()),
+        Node::Select { .. } => Node::Select { condition: next(), then: next(), otherwise: next() },
     }
 }
 

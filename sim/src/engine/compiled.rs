@@ -4,6 +4,7 @@ use helixlock_netlist::{Netlist, SignalId};
 
 use super::all_signals::{AllSignals, Evaluated};
 use super::circuit::{Circuit, Place};
+use super::rest::Rest;
 use super::state::{FlipFlops, Snapshot, pack, unpack};
 use super::{Engine, Stop};
 
@@ -14,7 +15,8 @@ pub trait DenseKernel: AllSignals + Default {
     /// One word a register.
     type Registers: AsRef<[u64]> + AsMut<[u64]> + Clone + std::fmt::Debug;
     /// One word for each that is kept from clock to clock: it depends on inputs that `KEPT_FROM`
-    /// names and registers that rarely change.
+    /// names and registers that rarely change. Those of one bit that are looked up with are bits of
+    /// `known` instead.
     type Kept: AsRef<[u64]> + Clone + std::fmt::Debug;
     /// All inputs low.
     const INPUTS: Self::Inputs;
@@ -24,12 +26,35 @@ pub trait DenseKernel: AllSignals + Default {
     const KEPT: Self::Kept;
     /// One an input: words kept are to be computed anew when it has changed.
     const KEPT_FROM: &'static [bool];
+    /// One an input: the bit of `known` that is this input, if there is one.
+    const TOGGLES: &'static [u64];
+    /// Number of tables that are asked at every clock.
+    const TABLES: usize;
 
-    /// Takes one rising edge; `kept` must be of these inputs and registers, and is afterwards.
-    fn step(inputs: &Self::Inputs, registers: &mut Self::Registers, kept: &mut Self::Kept);
+    /// Takes one rising edge: what is `known` before it becomes what is known after it. `kept` and
+    /// `known` must be of these inputs and registers, and are afterwards; registers that are bits
+    /// of `known` are out of date among `registers`.
+    fn step(
+        inputs: &Self::Inputs,
+        registers: &mut Self::Registers,
+        kept: &mut Self::Kept,
+        known: u64,
+        rest: &mut Rest,
+    ) -> u64;
 
-    /// Computes the words kept.
-    fn keep(inputs: &Self::Inputs, registers: &Self::Registers, kept: &mut Self::Kept);
+    /// Computes what is kept, and the bits of `known` that are.
+    fn keep(
+        inputs: &Self::Inputs,
+        registers: &Self::Registers,
+        kept: &mut Self::Kept,
+        known: u64,
+    ) -> u64;
+
+    /// `known` with the bits that are registers.
+    fn pack(registers: &Self::Registers, known: u64) -> u64;
+
+    /// Brings the registers that are bits of `known` up to date.
+    fn unpack(known: u64, registers: &mut Self::Registers);
 
     /// Writes the outputs, in port order.
     fn outputs(inputs: &Self::Inputs, registers: &Self::Registers, values: &mut [u64]);
@@ -43,7 +68,11 @@ pub struct Compiled<'a, K: DenseKernel> {
     inputs: K::Inputs,
     registers: K::Registers,
     kept: K::Kept,
-    /// `kept` is of other inputs or registers.
+    /// One-bit registers and bits that are kept; `registers` has the former as they were.
+    known: u64,
+    /// Of these inputs.
+    rest: Rest,
+    /// `kept` and `known` are of other inputs or registers.
     stale: bool,
     watched: Vec<SignalId>,
     /// Indices of the watched signals among the outputs, if they all are.
@@ -64,6 +93,8 @@ impl<'a, K: DenseKernel> Compiled<'a, K> {
             inputs: K::INPUTS,
             registers: K::REGISTERS,
             kept: K::KEPT,
+            known: K::pack(&K::REGISTERS, 0),
+            rest: Rest::default(),
             stale: true,
             watched: Vec::new(),
             watched_outputs: Some(Vec::new()),
@@ -75,19 +106,30 @@ impl<'a, K: DenseKernel> Compiled<'a, K> {
     #[inline]
     fn edges(&mut self, clocks: u64) {
         if self.stale {
-            K::keep(&self.inputs, &self.registers, &mut self.kept);
+            self.known = K::keep(&self.inputs, &self.registers, &mut self.kept, self.known);
             self.stale = false;
         }
+        let (inputs, registers) = (&self.inputs, &mut self.registers);
+        let mut known = self.known;
         for _ in 0..clocks {
-            K::step(&self.inputs, &mut self.registers, &mut self.kept);
+            known = K::step(inputs, registers, &mut self.kept, known, &mut self.rest);
         }
+        self.known = known;
         self.clock += clocks;
         self.evaluated.forget();
+    }
+
+    /// All registers, up to date.
+    fn registers(&self) -> K::Registers {
+        let mut registers = self.registers.clone();
+        K::unpack(self.known, &mut registers);
+        registers
     }
 
     fn watched_values(&mut self) -> Vec<u64> {
         match &self.watched_outputs {
             Some(indices) => {
+                K::unpack(self.known, &mut self.registers);
                 K::outputs(&self.inputs, &self.registers, &mut self.outputs);
                 indices.iter().map(|index| self.outputs[*index]).collect()
             }
@@ -108,18 +150,23 @@ impl<K: DenseKernel> Engine for Compiled<'_, K> {
     fn set_input(&mut self, input: SignalId, value: u64) {
         let index = self.circuit.input_index(input, value);
         let before = std::mem::replace(&mut self.inputs.as_mut()[index], value);
-        self.stale |= before != value && K::KEPT_FROM[index];
+        if before != value {
+            self.stale |= K::KEPT_FROM[index];
+            self.known ^= K::TOGGLES[index];
+            self.rest = Rest::default();
+        }
         self.evaluated.forget();
     }
 
     fn value(&mut self, signal: SignalId) -> u64 {
         match self.circuit.place(signal) {
             Place::Input(index) => self.inputs.as_ref()[index],
-            Place::Register(index) => self.registers.as_ref()[index],
+            Place::Register(index) => self.registers().as_ref()[index],
             Place::Net(_) | Place::Logic => {
                 if !self.evaluated.is_fresh() {
-                    let (inputs, registers) = (self.inputs.as_ref(), self.registers.as_ref());
-                    self.evaluated.renew(&K::default(), inputs, registers);
+                    let registers = self.registers();
+                    let inputs = self.inputs.as_ref();
+                    self.evaluated.renew(&K::default(), inputs, registers.as_ref());
                 }
                 self.evaluated.values()[signal.0 as usize]
             }
@@ -153,7 +200,7 @@ impl<K: DenseKernel> Engine for Compiled<'_, K> {
     }
 
     fn flip_flops(&self) -> FlipFlops {
-        pack(self.circuit.netlist(), self.registers.as_ref().iter().copied())
+        pack(self.circuit.netlist(), self.registers().as_ref().iter().copied())
     }
 
     fn snapshot(&self) -> Snapshot {
@@ -165,7 +212,9 @@ impl<K: DenseKernel> Engine for Compiled<'_, K> {
         self.inputs.as_mut().copy_from_slice(&snapshot.inputs);
         let registers = unpack(self.circuit.netlist(), &snapshot.flip_flops);
         self.registers.as_mut().copy_from_slice(&registers);
+        self.known = K::pack(&self.registers, self.known);
         self.clock = snapshot.clock;
+        self.rest = Rest::default();
         self.stale = true;
         self.evaluated.forget();
     }

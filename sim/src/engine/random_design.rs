@@ -28,18 +28,7 @@ impl Dice {
 
 /// A design of a few registers.
 pub(crate) fn random_design(dice: &mut Dice) -> Netlist {
-    let mut draft = Draft {
-        dice,
-        netlist: Netlist::default(),
-        known: vec![],
-        private: vec![],
-        enables: vec![],
-    };
-    for width in [1, 1, 8] {
-        let input = draft.signal("input", width);
-        draft.netlist.inputs.push(input);
-        draft.known.push(input);
-    }
+    let mut draft = Draft::new(dice);
     let registers = 2 + draft.dice.below(14);
     let outputs: Vec<SignalId> = (0..registers).map(|_| draft.register_output()).collect();
     for output in &outputs {
@@ -55,11 +44,28 @@ pub(crate) fn random_design(dice: &mut Dice) -> Netlist {
     for output in outputs {
         draft.register_input(output);
     }
-    for _ in 0..3 {
-        let output = draft.dice.pick(&draft.known.clone());
-        draft.netlist.outputs.push(output);
+    draft.finished()
+}
+
+/// A design of flip-flops: more than a machine word has bits, in chains and rings, and some behind
+/// logic of a dozen of them and of how a counter compares.
+pub(crate) fn random_bits(dice: &mut Dice) -> Netlist {
+    let mut draft = Draft::new(dice);
+    let counter = draft.signal("counter", 6);
+    draft.show(counter);
+    let outputs: Vec<SignalId> = (0..80).map(|_| draft.signal("bit", 1)).collect();
+    draft.known.extend(&outputs);
+    draft.register_input(counter);
+    for (output, before) in outputs.iter().zip(outputs.iter().cycle().skip(79)) {
+        let value = match draft.dice.below(8) {
+            0..=4 => read(*before, 1),
+            5 => draft.logic_of_many(),
+            6 => draft.held(*output, 1),
+            _ => draft.expression(1, 2),
+        };
+        draft.register(*output, value);
     }
-    draft.netlist
+    draft.finished()
 }
 
 struct Draft<'a> {
@@ -71,6 +77,29 @@ struct Draft<'a> {
     private: Vec<SignalId>,
     /// Conditions under which registers change.
     enables: Vec<SignalId>,
+}
+
+impl<'a> Draft<'a> {
+    /// Inputs alone.
+    fn new(dice: &'a mut Dice) -> Self {
+        let netlist = Netlist::default();
+        let mut draft = Self { dice, netlist, known: vec![], private: vec![], enables: vec![] };
+        for width in [1, 1, 8] {
+            let input = draft.signal("input", width);
+            draft.netlist.inputs.push(input);
+            draft.known.push(input);
+        }
+        draft
+    }
+
+    /// With some outputs.
+    fn finished(mut self) -> Netlist {
+        for _ in 0..3 {
+            let output = self.dice.pick(&self.known);
+            self.netlist.outputs.push(output);
+        }
+        self.netlist
+    }
 }
 
 impl Draft<'_> {
@@ -120,10 +149,30 @@ impl Draft<'_> {
             2..=4 => self.held(output, width),
             _ => self.counter(output, width),
         };
+        self.register(output, value);
+    }
+
+    fn register(&mut self, output: SignalId, value: Expression) {
+        let width = value.width;
         let input = self.signal("next", width);
         self.netlist.assignments.push(Assignment { target: input, value });
         let initial = self.dice.roll() & mask(width);
         self.netlist.registers.push(Register { output, input, initial });
+    }
+
+    /// One bit, of more bits than a table takes.
+    fn logic_of_many(&mut self) -> Expression {
+        let mut value = self.leaf(1);
+        for _ in 0..14 {
+            let (left, right) = (Box::new(value), Box::new(self.leaf(1)));
+            let node = match self.dice.below(3) {
+                0 => Node::And(left, right),
+                1 => Node::Or(left, right),
+                _ => Node::Xor(left, right),
+            };
+            value = Expression { width: 1, node };
+        }
+        value
     }
 
     fn local(&mut self) {

@@ -12,11 +12,12 @@ use super::interpreter::Interpreter;
 use super::lanes::{LaneKernel, Lanes};
 use super::leap::Leap;
 use super::moment::Kernel;
-use super::random_design::{Dice, random_design};
+use super::random_design::{Dice, random_bits, random_design};
 
 #[allow(clippy::all, clippy::pedantic, reason = "generated: written for the compiler alone")]
 #[allow(unused_imports, reason = "a design may do without shifts")]
 #[allow(unused_variables, reason = "bits that nobody takes: the compiler drops them")]
+#[allow(unused_mut, reason = "a design may have nothing that is kept")]
 #[allow(unused_comparisons, reason = "a random design compares with anything")]
 #[allow(unreachable_pub, reason = "the device's kernel is public, these are not")]
 mod generated {
@@ -25,6 +26,7 @@ mod generated {
     use crate::engine::compiled::DenseKernel;
     use crate::engine::lanes::{LANE_WORDS, Lane, LaneKernel};
     use crate::engine::moment::{Coasting, Kernel, Moment};
+    use crate::engine::rest::Rest;
     use crate::engine::vector::Vector;
     use crate::engine::words::{choose, shift_down, shift_up};
 
@@ -38,6 +40,9 @@ type Check = fn(&Circuit, &Dice) -> Traits;
 struct Traits {
     keeps_words: bool,
     has_counters: bool,
+    /// Registers that are bits of one word.
+    packed: u32,
+    tables: usize,
 }
 
 fn check<K: DenseKernel + Kernel + Default>(circuit: &Circuit, dice: &Dice) -> Traits {
@@ -46,7 +51,16 @@ fn check<K: DenseKernel + Kernel + Default>(circuit: &Circuit, dice: &Dice) -> T
     Traits {
         keeps_words: !K::KEPT.as_ref().is_empty(),
         has_counters: !circuit.partition().counters.is_empty(),
+        packed: packed::<K>(),
+        tables: K::TABLES,
     }
+}
+
+/// Counted by setting all registers.
+fn packed<K: DenseKernel>() -> u32 {
+    let mut registers = K::REGISTERS;
+    registers.as_mut().fill(1);
+    K::pack(&registers, 0).count_ones()
 }
 
 /// One lane among others with inputs of their own, besides the other engines.
@@ -86,6 +100,19 @@ fn generated_engines_of_random_designs_agree_with_the_reference() {
     assert!(10 <= count(|traits| traits.keeps_words), "designs that keep words");
     assert!(10 <= count(|traits| traits.has_counters), "designs that leap");
     assert!(10 <= count(|traits| !traits.has_counters), "designs with nothing to leap");
+    assert!(10 <= count(|traits| 0 < traits.packed), "designs with packed registers");
+    assert!(10 <= count(|traits| 0 < traits.tables), "designs that look logic up");
+}
+
+#[test]
+fn generated_engines_of_more_flip_flops_than_a_word_has_bits_agree_with_the_reference() {
+    for (seed, check) in (0..).zip(generated::BITS) {
+        let mut dice = Dice(seed);
+        let circuit = Circuit::new(random_bits(&mut dice));
+        let traits = check(&circuit, &dice);
+        assert_eq!(traits.packed, u64::BITS, "as many as there is room for");
+        assert!(4 <= traits.tables, "logic of more bits than one table takes");
+    }
 }
 
 #[test]

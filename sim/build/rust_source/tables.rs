@@ -1,0 +1,87 @@
+//! Functions of a few bits looked up together: several share a table as long as few bits enter.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::cuts::{Cuts, MOST_ENTERING};
+use super::plan::Plan;
+
+/// A table: what enters it, and which functions it holds.
+#[derive(Debug, Default)]
+pub(super) struct Table {
+    /// Look-ups before this one may be made.
+    pub(super) depth: usize,
+    pub(super) entering: BTreeSet<usize>,
+    pub(super) functions: Vec<usize>,
+}
+
+/// Puts functions into tables, those that come first into the first.
+pub(super) fn tables(cuts: &Cuts, functions: &[usize]) -> Vec<Table> {
+    let mut tables: Vec<Table> = vec![];
+    let mut order: Vec<(usize, &BTreeSet<usize>, usize)> = functions
+        .iter()
+        .filter_map(|word| Some((cuts.depth(*word), cuts.entering(*word)?, *word)))
+        .collect();
+    order.sort_by_key(|(depth, entering, word)| (*depth, usize::MAX - entering.len(), *word));
+    for (depth, entering, word) in order {
+        let more = |table: &Table| entering.difference(&table.entering).count();
+        let fitting = tables.iter_mut().filter(|table| {
+            table.depth == depth && table.entering.len() + more(table) <= MOST_ENTERING
+        });
+        if let Some(table) = fitting.min_by_key(|table| more(table)) {
+            table.entering.extend(entering);
+            table.functions.push(word);
+        } else {
+            tables.push(Table { depth, entering: entering.clone(), functions: vec![word] });
+        }
+    }
+    tables
+}
+
+impl Table {
+    /// What it holds: by what enters, its bits in the given order, each function in its place.
+    pub(super) fn entries(
+        &self,
+        plan: &Plan,
+        order: &[usize],
+        places: &BTreeMap<usize, u32>,
+    ) -> Vec<u64> {
+        let cone = self.cone(plan);
+        let mut values = vec![0; plan.words.all().len()];
+        let entry = |index: usize| {
+            for (place, word) in order.iter().enumerate() {
+                values[*word] = index as u64 >> place & 1;
+            }
+            for word in &cone {
+                values[*word] = plan.words.evaluate(*word, &values);
+            }
+            self.functions.iter().map(|word| values[*word] << places[word]).sum()
+        };
+        (0..1 << order.len()).map(entry).collect()
+    }
+
+    /// The words between what enters and what is looked up, in order.
+    fn cone(&self, plan: &Plan) -> BTreeSet<usize> {
+        let mut cone = BTreeSet::new();
+        let mut open = self.functions.clone();
+        while let Some(word) = open.pop() {
+            if !self.entering.contains(&word) && cone.insert(word) {
+                open.extend(&plan.words.all()[word].operands);
+            }
+        }
+        cone
+    }
+}
+
+/// All functions that these need, themselves included, in order.
+pub(super) fn with_entering(cuts: &Cuts, functions: &[usize]) -> Vec<usize> {
+    let mut found = vec![];
+    let mut open: Vec<usize> = functions.iter().rev().copied().collect();
+    while let Some(word) = open.pop() {
+        let Some(entering) = cuts.entering(word) else { continue };
+        if !found.contains(&word) {
+            found.push(word);
+            open.extend(entering);
+        }
+    }
+    found
+}
