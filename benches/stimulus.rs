@@ -36,7 +36,7 @@ pub(crate) fn dense(netlist: &Netlist, clocks: u64) -> Vec<PinEvent> {
     events
 }
 
-/// Held in reset, where every register is written at every clock: nothing can be passed over.
+/// Held in reset, where the conditions of all registers are met at every clock and nothing changes.
 #[allow(dead_code, reason = "the peers' run alone has a use for it")]
 pub(crate) fn held(netlist: &Netlist) -> Vec<PinEvent> {
     let mut events = settings(netlist, 500.0);
