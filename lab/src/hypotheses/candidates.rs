@@ -4,7 +4,7 @@ use helixlock_plant::{CATALOGUE, Entry, Formula, Parameter, Role, Search, Term};
 
 use super::unfolding::unfolded;
 use crate::model::{Component, Problem, Stage};
-use crate::numerics::{Looks, by_factors, count, evenly, product, spread};
+use crate::numerics::{Looks, by_factors, count, evenly, product, resolves, spread};
 use crate::policy::evidence::{ANOTHER_MATERIAL, HIGH_HARMONIC_PRICE, LOOSELY_KNOWN, MARGIN};
 use crate::policy::extent::{FREQUENCIES, LONGEST, NARROWEST, OVERTONES, SHORTEST, SLOWEST_WAVES};
 use crate::spectrum::{Scan, gear_orders, strongest_first};
@@ -144,14 +144,18 @@ pub(crate) fn candidate(stage: &Stage<'_>, term: Term) -> Option<Candidate> {
     Some(candidate).filter(sound)
 }
 
-/// Leaves out harmonics that the samples do not tell from a lower one.
+/// Leaves out harmonics that the samples do not tell from a lower one; uneven places may tell some
+/// far above the others.
 fn keep_resolved(problem: &Problem, candidate: &mut Candidate) {
     if candidate.term.parameters.iter().all(|what| what.search != Search::Whole) {
         return;
     }
-    let waves = |point| Component::new(candidate.at(point)).waves_a_turn(problem);
-    let told: Vec<bool> =
-        (0..candidate.grid.len()).map(|point| waves(point) <= problem.highest_order).collect();
+    let places = problem.places();
+    let is_told = |point| {
+        let waves = Component::new(candidate.at(point)).waves_a_turn(problem);
+        waves <= problem.highest_order || places.as_ref().is_some_and(|at| resolves(at, waves))
+    };
+    let told: Vec<bool> = (0..candidate.grid.len()).map(is_told).collect();
     let mut told = told.into_iter();
     candidate.grid.retain(|_| told.next().unwrap_or(false));
 }
