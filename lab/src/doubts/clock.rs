@@ -33,12 +33,9 @@ pub(super) fn contradicted(measurement: &Measurement, machine: &Machine) -> Opti
 
 /// Speed by travel and clock over the speed told, by its column or the machine file, row by row.
 fn ratios(measurement: &Measurement, machine: &Machine) -> Vec<f64> {
-    let ratio = |(row, rpm): (usize, f64)| rpm / told_rpm(measurement, machine, row);
+    let nominal = machine.spindle.speed_rpm;
+    let ratio = |(row, rpm): (usize, f64)| rpm / measurement.told_rpm(row, nominal);
     measurement.clocked().map(ratio).filter(|ratio| ratio.is_finite() && 0.0 < *ratio).collect()
-}
-
-fn told_rpm(measurement: &Measurement, machine: &Machine, row: usize) -> f64 {
-    if measurement.speed_told { measurement.speed_rpm[row] } else { machine.spindle.speed_rpm }
 }
 
 /// True when the travel in another unit would be nearer to the workpiece's: then it is that.

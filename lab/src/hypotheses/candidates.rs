@@ -1,5 +1,7 @@
 //! Which effects can be tried on a measurement, and where their nonlinear parameters may lie.
 
+use std::cell::LazyCell;
+
 use helixlock_plant::{CATALOGUE, Entry, Formula, Parameter, Role, Search, Term};
 
 use super::unfolding::unfolded;
@@ -150,14 +152,13 @@ fn keep_resolved(problem: &Problem, candidate: &mut Candidate) {
     if candidate.term.parameters.iter().all(|what| what.search != Search::Whole) {
         return;
     }
-    let places = problem.places();
+    let places = LazyCell::new(|| problem.places());
     let is_told = |point| {
         let waves = Component::new(candidate.at(point)).waves_a_turn(problem);
         waves <= problem.highest_order || places.as_ref().is_some_and(|at| resolves(at, waves))
     };
-    let told: Vec<bool> = (0..candidate.grid.len()).map(is_told).collect();
-    let mut told = told.into_iter();
-    candidate.grid.retain(|_| told.next().unwrap_or(false));
+    let told = (0..candidate.grid.len()).filter(|point| is_told(*point));
+    candidate.grid = told.map(|point| candidate.grid[point].clone()).collect();
 }
 
 /// Axes along which the curve of an effect turns, with their values; of an instant, all gaps between

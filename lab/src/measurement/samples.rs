@@ -128,6 +128,11 @@ impl Measurement {
         inside.map(speed).filter(|(_, rpm)| rpm.is_finite() && 0.0 < *rpm)
     }
 
+    /// Speed that a row was told, by its column or else the nominal one, rpm.
+    pub(crate) fn told_rpm(&self, row: usize, nominal_rpm: f64) -> f64 {
+        if self.speed_told { self.samples.speed_rpm[row] } else { nominal_rpm }
+    }
+
     /// Median over the way of a speed of each row, given with its own by the clock, rpm: over the
     /// rows it would be that of a trembling axis where it dwells.
     pub(crate) fn over_the_way(&self, speed: impl Fn(usize, f64) -> f64) -> f64 {

@@ -31,10 +31,7 @@ impl Problem {
     fn goes_as_told(&self) -> bool {
         let measurement = &self.measurement;
         let nominal = self.model.spindle.speed_rpm;
-        let told = |row: usize| {
-            if measurement.speed_told { measurement.speed_rpm[row] } else { nominal }
-        };
-        let share = measurement.over_the_way(|row, rpm| rpm / told(row));
+        let share = measurement.over_the_way(|row, rpm| rpm / measurement.told_rpm(row, nominal));
         measurement.timed && libm::log(share).abs() < PASSING
     }
 

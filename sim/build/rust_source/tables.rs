@@ -45,7 +45,8 @@ impl Table {
         order: &[usize],
         places: &BTreeMap<usize, u32>,
     ) -> Vec<u64> {
-        let cone = self.cone(plan);
+        let functions = self.functions.iter().copied();
+        let cone = &plan.cone_up_to(functions, &self.entering) - &self.entering;
         let mut values = vec![0; plan.words.all().len()];
         let entry = |index: usize| {
             for (place, word) in order.iter().enumerate() {
@@ -57,18 +58,6 @@ impl Table {
             self.functions.iter().map(|word| values[*word] << places[word]).sum()
         };
         (0..1 << order.len()).map(entry).collect()
-    }
-
-    /// The words between what enters and what is looked up, in order.
-    fn cone(&self, plan: &Plan) -> BTreeSet<usize> {
-        let mut cone = BTreeSet::new();
-        let mut open = self.functions.clone();
-        while let Some(word) = open.pop() {
-            if !self.entering.contains(&word) && cone.insert(word) {
-                open.extend(&plan.words.all()[word].operands);
-            }
-        }
-        cone
     }
 }
 

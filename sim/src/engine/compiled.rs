@@ -119,13 +119,6 @@ impl<'a, K: DenseKernel> Compiled<'a, K> {
         self.evaluated.forget();
     }
 
-    /// All registers, up to date.
-    fn registers(&self) -> K::Registers {
-        let mut registers = self.registers.clone();
-        K::unpack(self.known, &mut registers);
-        registers
-    }
-
     fn watched_values(&mut self) -> Vec<u64> {
         match &self.watched_outputs {
             Some(indices) => {
@@ -161,12 +154,15 @@ impl<K: DenseKernel> Engine for Compiled<'_, K> {
     fn value(&mut self, signal: SignalId) -> u64 {
         match self.circuit.place(signal) {
             Place::Input(index) => self.inputs.as_ref()[index],
-            Place::Register(index) => self.registers().as_ref()[index],
+            Place::Register(index) => {
+                K::unpack(self.known, &mut self.registers);
+                self.registers.as_ref()[index]
+            }
             Place::Net(_) | Place::Logic => {
                 if !self.evaluated.is_fresh() {
-                    let registers = self.registers();
-                    let inputs = self.inputs.as_ref();
-                    self.evaluated.renew(&K::default(), inputs, registers.as_ref());
+                    K::unpack(self.known, &mut self.registers);
+                    let (inputs, registers) = (self.inputs.as_ref(), self.registers.as_ref());
+                    self.evaluated.renew(&K::default(), inputs, registers);
                 }
                 self.evaluated.values()[signal.0 as usize]
             }
@@ -200,7 +196,9 @@ impl<K: DenseKernel> Engine for Compiled<'_, K> {
     }
 
     fn flip_flops(&self) -> FlipFlops {
-        pack(self.circuit.netlist(), self.registers().as_ref().iter().copied())
+        let mut registers = self.registers.clone();
+        K::unpack(self.known, &mut registers);
+        pack(self.circuit.netlist(), registers.as_ref().iter().copied())
     }
 
     fn snapshot(&self) -> Snapshot {
