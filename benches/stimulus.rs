@@ -18,7 +18,7 @@ pub(crate) struct PinEvent {
 pub(crate) fn pass(netlist: &Netlist, clocks: u64, speed_rpm: f64, clock_hz: f64) -> Vec<PinEvent> {
     let turns_per_clock = speed_rpm / 60.0 / clock_hz;
     let fringes_per_turn = 6.0 / (0.632_819_83e-3 / 2.0) * (1.0 + 20e-6);
-    let mut events = settings(netlist, clock_hz);
+    let mut events = settings(netlist, correcting(clock_hz));
     for (pin, per_turn) in [("grating", 13906.0), ("laser", fringes_per_turn)] {
         square_wave(&mut events, pin_of(netlist, pin), 0.5 / (per_turn * turns_per_clock), clocks);
     }
@@ -29,7 +29,7 @@ pub(crate) fn pass(netlist: &Netlist, clocks: u64, speed_rpm: f64, clock_hz: f64
 /// Pulses every eight clocks on both inputs, now and then one clock later, a short step period: the
 /// logic never rests.
 pub(crate) fn dense(netlist: &Netlist, clocks: u64) -> Vec<PinEvent> {
-    let mut events = settings(netlist, 500.0);
+    let mut events = settings(netlist, correcting(500.0));
     square_wave(&mut events, pin_of(netlist, "grating"), 4.01, clocks);
     square_wave(&mut events, pin_of(netlist, "laser"), 3.99, clocks);
     events.sort_by_key(|event| event.clock);
@@ -39,8 +39,29 @@ pub(crate) fn dense(netlist: &Netlist, clocks: u64) -> Vec<PinEvent> {
 /// Held in reset, where the conditions of all registers are met at every clock and nothing changes.
 #[allow(dead_code, reason = "the peers' run alone has a use for it")]
 pub(crate) fn held(netlist: &Netlist) -> Vec<PinEvent> {
-    let mut events = settings(netlist, 500.0);
+    let mut events = settings(netlist, correcting(500.0));
     events.push(PinEvent { clock: 10, pin: pin_of(netlist, "master_reset"), value: 1 });
+    events
+}
+
+/// The most that the device can be made to do: one input changes at every clock and the other at every
+/// second, each pulse is compared and steps the motor, the compensator inserts at every wrap of its
+/// shortest count. No block rests.
+#[allow(dead_code, reason = "the peers' run alone has a use for it")]
+pub(crate) fn all_active(netlist: &Netlist, clocks: u64) -> Vec<PinEvent> {
+    let shortest = Settings {
+        a: 1,
+        b: 1,
+        range: Range::X1,
+        initial_phase: 0,
+        compensation_f: 1000,
+        insert: true,
+        step_period: 1,
+    };
+    let mut events = settings(netlist, shortest);
+    square_wave(&mut events, pin_of(netlist, "grating"), 1.0, clocks);
+    square_wave(&mut events, pin_of(netlist, "laser"), 2.0, clocks);
+    events.sort_by_key(|event| event.clock);
     events
 }
 
@@ -48,7 +69,7 @@ pub(crate) fn held(netlist: &Netlist) -> Vec<PinEvent> {
 /// cannot be foreseen, not by a processor's branch predictor either.
 #[allow(dead_code, reason = "the peers' run alone has a use for it")]
 pub(crate) fn irregular(netlist: &Netlist, clocks: u64) -> Vec<PinEvent> {
-    let mut events = settings(netlist, 500.0);
+    let mut events = settings(netlist, correcting(500.0));
     // The multiplicative generator of Park and Miller (1988).
     let mut state = 1977_u64;
     for pin in ["grating", "laser"].map(|name| pin_of(netlist, name)) {
@@ -76,8 +97,9 @@ pub(crate) fn drive(engine: &mut dyn Engine, events: &[PinEvent], clocks: u64) {
     engine.run_until(clocks);
 }
 
-fn settings(netlist: &Netlist, clock_hz: f64) -> Vec<PinEvent> {
-    let settings = Settings {
+/// The 6 mm screw, ×2.
+fn correcting(clock_hz: f64) -> Settings {
+    Settings {
         a: 110,
         b: 150,
         range: Range::X2,
@@ -85,7 +107,10 @@ fn settings(netlist: &Netlist, clock_hz: f64) -> Vec<PinEvent> {
         compensation_f: 156_000,
         insert: false,
         step_period: step_period(clock_hz),
-    };
+    }
+}
+
+fn settings(netlist: &Netlist, settings: Settings) -> Vec<PinEvent> {
     let named = settings.wheels().expect("the settings are in range").named();
     let switches = [("start", 1), ("correct", 1)];
     let levels = named.into_iter().chain(switches);

@@ -27,7 +27,7 @@ use std::path::Path;
 use helixlock_sim::device;
 
 use crate::build::Peer;
-use crate::stimulus::{PinEvent, dense, held, irregular, pass};
+use crate::stimulus::{PinEvent, all_active, dense, held, irregular, pass};
 use crate::table::Column;
 
 /// Runs of each engine; the quickest counts.
@@ -61,6 +61,12 @@ fn main() -> anyhow::Result<()> {
         Work {
             name: "held in reset",
             events: held(netlist),
+            clocks: 2_000_000,
+            clocks_for_slow: 50_000,
+        },
+        Work {
+            name: "all active",
+            events: all_active(netlist, 2_000_000),
             clocks: 2_000_000,
             clocks_for_slow: 50_000,
         },
