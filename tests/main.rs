@@ -20,6 +20,7 @@ mod digital_comparison;
 mod direction_discriminator;
 mod documentation;
 mod documented_waveforms;
+mod each_way;
 mod effects_by_card;
 mod effects_in_the_loop;
 mod even_rows;

@@ -227,7 +227,8 @@ pub(super) fn in_time(all: &Quantities) -> Vec<Shape> {
     let (start, _) = from_start(t);
     let share = start.clone() / unknown(0);
     let passes = all.passes;
-    let widths = by_factors(0.005 * range / count(passes), 0.1 * range / count(passes), 4);
+    let pass = range / count(passes);
+    let widths = by_factors(0.005 * pass, 0.1 * pass, 4);
     let mut shapes = vec![
         shape("step at one moment", "time", "something slipped or was knocked and stayed so")
             .unknown("at_s", s, inside(moments(t, 200)))
@@ -260,10 +261,12 @@ pub(super) fn in_time(all: &Quantities) -> Vec<Shape> {
             .curve("size", bell(off)),
         );
         let off = call(Function::Abs, of(t) - unknown(0));
+        // As dense over several passes as over one, where it stands in the place of effects, too.
+        let halves = if passes == 1 { 8 } else { 12 };
         shapes.push(
             shape("spell at another level", "time", "something gave way and came back")
                 .unknown("at_s", s, moments(t, 48 * passes.min(MOST_PASSES)))
-                .unknown("half_s", s, by_factors(0.02 * range, 0.22 * range, 8))
+                .unknown("half_s", s, by_factors(0.02 * pass, 0.22 * range, halves))
                 .placed()
                 .curve("size", call(Function::Step, unknown(1) - off)),
         );
@@ -271,17 +274,40 @@ pub(super) fn in_time(all: &Quantities) -> Vec<Shape> {
     shapes
 }
 
-/// A slope that settles as a screw or scale warms, where a place is met at several moments.
-pub(super) fn warming(all: &Quantities) -> Option<Shape> {
+/// Slopes and bows that come or settle in time as a screw, scale or bed warms, where a place is met at
+/// several moments.
+pub(super) fn warming(all: &Quantities) -> Vec<Shape> {
+    if !(all.have_places() && all.tell_moments_from_places()) {
+        return Vec::new();
+    }
     let (x, t) = (&all.position, &all.time);
     let range = spread(&t.values);
-    let (start, _) = from_start(t);
-    (all.have_places() && all.tell_moments_from_places()).then(|| {
+    let constants = |points| by_factors(0.02 * range, 2.0 * range, points);
+    let gone =
+        |since: Expression, constant| call(Function::Exp, number(-1.0) * since / unknown(constant));
+    let start = || from_start(t).0;
+    let (middle, _) = about_middle(x);
+    let bow = || Expression::Power(Box::new(middle.clone()), 2);
+    let since = || ramp(of(t) - unknown(0));
+    vec![
         shape("slope that settles in time", "time", "a screw, scale or bed that warms as it runs")
-            .unknown("constant_s", &t.dimension, by_factors(0.02 * range, 2.0 * range, 16))
+            .unknown("constant_s", &t.dimension, constants(16))
             .curve("slope", of(x))
-            .curve("size", of(x) * call(Function::Exp, number(-1.0) * start / unknown(0)))
-    })
+            .curve("size", of(x) * gone(start(), 0)),
+        shape("bow that settles in time", "time", "a bed or beam that is warmed from one side")
+            .unknown("constant_s", &t.dimension, constants(16))
+            .curve("level", of(t))
+            .curve("slope", of(x))
+            .curve("bow", bow())
+            .curve("tilt", middle.clone() * gone(start(), 0))
+            .curve("size", bow() * gone(start(), 0)),
+        shape("slope from one moment on", "time", "coolant, sun or a heater on a scale or screw")
+            .unknown("at_s", &t.dimension, moments(t, 40))
+            .unknown("constant_s", &t.dimension, constants(6))
+            .placed()
+            .curve("slope", of(x))
+            .curve("size", of(x) * (number(1.0) - gone(since(), 1))),
+    ]
 }
 
 /// Powers along travel and time, and a decay in time.
@@ -338,18 +364,38 @@ pub(super) fn of_each_pass(all: &Quantities) -> Vec<Shape> {
                 .curve("slope", of(x))
                 .curve("size", of(way) * of(x)),
         );
+        let (middle, _) = about_middle(x);
+        shapes.push(
+            shape("each way its own bow", "direction", "a flexure or a carriage that gives way")
+                .curve("play", of(way))
+                .curve("slope", of(way) * middle.clone())
+                .curve("size", of(way) * Expression::Power(Box::new(middle), 2)),
+        );
     }
     let longest = spread(&since.values);
+    let over = || by_factors(0.005 * longest, 0.5 * longest, 12);
+    let gone = || call(Function::Exp, number(-1.0) * of(since) / unknown(0));
+    if 0.0 < longest && 0.0 < spread(&way.values) {
+        shapes.push(
+            shape(
+                "taken up after each start",
+                "way since the start",
+                "play or wind-up that is taken up over a way, each pass the other way",
+            )
+            .unknown("over_mm", &x.dimension, over())
+            .curve("play", of(way))
+            .curve("size", of(way) * gone()),
+        );
+    }
     if 0.0 < longest && (1 < all.passes || 0.0 < spread(&way.values)) {
-        let gone = number(-1.0) * of(since) / unknown(0);
         shapes.push(
             shape(
                 "settles after the start of a pass",
                 "way since the start",
                 "a table that runs in, oil that is pressed out",
             )
-            .unknown("over_mm", &x.dimension, by_factors(0.005 * longest, 0.5 * longest, 12))
-            .curve("size", call(Function::Exp, gone)),
+            .unknown("over_mm", &x.dimension, over())
+            .curve("size", gone()),
         );
     }
     shapes

@@ -1,0 +1,46 @@
+//! What there and back do not share, in passes that run by turns, is told and no noise.
+#![expect(clippy::cast_precision_loss, reason = "some hundred rows")]
+
+use helixlock_lab::Diagnosis;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+use crate::support::diagnosed::{self, is_nobodys};
+
+/// Four passes of two hundred rows by turns there and back, with noise of 0.1 µm and an error, µm, of
+/// direction, way since the start of the pass and place, mm.
+fn by_turns(seed: u64, error_um: &dyn Fn(f64, f64, f64) -> f64) -> Diagnosis {
+    let mut chance = ChaCha8Rng::seed_from_u64(seed);
+    let mut columns = [vec![], vec![], vec![], vec![]];
+    for pass in 0..4 {
+        let way = if pass % 2 == 0 { 1.0 } else { -1.0 };
+        for row in 0..200 {
+            let gone = 2.0 * row as f64;
+            let mm = if pass % 2 == 0 { gone } else { 398.0 - gone };
+            let noise: f64 = StandardNormal.sample(&mut chance);
+            let error = 0.1 * noise + error_um(way, gone, mm);
+            let cells = [pass as f64, 300.0 * pass as f64 + gone / 2.0, mm, error];
+            columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+        }
+    }
+    let names = ["pass", "time_s", "position_mm", "error_um"];
+    diagnosed::diagnosed(names.into_iter().zip(columns).collect())
+}
+
+/// The loop of a flexure: noise of a pass's length follows it, but not the same way every time.
+#[test]
+fn a_lens_between_there_and_back_is_no_noise() {
+    is_nobodys(|seed| {
+        by_turns(seed, &|way, _, mm| {
+            let x = mm / 199.0 - 1.0;
+            0.15 * way * (1.0 - x * x)
+        })
+    });
+}
+
+/// Play that a nut takes up over a way from each start on.
+#[test]
+fn play_that_each_start_takes_up_is_no_noise() {
+    is_nobodys(|seed| by_turns(seed, &|way, gone, _| -0.4 * way * libm::exp(-gone / 40.0)));
+}
