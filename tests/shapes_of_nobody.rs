@@ -51,6 +51,50 @@ fn a_knock_in_one_pass_is_neither_wear_nor_noise() {
     is_nobodys(&|pass, mm| if pass == 1 { 2.0 * bell((mm - 230.0) / 12.0) } else { 0.0 });
 }
 
+/// Seven rows of one pass of three, lifted by sixty times the noise: the larger a spell is, the more it
+/// looks like noise with a memory of seven rows.
+#[test]
+fn a_short_spell_in_one_pass_is_no_noise() {
+    is_nobodys(&|pass, mm| if pass == 1 && (230.0..247.0).contains(&mm) { 3.0 } else { 0.0 });
+}
+
+/// Three humps of one size: a bump takes one, and what is left takes it as well.
+#[test]
+fn one_hump_of_three_is_no_wear() {
+    is_nobodys(&|_, mm| [150.0, 320.0, 500.0].map(|at| 0.4 * bell((mm - at) / 20.0)).iter().sum());
+}
+
+/// The sun on one side of a bed: an arc that comes with the hours follows a screw of changing lead.
+#[test]
+fn a_bow_that_comes_in_time_is_nobodys() {
+    is_nobodys(&|pass, mm| {
+        let (x, hours) = (mm / 625.0, pass as f64 + mm / 1600.0);
+        2.0 * x * (1.0 - x) * (1.0 - libm::exp(-hours))
+    });
+}
+
+/// Coolant comes on: a scale shrinks from then on over all of its length.
+#[test]
+fn a_slope_from_one_moment_on_is_nobodys() {
+    is_nobodys(&|pass, mm| {
+        let since_s = (400.0 * pass as f64 + mm / 4.0 - 470.0).max(0.0);
+        -1e-3 * mm * (1.0 - libm::exp(-since_s / 60.0))
+    });
+}
+
+/// A spell of four fringes and a half, which are as far from whole lines, in fourteen rows: the whole
+/// numbers on either side are none.
+#[test]
+fn half_a_fringe_is_no_slip() {
+    let spell = |pass, mm| {
+        let lifted = pass == 1 && (230.0..265.0).contains(&mm);
+        if lifted { 4.5 * 0.316_409_915 } else { 0.0 }
+    };
+    for seed in 0..SEEDS {
+        assert_eq!(names(&with_shape(seed, &spell)), Vec::<&str>::new(), "{seed}");
+    }
+}
+
 /// A dent with the metal beside it: a bump follows one half.
 #[test]
 fn a_dent_with_its_rim_is_no_wear() {

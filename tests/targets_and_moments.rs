@@ -200,3 +200,25 @@ fn a_wave_without_a_name_confuses_no_effect_beside_it() {
     let at = found.residual.iter().filter_map(|one| one.at);
     assert!(at.clone().all(|order| order < 1203.0), "{:?}", at.collect::<Vec<_>>());
 }
+
+/// Two runs over twenty targets with errors of their own: what the second repeats is no noise, however few
+/// targets there are, and no wave or curve.
+#[test]
+fn errors_of_targets_that_a_second_run_repeats_are_no_noise() {
+    let mut drawn = white(1, 1.0);
+    let own: Vec<f64> = (0..20).map(|_| drawn()).collect();
+    for seed in 2..8 {
+        let mut noise = white(seed, 0.1);
+        let [mut pass, mut place, mut error] = [const { Vec::new() }; 3];
+        for run in [0.0, 1.0] {
+            for (target, own) in (0..20_u32).zip(&own) {
+                pass.push(run);
+                place.push(10.0 * f64::from(target));
+                error.push(own + noise());
+            }
+        }
+        let told = diagnosed(vec![("pass", pass), ("position_mm", place), ("error_um", error)]);
+        assert_eq!(told.verdict, Verdict::Unexplained, "{seed}");
+        assert_eq!(names(&told), Vec::<&str>::new(), "{seed}");
+    }
+}

@@ -3,6 +3,7 @@
 
 mod acceptance;
 mod analysis;
+mod beside_the_rest;
 mod court;
 mod likeness;
 mod own_errors;
@@ -13,7 +14,8 @@ mod rivals;
 mod uneven;
 
 pub(crate) use analysis::{Step, search, take_for_a_shape};
-pub(crate) use court::{Claim, Winner, claims, hear, nobodys};
+pub(crate) use beside_the_rest::not_told;
+pub(crate) use court::{Claim, claims, hear, nobodys};
 pub(crate) use own_errors::own_errors;
 pub(crate) use polish::polished;
 pub(crate) use pruning::{Dropped, pruned, pruned_in_doubt};

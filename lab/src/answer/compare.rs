@@ -3,7 +3,7 @@
 use helixlock_plant::prediction::Sensor;
 
 use crate::doubts::{Doubt, doubts};
-use crate::hypotheses::{Structure, all_structures, no_larger_than, taken_for_noise};
+use crate::hypotheses::{Structure, all_structures, no_all_clear, no_larger_than, taken_for_noise};
 use crate::model::{Problem, State};
 use crate::noise::{Noise, effective_samples, rms};
 use crate::numerics::{count, median, spread};
@@ -112,8 +112,10 @@ fn compared(problem: &Problem) -> Comparison {
     let state = State::bare(small);
     let mut along = all_structures(small, &state.columns, &state.fit);
     let noise_p_value = along.first().map_or(1.0, |first| first.p_value);
-    let taken = taken_for_noise(small, &state.fit, &along);
-    let noise_only = SIGNIFICANCE < noise_p_value && taken.is_none();
+    let by_chance = SIGNIFICANCE < noise_p_value;
+    let slow = || no_all_clear(small, &state.fit).filter(|_| by_chance);
+    let taken = taken_for_noise(small, &state.fit, &along).or_else(slow);
+    let noise_only = by_chance && taken.is_none();
     along.splice(..0, taken);
     no_larger_than(rms(&small.layout, &state.fit.left), &mut along);
     let residual = problem.residual();

@@ -8,8 +8,8 @@ use rayon::prelude::*;
 use super::experiment::{self, Advice};
 use crate::doubts::{Doubt, doubts};
 use crate::hypotheses::{
-    Likelihood, Structure, at_targets, disagreements, is_left, no_larger_than, samples_a_pass,
-    structures,
+    Likelihood, Structure, at_targets, disagreements, is_left, no_all_clear, no_larger_than,
+    samples_a_pass, structures,
 };
 use crate::model::{
     Component, JointCovariance, Judged, Problem, State, holdout_rms, joint_covariance,
@@ -19,7 +19,7 @@ use crate::numerics::least_squares::covariance_rows;
 use crate::policy::chance::{AT_AN_END, STANDARD_ERRORS};
 use crate::policy::extent::SEARCHED_ROWS;
 use crate::search::{
-    Dropped, Refusal, Rivals, Step, Winner, hear, nobodys, own_errors, polished, pruned,
+    Dropped, Refusal, Rivals, Step, hear, nobodys, not_told, own_errors, polished, pruned,
     pruned_in_doubt, rivals, search, take_for_a_shape,
 };
 
@@ -199,20 +199,14 @@ fn searched(problem: &Problem) -> Diagnosis {
     let heard = hear(&small, last, &found);
     residual.extend(nobodys(&small, &steps));
     residual.extend(disagreements(&small, last));
-    for (index, witness) in heard.witnesses {
-        if let Some(rivals) = found.iter_mut().find(|rivals| rivals.index == index) {
-            rivals.confused.push(witness);
-        }
-    }
+    confuse(&mut found, heard.witnesses);
+    let problems = (&problem, &small);
     if let Some(winner) = heard.winner {
-        let last = &states[states.len() - 1];
-        if let Some((step, state)) = beaten(&problem, &small, last, &winner) {
-            found = besides(found, &out_of(last, &state));
-            steps.push(step);
-            states.push(state);
-        }
+        found = take_out(problems, (&mut steps, &mut states), (&winner.beaten, BEATEN), found);
         residual.push(winner.shown);
     }
+    let not_told = not_told(&small, &steps, &residual);
+    found = take_out(problems, (&mut steps, &mut states), (&not_told, NOT_TOLD), found);
     let last = &steps[steps.len() - 1].state;
     let experiments = experiment::advice(&small, last, &found);
     let state = &states[states.len() - 1];
@@ -221,6 +215,9 @@ fn searched(problem: &Problem) -> Diagnosis {
     let of_means_um = rms(&small.layout, &last.fit.left);
     no_larger_than(noise_um, &mut residual);
     residual.extend(of_targets);
+    if state.components.is_empty() && residual.is_empty() {
+        residual.extend(no_all_clear(&problem, &state.fit));
+    }
     add_scatter(&mut candidates, (noise_um * noise_um - of_means_um * of_means_um).max(0.0));
     Diagnosis {
         verdict: verdict(state, &found, &residual),
@@ -233,6 +230,15 @@ fn searched(problem: &Problem) -> Diagnosis {
         experiments,
         before: problem.residual(),
         left: states.pop().map(|state| state.fit.left).unwrap_or_default(),
+    }
+}
+
+/// Adds what rivals effects without beating them.
+fn confuse(found: &mut [Rivals], witnesses: Vec<(usize, String)>) {
+    for (index, witness) in witnesses {
+        if let Some(rivals) = found.iter_mut().find(|rivals| rivals.index == index) {
+            rivals.confused.push(witness);
+        }
     }
 }
 
@@ -281,24 +287,40 @@ fn without_dropped(small: &Problem, state: State, dropped: Vec<Dropped>) -> Opti
     Some((Step::to(state.on(small)?, None, dropped), state))
 }
 
-/// One more step without the effects in whose place a shape without a name explains more, and
-/// without those that are superfluous then.
-fn beaten(
-    problem: &Problem,
-    small: &Problem,
-    last: &State,
-    winner: &Winner,
-) -> Option<(Step, State)> {
-    if winner.beaten.is_empty() {
-        return None;
+/// Why an effect is taken out in whose place a shape without a name explains more.
+const BEATEN: &str = "a shape without a name explains more in its place";
+
+/// Why an effect is taken out that is not needed beside what is left.
+const NOT_TOLD: &str = "not told from what is left";
+
+/// Goes one more step without some effects, and without those that are superfluous then; the rivals
+/// of those that stay.
+fn take_out(
+    (problem, small): (&Problem, &Problem),
+    (steps, states): (&mut Vec<Step>, &mut Vec<State>),
+    (out, reason): (&[usize], &str),
+    found: Vec<Rivals>,
+) -> Vec<Rivals> {
+    if out.is_empty() {
+        return found;
     }
-    let dropped = winner.beaten.iter().map(|&index| Dropped {
+    let last = &states[states.len() - 1];
+    let dropped = out.iter().map(|&index| Dropped {
         name: last.components[index].term.name.clone(),
-        reason: "a shape without a name explains more in its place".to_owned(),
+        reason: reason.to_owned(),
     });
-    let state = State::settled(problem, last.without(&winner.beaten), &last.fit.noises)?;
+    let Some(state) = State::settled(problem, last.without(out), &last.fit.noises) else {
+        return found;
+    };
     let (state, useless) = pruned(problem, state);
-    without_dropped(small, state, dropped.chain(useless).collect())
+    let Some((step, state)) = without_dropped(small, state, dropped.chain(useless).collect())
+    else {
+        return found;
+    };
+    let found = besides(found, &out_of(last, &state));
+    steps.push(step);
+    states.push(state);
+    found
 }
 
 /// Places of the effects of a state that another one has no more.

@@ -42,6 +42,8 @@ pub struct Structure {
     pub at_stderr: Option<f64>,
     /// The line, when it is one.
     pub line: Option<Line>,
+    /// Columns that draw it, row by row, in any size; none where no columns do.
+    pub(crate) drawn_by: Vec<Column>,
 }
 
 impl Structure {
@@ -55,7 +57,13 @@ impl Structure {
     /// Structure along a coordinate that stands at no particular place of it.
     pub(crate) fn without_place(along: &str, shape: &str, rms_um: f64, p_value: f64) -> Self {
         let (along, shape) = (along.to_owned(), shape.to_owned());
-        Self { along, shape, rms_um, p_value, at: None, at_stderr: None, line: None }
+        let (at, at_stderr, line, drawn_by) = (None, None, None, Vec::new());
+        Self { along, shape, rms_um, p_value, at, at_stderr, line, drawn_by }
+    }
+
+    /// The same with the columns that draw it.
+    pub(crate) fn drawn_by(self, columns: Vec<Column>) -> Self {
+        Self { drawn_by: columns, ..self }
     }
 }
 
@@ -185,7 +193,7 @@ fn smooth(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
             BUMP_ORDER => "local bump or wave",
             _ => "wave whose length changes, or several bumps",
         };
-        found.push(Structure::without_place(along, shape, rms_um, p_value));
+        found.push(Structure::without_place(along, shape, rms_um, p_value).drawn_by(raw));
     }
     found.extend(smooth_in_passes(problem, model, fit));
     found
@@ -207,11 +215,12 @@ fn smooth_in_passes(problem: &Problem, model: &Columns, fit: &Fit) -> Option<Str
             raw.push(whole);
         }
     }
-    let (rms_um, chance) = probe(problem, model, fit, &stacked(problem, &raw));
+    let raw = stacked(problem, &raw);
+    let (rms_um, chance) = probe(problem, model, fit, &raw);
     let p_value =
         if far_above(rms_um, weighed_rms(&problem.layout, &fit.left)) { chance } else { 1.0 };
     let shape = "smooth curve, another in each pass";
-    Some(Structure::without_place("position", shape, rms_um, p_value))
+    Some(Structure::without_place("position", shape, rms_um, p_value).drawn_by(raw))
 }
 
 /// Anything at all that comes back at the same place in another pass.
@@ -230,7 +239,7 @@ pub(crate) fn at_targets(problem: &Problem, model: &Columns, fit: &Fit) -> Optio
         return None;
     }
     let (rms_um, p_value) = probe(problem, model, fit, &raw);
-    Some(Structure::without_place("position", AT_TARGETS, rms_um, p_value))
+    Some(Structure::without_place("position", AT_TARGETS, rms_um, p_value).drawn_by(raw))
 }
 
 /// Several jumps, wherever they are.
@@ -278,9 +287,10 @@ fn cyclic_shapes(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure
     axes.into_iter()
         .filter(|(_, order)| enough(order))
         .map(|(along, order)| {
-            let (rms_um, p_value) =
-                probe(problem, model, fit, &stacked(problem, &turning(&turns, order)));
+            let raw = stacked(problem, &turning(&turns, order));
+            let (rms_um, p_value) = probe(problem, model, fit, &raw);
             Structure::without_place(along, "shape that repeats each turn", rms_um, p_value)
+                .drawn_by(raw)
         })
         .collect()
 }
@@ -339,17 +349,11 @@ fn step(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
         let (rms_um, p_value) = probe(problem, model, fit, &raw);
         let mut p_value = (p_value * count(places.len())).min(1.0);
         if matters(problem, fit, rms_um, p_value) {
-            p_value = p_value.max(step_with_tails(problem, model, fit, raw, places.len()));
+            let with_tails = step_with_tails(problem, model, fit, raw.clone(), places.len());
+            p_value = p_value.max(with_tails);
         }
-        found.push(Structure {
-            along: along.to_owned(),
-            shape: "step".to_owned(),
-            rms_um,
-            p_value,
-            at: Some(place),
-            at_stderr: None,
-            line: None,
-        });
+        let told = Structure::without_place(along, "step", rms_um, p_value).drawn_by(raw);
+        found.push(Structure { at: Some(place), ..told });
     }
     found
 }
@@ -397,9 +401,9 @@ fn covariates(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
         .into_iter()
         .filter(|(_, values)| 0.0 < spread(values))
         .map(|(name, values)| {
-            let (rms_um, p_value) =
-                probe(problem, model, fit, &stacked(problem, std::slice::from_ref(values)));
-            Structure::without_place(name, "straight relation", rms_um, p_value)
+            let raw = stacked(problem, std::slice::from_ref(values));
+            let (rms_um, p_value) = probe(problem, model, fit, &raw);
+            Structure::without_place(name, "straight relation", rms_um, p_value).drawn_by(raw)
         })
         .collect()
 }
@@ -414,7 +418,7 @@ fn curves_of_logs(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structur
         .map(|(name, values)| {
             let raw = stacked(problem, &chebyshev(values, CURVE_OF_A_LOG));
             let (rms_um, p_value) = probe(problem, model, fit, &raw);
-            Structure::without_place(name, "curve over the column", rms_um, p_value)
+            Structure::without_place(name, "curve over the column", rms_um, p_value).drawn_by(raw)
         })
         .collect()
 }

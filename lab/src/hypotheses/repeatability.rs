@@ -1,5 +1,7 @@
 //! Whether a residual comes back at the same place in another pass, whatever its shape.
 
+use std::ops::Range;
+
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::model::{Fit, Problem};
@@ -8,9 +10,12 @@ use crate::numerics::count;
 use crate::numerics::least_squares::dot;
 use crate::policy::extent::COMMON_SAMPLES;
 
-/// Mean correlation of neighbouring passes, and its chance in independent noise.
+/// Correlation of what is the same but for rounding.
+const MOST: f64 = 1.0 - 1e-9;
+
+/// Mean correlation of neighbouring ways, and its chance in independent noise.
 ///
-/// Passes are compared two by two on the whitened residual, the second interpolated to the places
+/// Passes, or their ways there and back, are compared two by two on the whitened residual, the second interpolated to the places
 /// of the first. The standard error of a correlation allows for what autocorrelation is left in
 /// both (Bartlett 1946). `None` without two passes over the same travel.
 #[must_use]
@@ -24,11 +29,12 @@ pub(crate) fn repeatability(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> 
             .blocks
             .iter()
             .filter(|block| block.sensor == sensor)
-            .filter_map(|block| along_travel(problem, &white, block.rows.clone()))
+            .flat_map(|block| one_way(problem, block.rows.clone()))
+            .filter_map(|rows| along_travel(problem, &white, rows))
             .collect();
         for pair in passes.chunks_exact(2) {
             let Some((correlation, deviation)) = correlation(&pair[0], &pair[1]) else { continue };
-            score += correlation / deviation;
+            score += transformed(correlation, deviation);
             correlations += correlation;
             pairs += 1.0;
         }
@@ -40,12 +46,25 @@ pub(crate) fn repeatability(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> 
     Some((correlations / pairs, normal.sf(score / f64::sqrt(pairs))))
 }
 
-/// `(place, residual)` sorted by place; `None` for a pass that turns back or stands.
-fn along_travel(
-    problem: &Problem,
-    white: &[f64],
-    rows: std::ops::Range<usize>,
-) -> Option<Vec<(f64, f64)>> {
+/// A correlation as a deviate of the normal law: Fisher's transformation, of as many independent
+/// samples as its standard deviation says (Fisher 1921, *On the probable error of a coefficient of
+/// correlation deduced from a small sample*, Metron 1:3).
+fn transformed(correlation: f64, deviation: f64) -> f64 {
+    let samples = 1.0 / (deviation * deviation);
+    libm::atanh(correlation.clamp(-MOST, MOST)) * (samples - 3.0).max(0.0).sqrt()
+}
+
+/// The rows of a pass from one reversal to the next.
+fn one_way(problem: &Problem, rows: Range<usize>) -> Vec<Range<usize>> {
+    let direction = |row: usize| problem.record.direction[problem.samples[row]];
+    let turns = rows.clone().skip(1).filter(|&row| direction(row) * direction(row - 1) < 0.0);
+    let ends: Vec<usize> = turns.chain([rows.end]).collect();
+    let starts = std::iter::once(rows.start).chain(ends.iter().copied());
+    starts.zip(&ends).map(|(start, &end)| start..end).collect()
+}
+
+/// `(place, residual)` sorted by place; `None` for a way that turns back or stands, or is short.
+fn along_travel(problem: &Problem, white: &[f64], rows: Range<usize>) -> Option<Vec<(f64, f64)>> {
     let place = |row: usize| problem.record.spindle_rad[problem.samples[row]];
     let mut points: Vec<(f64, f64)> = rows.clone().map(|row| (place(row), white[row])).collect();
     let forward = place(rows.start) < place(rows.end - 1);

@@ -7,7 +7,7 @@ use super::probes::Structure;
 use crate::model::{Fit, Problem};
 use crate::noise::{effective_samples, weighed_rms};
 use crate::numerics::count;
-use crate::policy::size::{SMOOTH_SHARE, WORTH_A_PASS};
+use crate::policy::size::{SMOOTH_SHARE, WORTH_A_PASS, WORTH_AN_ALL_CLEAR};
 
 /// The smooth curve that a noise as slow as the pass has taken for its own, if it is most of what
 /// is left; `all` is all that was looked for.
@@ -26,6 +26,17 @@ pub(crate) fn taken_for_noise(
     let curve = smooth.max_by(|a, b| a.rms_um.total_cmp(&b.rms_um))?;
     let shape = format!("smooth curve, or noise so slow that a pass is worth {worth:.1} samples");
     Some(Structure { shape, ..curve.clone() })
+}
+
+/// What a model without any effect leaves, where it is noise so slow that it may be a cause.
+///
+/// Where effects explain the rest such noise is the smaller part; an all-clear rests on it alone.
+#[must_use]
+pub(crate) fn no_all_clear(problem: &Problem, fit: &Fit) -> Option<Structure> {
+    let worth = samples_a_pass(problem, fit);
+    let shape = format!("noise so slow that a pass is worth {worth:.1} samples, or a slow cause");
+    let rms_um = weighed_rms(&problem.layout, &fit.left);
+    (worth < WORTH_AN_ALL_CLEAR).then(|| Structure::without_place("time", &shape, rms_um, 1.0))
 }
 
 /// Independent samples that a pass is worth about its mean, of the sensor that has the fewest.

@@ -15,10 +15,11 @@ pub(super) fn lines(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Struct
         for (along, coordinate, highest) in cyclic(problem) {
             let of = |fit: &Fit| {
                 let search = LineSearch { problem, fit, sensor, coordinate: &coordinate, highest };
-                Some(of_line(problem, along, search.strongest()?))
+                let line = search.strongest()?;
+                let drawn_by = wave(problem, sensor, &coordinate, line.frequency).raw;
+                Some(of_line(problem, along, line).drawn_by(drawn_by))
             };
-            let taken_out = |order| wave(problem, sensor, &coordinate, order);
-            found.extend(clearest_that_matters(problem, (model, fit), &of, &taken_out));
+            found.extend(clearest_that_matters(problem, (model, fit), &of));
         }
     }
     found
@@ -30,7 +31,6 @@ fn clearest_that_matters(
     problem: &Problem,
     (model, fit): (&Columns, &Fit),
     strongest: &impl Fn(&Fit) -> Option<Structure>,
-    taken_out: &impl Fn(f64) -> Columns,
 ) -> Option<Structure> {
     let first = strongest(fit)?;
     let (mut columns, mut now, mut line) = (model.clone(), fit.clone(), first.clone());
@@ -38,7 +38,7 @@ fn clearest_that_matters(
         if SIGNIFICANCE <= line.p_value || matters(problem, fit, line.rms_um, line.p_value) {
             break;
         }
-        columns = columns.and(&taken_out(line.at?));
+        columns = columns.and(&Columns::free(line.drawn_by));
         now = settle(problem, &columns, &now.noises);
         line = strongest(&now)?;
     }
@@ -46,15 +46,12 @@ fn clearest_that_matters(
 }
 
 fn of_line(problem: &Problem, along: &str, line: Line) -> Structure {
-    Structure {
-        along: along.to_owned(),
-        shape: format!("sinusoid of amplitude {:.3}", line.amplitude),
-        rms_um: line.amplitude / std::f64::consts::SQRT_2,
-        p_value: (probes(problem) * line.p_value).min(1.0),
-        at: Some(line.frequency),
-        at_stderr: Some(line.frequency_stderr),
-        line: Some(line),
-    }
+    let shape = format!("sinusoid of amplitude {:.3}", line.amplitude);
+    let rms_um = line.amplitude / std::f64::consts::SQRT_2;
+    let p_value = (probes(problem) * line.p_value).min(1.0);
+    let told = Structure::without_place(along, &shape, rms_um, p_value);
+    let (at, at_stderr) = (Some(line.frequency), Some(line.frequency_stderr));
+    Structure { at, at_stderr, line: Some(line), ..told }
 }
 
 /// Bands over the spindle angle and over time, sensor by sensor.

@@ -61,7 +61,12 @@ impl Problem {
     /// from one visit to the next is measured against how well visits agree.
     #[must_use]
     pub(crate) fn with_targets_free(&self) -> Self {
-        let free = Columns::free(self.columns_of_targets());
-        Self { free, ..self.clone() }
+        Self { free: Columns::free(self.columns_of_targets()), ..self.clone() }
+    }
+
+    /// The same problem with some columns more that every model may follow.
+    #[must_use]
+    pub(crate) fn beside(&self, columns: &Columns) -> Self {
+        Self { free: self.free.and(columns), ..self.clone() }
     }
 }

@@ -195,9 +195,9 @@ pub(crate) const HARMONICS: u8 = 4;
 
 /// Fewest common samples of two passes that are compared.
 ///
-/// Chosen: a correlation of 0.76 is then beyond chance. Doubled: passes of less than 64 samples are
-/// not compared.
-pub(crate) const COMMON_SAMPLES: usize = 32;
+/// Chosen: a correlation of 0.97 is then beyond chance, of two runs over ten targets. Doubled: runs over
+/// less than twenty are not compared.
+pub(crate) const COMMON_SAMPLES: usize = 10;
 
 /// Comparisons at the beginning of a run in which the loop pulls in.
 ///

@@ -212,8 +212,7 @@ impl Claim<'_> {
         let placed = &self.placed;
         let nothing = vec![0.0; problem.samples.len()];
         let shown = placed.columns.left(&nothing, &placed.coefficients);
-        let shape = placed.shape.words.to_owned();
-        structure(placed, shape, rms(&problem.layout, &shown), self.p_value)
+        structure(placed, placed.shape.words, rms(&problem.layout, &shown), self.p_value)
     }
 }
 
@@ -411,11 +410,11 @@ impl<'a> Court<'a> {
         let shape = format!("{}, better than {}", claim.placed.shape.words, names.join(" and "));
         let without = settle(self.problem, base, &self.state.fit.noises).left;
         let rms_um = rms(&self.problem.layout, &without);
-        structure(&claim.placed, shape, rms_um, claim.p_value)
+        structure(&claim.placed, &shape, rms_um, claim.p_value)
     }
 }
 
-fn structure(placed: &Placed<'_>, shape: String, rms_um: f64, p_value: f64) -> Structure {
-    let along = placed.shape.along.clone();
-    Structure { along, shape, rms_um, p_value, at: placed.at, at_stderr: None, line: None }
+fn structure(placed: &Placed<'_>, shape: &str, rms_um: f64, p_value: f64) -> Structure {
+    let told = Structure::without_place(&placed.shape.along, shape, rms_um, p_value);
+    Structure { at: placed.at, ..told.drawn_by(placed.columns.raw.clone()) }
 }

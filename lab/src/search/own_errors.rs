@@ -35,7 +35,7 @@ pub(crate) fn own_errors(problem: &Problem, steps: &[Step]) -> Option<Structure>
 }
 
 /// What an effect of a model pays.
-fn paid(problem: &Problem, state: &State, steps: &[Step], index: usize) -> f64 {
+pub(super) fn paid(problem: &Problem, state: &State, steps: &[Step], index: usize) -> f64 {
     let component = &state.components[index];
     let tried = steps.iter().flat_map(|step| &step.tried);
     let own = tried.filter(|judged| judged.component.term.name == component.term.name);

@@ -4,13 +4,13 @@ use rayon::prelude::*;
 
 use crate::hypotheses::{above_hunting, matters};
 use crate::model::{
-    JointCovariance, Problem, State, helps_unseen, joint_covariance, settle_beside,
+    Component, JointCovariance, Problem, State, helps_unseen, joint_covariance, settle_beside,
 };
 use crate::noise::swift_rms;
 use crate::numerics::least_squares::covariance_rows;
 use crate::numerics::{chi_squared_tail, count};
-use crate::policy::chance::STANDARD_ERRORS;
-use crate::policy::evidence::SURE_ON_MEANS;
+use crate::policy::chance::{EXACT_STANDARD_ERRORS, STANDARD_ERRORS};
+use crate::policy::evidence::{SURE_ON_MEANS, WHOLE};
 
 /// An effect taken out of a model again.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,11 +24,11 @@ pub(crate) struct Dropped {
 /// A model without the effects that the data do not need, and what was dropped, in order.
 ///
 /// Each is judged with all others kept and everything fitted anew: it must be beyond chance, large
-/// against the noise, helpful on unseen data, and two standard errors from zero.
+/// against the noise, helpful on unseen data, two standard errors from zero, and whole if it counts
+/// something.
 #[must_use]
 pub(crate) fn pruned(problem: &Problem, state: State) -> (State, Vec<Dropped>) {
-    let mut state = state;
-    let mut dropped = Vec::new();
+    let (mut state, mut dropped) = counting(problem, state);
     while let Some((smaller, one)) = weakest(problem, &state) {
         state = smaller;
         dropped.push(one);
@@ -115,6 +115,47 @@ fn no_better(problem: &Problem, state: &State, fewer: &State) -> Option<String> 
     let without = (&fewer.columns, fewer.fit.noises.as_slice());
     (!helps_unseen(problem, with_it, without))
         .then(|| "superfluous: no better on held-out data without the noise".to_owned())
+}
+
+/// A model without the effects that count something and count no whole number: before the others
+/// were known, they may have covered that.
+fn counting(problem: &Problem, state: State) -> (State, Vec<Dropped>) {
+    let out = no_counts(problem, &state);
+    if out.is_empty() {
+        return (state, Vec::new());
+    }
+    let indices: Vec<usize> = out.iter().map(|(index, _)| *index).collect();
+    let fewer = State::settled(problem, state.without(&indices), &state.fit.noises);
+    let Some(fewer) = fewer else { return (state, Vec::new()) };
+    let name = |index: usize| state.components[index].term.name.clone();
+    let dropped = out.into_iter().map(|(index, reason)| Dropped { name: name(index), reason });
+    (fewer, dropped.collect())
+}
+
+/// Places of the effects whose count is no whole number when all counts of a model are left free,
+/// and what it is.
+pub(super) fn no_counts(problem: &Problem, state: &State) -> Vec<(usize, String)> {
+    let is_counted = |one: &Component| one.whole.iter().any(Option::is_some);
+    if !state.components.iter().any(is_counted) {
+        return Vec::new();
+    }
+    let mut components = state.components.clone();
+    for one in &mut components {
+        one.whole.fill(None);
+    }
+    let Some(free) = State::of(problem, components, &state.fit.noises) else { return Vec::new() };
+    let covariance = joint_covariance(problem, &free).linear;
+    let of = |index: usize| {
+        let held = &state.components[index].whole;
+        let column = held.iter().position(Option::is_some)?;
+        let in_use = free.components[index].kept[..column].iter().filter(|kept| **kept).count();
+        let (used, from) = free.coefficients(index);
+        let stderr = covariance[(from + in_use, from + in_use)].max(0.0).sqrt();
+        let (found, whole) = (*used.get(in_use)?, held[column]?);
+        (EXACT_STANDARD_ERRORS * stderr + WHOLE < (found - whole).abs())
+            .then(|| (index, format!("no whole number: {found:.3} ± {stderr:.3}")))
+    };
+    (0..state.components.len()).filter_map(of).collect()
 }
 
 /// Why an effect is not needed when each of its coefficients may be zero by its standard error.

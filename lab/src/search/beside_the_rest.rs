@@ -1,0 +1,46 @@
+//! Names that do not stand beside what nobody explains.
+//!
+//! Where structure is left, an effect may have taken a part of it: a drift of the laser a part of a
+//! curve that is another one in each pass, wear one of several humps. So every structure that
+//! columns draw is put beside the model in any size, and an effect that is not worth its price then,
+//! or counts no whole number, is not told from it. A line is no such structure: beside an effect of the same frequency it is
+//! that effect's own swelling.
+
+use std::collections::BTreeSet;
+
+use rayon::prelude::*;
+
+use super::analysis::Step;
+use super::own_errors::paid;
+use super::pruning::no_counts;
+use crate::hypotheses::Structure;
+use crate::model::{Columns, Problem, State};
+
+/// Places of the effects of a model that something left of it explains as well.
+#[must_use]
+pub(crate) fn not_told(problem: &Problem, steps: &[Step], left: &[Structure]) -> Vec<usize> {
+    let state = &steps[steps.len() - 1].state;
+    let is_drawn = |one: &&Structure| one.line.is_none() && !one.drawn_by.is_empty();
+    let rests: Vec<&Structure> = left.iter().filter(is_drawn).collect();
+    let prices: Vec<f64> =
+        (0..state.components.len()).map(|index| paid(problem, state, steps, index)).collect();
+    let beside = |rest: &&Structure| {
+        let columns = Columns::free(rest.drawn_by.iter().cloned());
+        not_told_beside(&problem.beside(&columns), state, &prices)
+    };
+    rests.par_iter().flat_map_iter(beside).collect::<BTreeSet<usize>>().into_iter().collect()
+}
+
+/// Places of the effects that are not worth their price on a problem that more is free on, or count
+/// no whole number there.
+fn not_told_beside(problem: &Problem, state: &State, prices: &[f64]) -> Vec<usize> {
+    let noises = &state.fit.noises;
+    let Some(all) = State::of(problem, state.components.clone(), noises) else { return Vec::new() };
+    let is_worth_it = |index: usize| {
+        State::of(problem, state.without(&[index]), &all.fit.noises).is_none_or(|fewer| {
+            prices[index] < 2.0 * (all.fit.log_likelihood - fewer.fit.log_likelihood)
+        })
+    };
+    let worthless = (0..prices.len()).filter(|index| !is_worth_it(*index));
+    worthless.chain(no_counts(problem, &all).into_iter().map(|(index, _)| index)).collect()
+}
