@@ -28,7 +28,7 @@ impl AxisTest {
 
     /// Expanded uncertainty of A, µm.
     pub(crate) fn expanded_um(&self) -> Option<f64> {
-        Some(self.accuracy()?.budget.as_ref()?.expanded_um)
+        Some(self.accuracy()?.budget.as_ref()?.expanded_um())
     }
 
     /// The decision on A by ISO 14253-1; absent without a limit or an uncertainty.

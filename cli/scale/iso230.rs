@@ -130,7 +130,7 @@ impl Answering for Iso230 {
 /// What adds to every reading on its own, as a standard uncertainty, µm.
 fn noise_um(sources: &[Source]) -> f64 {
     let of = |source: &Source| match source.acts {
-        Acts::AtEachReading(per_unit) => per_unit * source.standard,
+        Acts::AtEachReading(per_unit) | Acts::AsTimeGoes(per_unit) => per_unit * source.standard,
         _ => 0.0,
     };
     sources.iter().map(|source| of(source).powi(2)).sum::<f64>().sqrt()

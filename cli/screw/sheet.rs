@@ -80,7 +80,8 @@ pub(super) fn sheet_of(
     let named: Vec<Named> = named.collect();
     let mut sources = std::mem::take(&mut file.sources);
     for source in &mut sources {
-        if let Acts::AtEachPlace(um) | Acts::AtEachReading(um) = source.acts {
+        if let Acts::AtEachPlace(um) | Acts::AtEachReading(um) | Acts::AsTimeGoes(um) = source.acts
+        {
             source.acts = Acts::OnFigures(vec![um * 2.0_f64.sqrt(); named.len()]);
         }
     }

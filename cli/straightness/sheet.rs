@@ -1,27 +1,13 @@
 //! The straightness of a bar on a sheet, with its uncertainty.
 
-use helixlock_metrology::straightness::straightness_uncertainty_um;
-use helixlock_metrology::uncertainty::{Acts, Added, Distribution, Readings, Source};
+use helixlock_metrology::straightness::{drawn_straightness_um, straightness_uncertainty_um};
+use helixlock_metrology::uncertainty::{Acts, Distribution, Source, Told};
 
 use super::evaluation::{Evaluation, Outcome};
 use crate::shared::sheet::{Named, Sheet, SheetFile, ZEROS};
 
-/// Figures whose errors are told of themselves.
-struct Told(Vec<f64>);
-
-impl Readings for Told {
-    fn places(&self) -> usize {
-        0
-    }
-
-    fn readings(&self) -> usize {
-        0
-    }
-
-    fn figures_um(&self, _: Added) -> Vec<f64> {
-        self.0.clone()
-    }
-}
+/// Of the bars that are drawn.
+const SEED: u64 = 1;
 
 /// The sheet of the method that counts.
 pub(super) fn sheet_of(mut file: SheetFile, found: &Evaluation) -> anyhow::Result<Sheet> {
@@ -40,7 +26,8 @@ pub(super) fn sheet_of(mut file: SheetFile, found: &Evaluation) -> anyhow::Resul
             _ => vec![(2.0 / runs(found)).sqrt(); values_um.len()],
         });
     }
-    match (straightness_uncertainty_um(&found.chosen().separated, 1), found.combined.sigma_um) {
+    let separated = &found.chosen().separated;
+    match (straightness_uncertainty_um(separated, SEED), found.combined.sigma_um) {
         (Some(each), Some(sigma_um)) if 0.0 < sigma_um => sources.push(Source {
             quantity: "noise of the probes, and what they cannot see".into(),
             estimate: 0.0,
@@ -48,11 +35,13 @@ pub(super) fn sheet_of(mut file: SheetFile, found: &Evaluation) -> anyhow::Resul
             standard: sigma_um,
             distribution: Distribution::Normal,
             degrees_of_freedom: f64::INFINITY,
-            acts: Acts::OnFigures(each.map(|um| um / sigma_um).into()),
+            acts: Acts::AsDrawn(each.map(|um| um / sigma_um).into()),
         }),
         _ => file.missing.push("the noise of the probes, which needs several runs"),
     }
-    Sheet::new(file, named, &Told(values_um), &sources)
+    let drawn_um = drawn_straightness_um(separated, SEED).unwrap_or_default();
+    let told = Told::new(values_um, drawn_um.iter().map(|each| each.to_vec()).collect());
+    Sheet::new(file, named, &told, &sources)
 }
 
 #[expect(clippy::cast_precision_loss, reason = "runs are few")]

@@ -29,9 +29,9 @@ fn of_straightness(out: &mut impl Write) -> Printed {
     use straightness::coverage::{Bar, Condition, coverage};
     writeln!(out, "| bar | | Fourier | least squares | zone, Fourier | zone, least squares |")?;
     writeln!(out, "|---|---|---|---|---|---|")?;
-    let usual = Bar::ALL.map(|bar| (bar, Condition::Usual, 2000));
+    let usual = Bar::ALL.map(|bar| (bar, Condition::Usual, 1000));
     let others = Condition::ALL.iter().skip(1).flat_map(|condition| {
-        [Bar::Repeating, Bar::NotRepeating, Bar::Wandering].map(|bar| (bar, *condition, 500))
+        [Bar::Repeating, Bar::NotRepeating, Bar::Wandering].map(|bar| (bar, *condition, 400))
     });
     for (bar, condition, records) in usual.into_iter().chain(others) {
         let found = coverage((bar, condition), records, 1)?;

@@ -11,23 +11,24 @@ pub enum Conformity {
     Open,
 }
 
-/// Decides by ISO 14253-1: the tolerance is smaller by the expanded uncertainty `U` (k = 2) for
-/// whoever has to prove conformity, and larger by it for whoever has to disprove it.
+/// Decides by ISO 14253-1: the tolerance is smaller by the expanded uncertainty for whoever has to prove
+/// conformity, and larger by it for whoever has to disprove it. The true value is at most so far
+/// below and so far above the one measured.
 ///
 /// # Examples
 ///
 /// ```
 /// use helixlock_metrology::{Conformity, conformity};
 ///
-/// assert_eq!(conformity(7.9, 10.0, 2.0), Conformity::Proven);
-/// assert_eq!(conformity(9.0, 10.0, 2.0), Conformity::Open);
-/// assert_eq!(conformity(12.1, 10.0, 2.0), Conformity::Disproven);
+/// assert_eq!(conformity(7.9, 10.0, [2.0, 2.0]), Conformity::Proven);
+/// assert_eq!(conformity(9.0, 10.0, [0.5, 2.0]), Conformity::Open);
+/// assert_eq!(conformity(12.1, 10.0, [2.0, 3.0]), Conformity::Disproven);
 /// ```
 #[must_use]
-pub fn conformity(value_um: f64, limit_um: f64, expanded_um: f64) -> Conformity {
-    if value_um + expanded_um <= limit_um {
+pub fn conformity(value_um: f64, limit_um: f64, [below_um, above_um]: [f64; 2]) -> Conformity {
+    if value_um + above_um <= limit_um {
         Conformity::Proven
-    } else if limit_um < value_um - expanded_um {
+    } else if limit_um < value_um - below_um {
         Conformity::Disproven
     } else {
         Conformity::Open

@@ -7,7 +7,9 @@ use crate::Error;
 use crate::number::{mean, number};
 
 pub mod coverage;
+mod drift;
 mod figures;
+mod noise;
 
 pub use figures::{Approaches, Figure};
 
@@ -100,6 +102,12 @@ pub fn evaluate_axis(targets: &[Target]) -> Result<AxisResult, Error> {
         results.push(evaluate_target(target, bidirectional)?);
     }
     results.sort_by(|a, b| a.at_mm.total_cmp(&b.at_mm));
+    Ok(axis_of(results))
+}
+
+/// What is found for the axis from what is found at its targets, in order of position.
+fn axis_of(results: Vec<TargetResult>) -> AxisResult {
+    let bidirectional = results.iter().any(|target| target.reversal_um.is_some());
     let forward = |t: &TargetResult| Some((t.mean_forward_um, t.s_forward_um));
     let backward = |t: &TargetResult| t.mean_backward_um.zip(t.s_backward_um);
     let upward: Vec<_> = results.iter().filter_map(forward).collect();
@@ -110,7 +118,7 @@ pub fn evaluate_axis(targets: &[Target]) -> Result<AxisResult, Error> {
     };
     let reversals: Vec<f64> = results.iter().filter_map(|t| t.reversal_um).collect();
     let of_backward = |figure: f64| bidirectional.then_some(figure);
-    Ok(AxisResult {
+    AxisResult {
         accuracy_um: range(&both, 2.0),
         accuracy_unidirectional_um: [Some(range(&upward, 2.0)), of_backward(range(&downward, 2.0))],
         systematic_um: range(&both, 0.0),
@@ -128,7 +136,7 @@ pub fn evaluate_axis(targets: &[Target]) -> Result<AxisResult, Error> {
         ],
         vdi3441: vdi3441(&results),
         targets: results,
-    })
+    }
 }
 
 fn vdi3441(targets: &[TargetResult]) -> Option<Vdi3441> {

@@ -3,6 +3,7 @@
 #![cfg_attr(test, allow(clippy::float_cmp, reason = "tests say where equality is meant"))]
 
 mod banded;
+mod chance;
 mod conformity;
 mod drawn;
 mod error;

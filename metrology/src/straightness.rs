@@ -29,7 +29,7 @@ pub use compensation::{
     CompensationModel, CompensationOutcome, CorrectionPoint, correction_table,
     simulate_compensation,
 };
-pub use drawn::straightness_uncertainty_um;
+pub use drawn::{drawn_straightness_um, straightness_uncertainty_um};
 pub use fourier::separate_by_fourier;
 pub use least_squares::separate_by_least_squares;
 pub use plan::{Plan, plan, propose};

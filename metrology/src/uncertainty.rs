@@ -11,5 +11,6 @@ mod budget;
 mod expanded;
 mod source;
 
+pub(crate) use budget::student;
 pub use budget::{Budget, Contribution, budgets};
-pub use source::{Acts, Added, Distribution, Readings, Source, misalignment};
+pub use source::{Acts, Added, Distribution, Noise, Readings, Source, Told, misalignment};

@@ -150,7 +150,7 @@ impl SheetFile {
         environment: Option<&dyn TableLike>,
     ) -> anyhow::Result<()> {
         let words = ("variation", "variation of the environment");
-        let found = reader.source(environment, words, &UM, Acts::AtEachReading(1.0))?;
+        let found = reader.source(environment, words, &UM, Acts::AsTimeGoes(1.0))?;
         self.needs(found, "`environment.variation`");
         Ok(())
     }

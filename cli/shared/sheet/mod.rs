@@ -40,7 +40,12 @@ impl Line {
     /// Decision by ISO 14253-1; absent without a tolerance or an uncertainty.
     pub(crate) fn conformity(&self) -> Option<Conformity> {
         let (tolerance_um, budget) = (self.tolerance_um?, self.budget.as_ref()?);
-        Some(conformity(self.named.value_um.abs(), tolerance_um, budget.expanded_um))
+        let value_um = self.named.value_um;
+        let mut ends_um = [budget.below_um, budget.above_um];
+        if value_um < 0.0 {
+            ends_um.reverse();
+        }
+        Some(conformity(value_um.abs(), tolerance_um, ends_um))
     }
 
     /// True when the tolerance is kept; proven so where the uncertainty is known.
@@ -119,10 +124,15 @@ impl Sheet {
     }
 }
 
+/// How far below and above the figure the true one may be.
+fn both_sides(budget: &Budget) -> String {
+    format!("{:+.3} {:+.3}", -budget.below_um, budget.above_um)
+}
+
 fn in_words(line: &Line) -> String {
     let Named { symbol, meaning, value_um, .. } = &line.named;
     let uncertainty = line.budget.as_ref().map_or_else(String::new, |budget| {
-        format!("   U = {:.3} µm (k = {:.2})", budget.expanded_um, budget.coverage_factor)
+        format!("   U = {} µm (k = {:.2})", both_sides(budget), budget.coverage_factor)
     });
     format!("{symbol:<6} {meaning:<38} {value_um:9.3} µm{uncertainty}")
 }

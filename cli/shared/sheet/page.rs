@@ -3,7 +3,7 @@
 use helixlock_metrology::uncertainty::{Budget, Contribution};
 use helixlock_report::{Part, Table};
 
-use super::{Line, Sheet};
+use super::{Line, Sheet, both_sides};
 
 /// Head, figures, budgets, and room for signatures.
 pub(crate) fn parts(sheet: &Sheet) -> Vec<Part> {
@@ -38,17 +38,14 @@ fn figures(sheet: &Sheet) -> Table {
         "decision",
     ]);
     for line in &sheet.lines {
-        let of = |figure: fn(&Budget) -> f64, digits: usize| {
-            line.budget
-                .as_ref()
-                .map_or(String::new(), |budget| format!("{:.digits$}", figure(budget)))
-        };
+        let of =
+            |words: &dyn Fn(&Budget) -> String| line.budget.as_ref().map_or(String::new(), words);
         table.row([
             line.named.symbol.clone(),
             line.named.meaning.clone(),
             format!("{:.3}", line.named.value_um),
-            of(|budget| budget.expanded_um, 3),
-            of(|budget| budget.coverage_factor, 2),
+            of(&both_sides),
+            of(&|budget| format!("{:.2}", budget.coverage_factor)),
             line.tolerance_um.map_or(String::new(), |um| um.to_string()),
             line.decision().to_owned(),
         ]);
@@ -77,8 +74,9 @@ fn budgets(sheet: &Sheet) -> Vec<Part> {
         parts.push(Part::Text(
             "By JCGM 100:2008: contributions are what one standard uncertainty of a quantity changes \
              of the evaluated figure, up and down, as a root mean square; they are independent and add \
-             by their squares. U is for a probability of 95.45 % by JCGM 101:2008: the distribution of \
-             all that makes lengths wrong, and the rest as normal; k is U over the combined."
+             by their squares. U is how far below and above the figure the true one may be, with a \
+             probability of 95.45 %: by the distribution of all that makes lengths wrong, and by \
+             readings drawn without their noise. k is the mean of both sides over the combined."
                 .into(),
         ));
     }

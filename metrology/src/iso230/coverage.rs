@@ -164,7 +164,7 @@ fn sources(variation_um: f64) -> Vec<Source> {
         misalignment(1.5, 1000.0),
         rectangle(0.2, Acts::OnLengths(11.5)),
         rectangle(2.0, Acts::OnLengths(2.0)),
-        rectangle(variation_um, Acts::AtEachReading(1.0)),
+        rectangle(variation_um, Acts::AsTimeGoes(1.0)),
     ]
 }
 
@@ -192,7 +192,7 @@ pub fn coverage(
         let budgets = budgets(&measured, &sources);
         let true_um = truth.figures_um(Added::Nothing);
         for ((_, held), (budget, true_um)) in held.iter_mut().zip(budgets.iter().zip(true_um)) {
-            if (budget.value_um - true_um).abs() <= budget.expanded_um {
+            if budget.holds(true_um) {
                 *held += 1.0 / f64::from(records);
             }
         }
@@ -218,8 +218,8 @@ fn measured(
                     target.backward_um.iter_mut().for_each(|reading| *reading += um);
                 }
             }
-            Acts::AtEachReading(_) => drift(&mut targets, condition, source, chance),
-            Acts::AtEachPlace(_) | Acts::OnFigures(_) => {}
+            Acts::AsTimeGoes(_) => drift(&mut targets, condition, source, chance),
+            _ => {}
         }
     }
     targets

@@ -1,8 +1,8 @@
 //! Every figure of an axis by name, and what errors of the instrument do to them.
 
-use super::{AxisResult, Target, Vdi3441, evaluate_axis};
+use super::{AxisResult, Target, Vdi3441, axis_of, evaluate_axis, evaluate_target};
 use crate::number::mean;
-use crate::uncertainty::{Added, Readings};
+use crate::uncertainty::{Added, Readings, Source};
 
 /// One figure.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,6 +53,7 @@ impl AxisResult {
 /// Approaches that can be evaluated, for a budget of their figures.
 #[derive(Clone, Debug)]
 pub struct Approaches {
+    /// In order of position.
     pub(super) targets: Vec<Target>,
     found: AxisResult,
 }
@@ -65,6 +66,8 @@ impl Approaches {
     /// As [`evaluate_axis`].
     pub fn new(targets: Vec<Target>) -> Result<Self, crate::Error> {
         let found = evaluate_axis(&targets)?;
+        let mut targets = targets;
+        targets.sort_by(|a, b| a.at_mm.total_cmp(&b.at_mm));
         Ok(Self { targets, found })
     }
 
@@ -91,6 +94,12 @@ impl Approaches {
 }
 
 impl Readings for Approaches {
+    fn as_may_be(&self, sources: &[Source]) -> Vec<Box<dyn Readings>> {
+        let drawn = super::noise::without_noise(&self.targets, sources).into_iter();
+        let boxed = |targets| Self::new(targets).ok().map(|one| Box::new(one) as Box<dyn Readings>);
+        drawn.filter_map(boxed).collect()
+    }
+
     fn places(&self) -> usize {
         self.targets.len()
     }
@@ -100,29 +109,43 @@ impl Readings for Approaches {
     }
 
     fn figures_um(&self, added: Added) -> Vec<f64> {
-        let mut targets = self.targets.clone();
+        if added == Added::Nothing {
+            return self.found.figures().iter().map(|figure| figure.value_um).collect();
+        }
+        // One target alone is another where one reading or one place is.
+        let mut results = self.found.targets.clone();
         let mut reading = 0;
-        for (place, target) in targets.iter_mut().enumerate() {
-            for um in target.forward_um.iter_mut().chain(&mut target.backward_um) {
-                *um += match added {
-                    Added::ToLengths(um_per_m) => um_per_m * target.at_mm / 1000.0,
-                    Added::AtPlace(one, more) if one == place => more,
-                    Added::AtReading(one, more) if one == reading => more,
-                    _ => 0.0,
-                };
-                reading += 1;
+        for (place, target) in self.targets.iter().enumerate() {
+            let first = reading;
+            reading += target.forward_um.len() + target.backward_um.len();
+            let shift = |one: usize| match added {
+                Added::ToLengths(um_per_m) => um_per_m * target.at_mm / 1000.0,
+                Added::AtPlace(at, more) if at == place => more,
+                Added::AtReading(at, more) if at == first + one => more,
+                _ => 0.0,
+            };
+            let there = match added {
+                Added::AtPlace(at, _) => at == place,
+                Added::AtReading(at, _) => (first..reading).contains(&at),
+                Added::ToLengths(_) | Added::Nothing => true,
+            };
+            if there {
+                let mut changed = target.clone();
+                let each = changed.forward_um.iter_mut().chain(&mut changed.backward_um);
+                each.enumerate().for_each(|(one, um)| *um += shift(one));
+                let bidirectional = !changed.backward_um.is_empty();
+                // Evaluated once already, and a finite error makes no reading infinite.
+                results[place] = evaluate_target(&changed, bidirectional).unwrap_or(results[place]);
             }
         }
-        // Evaluated once already, and a finite error makes no reading infinite.
-        let found = evaluate_axis(&targets).unwrap_or_else(|_| self.found.clone());
-        found.figures().iter().map(|figure| figure.value_um).collect()
+        axis_of(results).figures().iter().map(|figure| figure.value_um).collect()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::uncertainty::{Acts, Budget, Distribution, Source, budgets};
+    use crate::uncertainty::{Acts, Budget, Distribution, budgets};
 
     /// 11 targets over a metre; deviations rise by 10 µm, 1 µm of reversal, scatter alike.
     fn approaches() -> Approaches {

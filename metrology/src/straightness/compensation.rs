@@ -196,6 +196,7 @@ mod tests {
             tilt_urad: vec![0.0; 33],
             uncertainty_um: None,
             covariance_um2: None,
+            otherwise: None,
         }
     }
 

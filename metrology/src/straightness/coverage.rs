@@ -6,11 +6,12 @@ use std::f64::consts::TAU;
 
 use super::separated::without_line;
 use super::{
-    Readings, Repeat, Separated, Spacing, separate_by_fourier, separate_by_least_squares,
-    straightness, straightness_uncertainty_um,
+    Readings, Repeat, Separated, Spacing, drawn_straightness_um, separate_by_fourier,
+    separate_by_least_squares, straightness,
 };
 use crate::drawn::{heavy_tailed, normal};
 use crate::number::number;
+use crate::uncertainty::{Told, budgets};
 
 /// What kind of bar is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -212,14 +213,18 @@ fn covered(found: &Separated, truth_um: &[f64]) -> f64 {
     number(within.count()) / number(truth_um.len())
 }
 
-/// One when the truth of the minimum zone lies within ±1.96 of its u, or nothing.
+/// One when the sheet holds the truth of the minimum zone, or nothing.
 fn zone_covered(found: &Separated, truth_um: &[f64]) -> f64 {
     let zone_um = |heights_um: &[f64]| {
         straightness(&found.position_mm, heights_um).map(|lines| lines.minimum_zone.error_um)
     };
-    let sizes = zone_um(&found.workpiece_um).zip(zone_um(truth_um));
-    let known = sizes.zip(straightness_uncertainty_um(found, 1));
-    let held = known.is_some_and(|((found, truth), [.., u])| (found - truth).abs() <= 1.96 * u);
+    let (Some(found_um), Some(truth_um), Some(drawn)) =
+        (zone_um(&found.workpiece_um), zone_um(truth_um), drawn_straightness_um(found, 1))
+    else {
+        return 0.0;
+    };
+    let bar = Told::new(vec![found_um], drawn.iter().map(|[.., zone_um]| vec![*zone_um]).collect());
+    let held = budgets(&bar, &[]).iter().all(|budget| budget.holds(truth_um));
     if held { 1.0 } else { 0.0 }
 }
 

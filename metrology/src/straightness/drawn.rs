@@ -1,52 +1,82 @@
 //! Uncertainty of a straightness from what is known of the heights, by drawing.
 
-use rand::SeedableRng;
+use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
 use super::reference_line::{StraightnessLines, straightness};
 use super::separated::Separated;
-use crate::banded::Banded;
+use crate::banded::{Banded, Factor};
 use crate::number::number;
 
-/// Bars drawn: the uncertainty itself is known to 3.5 %.
-const DRAWS: usize = 400;
+/// Bars drawn: 23 of them are beyond each end of what is held.
+const DRAWS: usize = 1000;
 /// Part of the mean variance that is added to each: a line was taken off, so two are missing.
 const LEAST_PART: f64 = 1e-9;
 
-/// Standard uncertainty of each straightness of the bar (least-squares line, end points, minimum
-/// zone), µm; `None` when that of the heights is not known.
+/// Each straightness of the bar as it may be (least-squares line, end points, minimum zone), µm, drawn;
+/// `None` when the uncertainty of the heights is not known.
 ///
-/// Heights are drawn from their covariance (JCGM 101:2008, 6.4.8 and 7). A straightness is a largest
-/// less a smallest height, so that of the mean heights is not the mean of what may be: what counts is
-/// the root mean square distance from it. Equal seeds give equal uncertainties.
+/// Heights are drawn from their covariance (JCGM 101:2008, 6.4.8 and 7), and as often as the method
+/// is probably wrong from what is found then. A straightness is a largest less a smallest height, so
+/// that of the mean heights is not the mean of what may be. Equal seeds give equal draws.
+#[must_use]
+pub fn drawn_straightness_um(separated: &Separated, seed: u64) -> Option<Vec<[f64; 3]>> {
+    let own = Heights::new(separated)?;
+    let other = separated.otherwise.as_deref().map(|(wrong, other)| (*wrong, Heights::new(other)));
+    let mut chance = ChaCha8Rng::seed_from_u64(seed);
+    let draw = |_| {
+        let heights = match &other {
+            Some((wrong, Some(other))) if chance.random_bool(*wrong) => other,
+            _ => &own,
+        };
+        let lines = straightness(&separated.position_mm, &heights.drawn_um(&mut chance))?;
+        Some(errors_um(&lines))
+    };
+    (0..DRAWS).map(draw).collect()
+}
+
+/// Standard uncertainty of each straightness of the bar, µm: the root mean square distance of what may
+/// be from what was found.
 #[must_use]
 pub fn straightness_uncertainty_um(separated: &Separated, seed: u64) -> Option<[f64; 3]> {
-    let covariance_um2 = separated.covariance_um2.as_ref()?;
-    let (x_mm, mean_um) = (&separated.position_mm, &separated.workpiece_um);
-    let size = covariance_um2.len();
-    let trace: f64 = covariance_um2.iter().enumerate().map(|(place, row)| row[place]).sum();
-    let mut matrix = Banded::zeros(size, size.saturating_sub(1));
-    for (place, row) in covariance_um2.iter().enumerate() {
-        for (other, value) in row.iter().enumerate().take(place + 1) {
-            let least = if other == place { LEAST_PART * trace / number(size) } else { 0.0 };
-            matrix.add(place, other, value + least);
-        }
-    }
-    let factor = matrix.factor()?;
-    let found = errors_um(&straightness(x_mm, mean_um)?);
-    let mut chance = ChaCha8Rng::seed_from_u64(seed);
+    let found = errors_um(&straightness(&separated.position_mm, &separated.workpiece_um)?);
     let mut squares = [0.0; 3];
-    for _ in 0..DRAWS {
-        let normal: Vec<f64> = (0..size).map(|_| StandardNormal.sample(&mut chance)).collect();
-        let drawn = factor.spread(&normal);
-        let heights_um: Vec<f64> = mean_um.iter().zip(drawn).map(|(mean, d)| mean + d).collect();
-        let errors_um = errors_um(&straightness(x_mm, &heights_um)?);
-        for (square, (error, found)) in squares.iter_mut().zip(errors_um.iter().zip(&found)) {
+    for drawn_um in drawn_straightness_um(separated, seed)? {
+        for (square, (error, found)) in squares.iter_mut().zip(drawn_um.iter().zip(&found)) {
             *square += (error - found).powi(2) / number(DRAWS);
         }
     }
     Some(squares.map(f64::sqrt))
+}
+
+/// Heights and how far they may be off together.
+struct Heights<'a> {
+    means_um: &'a [f64],
+    factor: Factor,
+}
+
+impl<'a> Heights<'a> {
+    fn new(separated: &'a Separated) -> Option<Self> {
+        let covariance_um2 = separated.covariance_um2.as_ref()?;
+        let size = covariance_um2.len();
+        let trace: f64 = covariance_um2.iter().enumerate().map(|(place, row)| row[place]).sum();
+        let mut matrix = Banded::zeros(size, size.saturating_sub(1));
+        for (place, row) in covariance_um2.iter().enumerate() {
+            for (other, value) in row.iter().enumerate().take(place + 1) {
+                let least = if other == place { LEAST_PART * trace / number(size) } else { 0.0 };
+                matrix.add(place, other, value + least);
+            }
+        }
+        Some(Self { means_um: &separated.workpiece_um, factor: matrix.factor()? })
+    }
+
+    fn drawn_um(&self, chance: &mut ChaCha8Rng) -> Vec<f64> {
+        let normal: Vec<f64> =
+            self.means_um.iter().map(|_| StandardNormal.sample(chance)).collect();
+        let drawn_um = self.factor.spread(&normal);
+        self.means_um.iter().zip(drawn_um).map(|(mean, drawn)| mean + drawn).collect()
+    }
 }
 
 fn errors_um(lines: &StraightnessLines) -> [f64; 3] {
@@ -75,6 +105,7 @@ mod tests {
             tilt_urad: vec![0.0; 11],
             uncertainty_um: None,
             covariance_um2: Some((0..11).map(row).collect()),
+            otherwise: None,
         };
         let found = straightness_uncertainty_um(&separated, 1).unwrap();
         for um in &found[1..] {

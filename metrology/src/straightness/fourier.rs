@@ -74,15 +74,20 @@ fn divide(z_um: &[f64], kept: &[Harmonic]) -> Vec<f64> {
     divided.iter().map(|value| value.re / number(samples)).collect()
 }
 
-/// `σ²/m · 2/N·Σ cos(2π·k·d/N)/A_k²` by the distance d in steps; of many samples the variance alone.
+/// `σ²/m · 2/N·Σ s_k·cos(2π·k·d/N)/A_k²` by the distance d in steps; of many samples the variance alone.
+/// s is how much of the noise is of a harmonic: 1, or more of the long ones where a sample's noise is in
+/// part its neighbour's, (1 − ρ²)/(1 − 2·ρ·cos(2π·k/N) + ρ²).
 fn covariance_um2(combined: &Combined, kept: &[Harmonic]) -> Option<Vec<f64>> {
     let samples = combined.z_um.len();
     debug_assert!(kept.len() <= highest_harmonic(samples));
-    let fewest = combined.counts.iter().min()?;
-    let of_mean_um2 = combined.sigma_um?.powi(2) / number(*fewest);
+    let of_mean_um2 = combined.variance_of_mean_um2()?;
+    let alike = combined.correlation;
     let turn = |part: usize| TAU * number(part % samples) / number(samples);
     let at_distance = |steps: usize| -> f64 {
-        let each = kept.iter().map(|h| libm::cos(turn(h.number * steps)) / (h.gain * h.gain));
+        let each = kept.iter().map(|h| {
+            let share = 1.0 - 2.0 * alike * libm::cos(turn(h.number)) + alike * alike;
+            (1.0 - alike * alike) / share * libm::cos(turn(h.number * steps)) / (h.gain * h.gain)
+        });
         of_mean_um2 * 2.0 / number(samples) * each.sum::<f64>()
     };
     let distances = if samples <= MOST_WITH_COVARIANCE { samples } else { 1 };

@@ -52,6 +52,7 @@ pub fn separate_by_least_squares(
 ) -> Result<Separated, Error> {
     let offset_um = if zeros_matched { combined.offset_um } else { 0.0 };
     let z_um: Vec<f64> = combined.z_um.iter().map(|z| z + offset_um).collect();
+    let z_um = with_new_noise(&z_um, combined.correlation);
     let system = System::new(&z_um, combined);
     let weights: Vec<f64> = SMOOTHNESS_TRIED.map(|q| libm::pow(10.0, f64::from(q) / 4.0)).collect();
     let noise_um2 = system.variance_of_mean_um2();
@@ -67,6 +68,13 @@ pub fn separate_by_least_squares(
     let back = combined.spacing.total();
     let touched_um = |sample: usize, behind: usize| places_um[sample + back - behind];
     Ok(Separated::with_carriage(combined, touched_um, covariance_um2))
+}
+
+/// The samples less what noise of each is its neighbour's, the rest as large as all of it was.
+fn with_new_noise(z_um: &[f64], correlation: f64) -> Vec<f64> {
+    let part = 1.0 / (1.0 - correlation * correlation).sqrt();
+    let later = z_um.windows(2).map(|pair| (pair[1] - correlation * pair[0]) * part);
+    z_um.iter().take(1).copied().chain(later).collect()
 }
 
 /// Adds what the runs do not agree on of the zeros: an offset o of `z` is a parabola o·x²/(L1·(L1 + L2)).

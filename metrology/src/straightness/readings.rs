@@ -6,6 +6,7 @@ use super::chauvenet::is_outlier;
 use super::separated::without_line;
 use super::spacing::Spacing;
 use crate::Error;
+use crate::chance::beyond_chance;
 use crate::number::{mean, number};
 
 /// One run along the stroke.
@@ -56,6 +57,9 @@ pub struct Combined {
     /// Standard deviation σ of one `z` about the mean of the runs (equation 12), µm; absent when
     /// nothing was repeated. The document reports ±3σ.
     pub sigma_um: Option<f64>,
+    /// Share of the noise of a sample that is its neighbour's, from how the runs differ; none when
+    /// nothing was repeated.
+    pub correlation: f64,
     /// Mean reading of each probe, µm.
     pub mean_probes_um: [Vec<f64>; 3],
     /// Runs that count, at each sample.
@@ -65,6 +69,13 @@ pub struct Combined {
 }
 
 impl Combined {
+    /// Variance of a mean `z` by the scatter of the runs, µm²: with what their own means, that are
+    /// taken off, take of it.
+    pub(super) fn variance_of_mean_um2(&self) -> Option<f64> {
+        let taken = longer(self.correlation) / number(self.z_um.len());
+        Some(self.sigma_um?.powi(2) / (1.0 - taken) / number(*self.counts.iter().min()?))
+    }
+
     /// Standard deviation of one probe's reading, µm, if all three scatter alike.
     #[must_use]
     pub fn sigma_probe_um(&self) -> Option<f64> {
@@ -117,8 +128,10 @@ impl Readings {
             *z -= offset_um;
         }
         let shifts_um = shifts(&z, &unshifted);
+        let correlation = sigma_um.map_or(0.0, |_| correlation(&z));
         let offset_uncertainty_um = sigma_um.map_or(0.0, |sigma_um| {
-            offset_uncertainty_um(&shifts_um, sigma_um / number(samples).sqrt())
+            let of_mean_um = sigma_um * (longer(correlation) / number(samples)).sqrt();
+            offset_uncertainty_um(&shifts_um, of_mean_um)
         });
         let mean_probes_um = [0, 1, 2].map(|probe| self.mean_probe(probe, &z));
         let (start_mm, step_mm) = (self.start_mm, self.step_mm);
@@ -130,6 +143,7 @@ impl Readings {
             offset_um,
             offset_uncertainty_um,
             sigma_um,
+            correlation,
             mean_probes_um,
             counts,
             rejected,
@@ -187,6 +201,41 @@ impl Readings {
         (0..self.samples()).map(at).collect()
     }
 }
+
+/// By how much the variance of a mean along a run is larger when a part of each sample's noise is its
+/// neighbour's.
+fn longer(correlation: f64) -> f64 {
+    (1.0 + correlation) / (1.0 - correlation)
+}
+
+/// Share of the noise of a sample that is its neighbour's, from what the runs lie from their mean.
+///
+/// A run of n samples whose own mean is taken off shows (1 + 4·ρ)/n too little of it (Marriott and Pope,
+/// Biometrika 41, 1954, 390). What chance makes is none, as probable as it is.
+fn correlation(z: &[Vec<f64>]) -> f64 {
+    let samples = z.first().map_or(0, Vec::len);
+    let means: Vec<f64> = (0..samples).map(|sample| mean_of(z, sample).0).collect();
+    let (mut squares, mut products) = (0.0, 0.0);
+    for run in z {
+        let apart: Vec<f64> = run.iter().zip(&means).map(|(z, mean)| z - mean).collect();
+        squares += apart.iter().filter(|um| um.is_finite()).map(|um| um * um).sum::<f64>();
+        let pairs = apart.windows(2).map(|pair| pair[0] * pair[1]);
+        products += pairs.filter(|product| product.is_finite()).sum::<f64>();
+    }
+    let length = number(samples);
+    if samples < FEWEST_FOR_CORRELATION || squares == 0.0 {
+        return 0.0;
+    }
+    let shown = products / squares * length / (length - 1.0);
+    let found = ((shown + 1.0 / length) / (1.0 - 4.0 / length)).clamp(-MOST_ALIKE, MOST_ALIKE);
+    let of_chance = 1.0 / (number(z.len() - 1) * length);
+    found * beyond_chance(found * found / of_chance, 1.0, 1.0 / of_chance)
+}
+
+/// Fewer samples of a run do not show how their noise goes together.
+const FEWEST_FOR_CORRELATION: usize = 8;
+/// Noise that is more alike along a run is a form of each run.
+const MOST_ALIKE: f64 = 0.9;
 
 /// Shifts each run onto the mean of all runs, so that they agree although the carriage started
 /// each from another place; `centre` says what of a run's differences has to vanish.

@@ -1,6 +1,7 @@
 //! What separation gives: the bar, the carriage, and their uncertainty.
 
 use super::readings::Combined;
+use crate::chance::beyond_chance;
 use crate::number::number;
 
 /// Bar and carriage apart, each with its least-squares line removed.
@@ -17,8 +18,10 @@ pub struct Separated {
     /// Standard uncertainty (k = 1) of h at each place from the scatter of the runs, µm; absent
     /// when nothing was repeated.
     pub uncertainty_um: Option<Vec<f64>>,
-    /// Covariance of h at the places, whose diagonal that is squared, µm².
+    /// Covariance of h at the places, if nothing is assumed wrongly, µm².
     pub covariance_um2: Option<Vec<Vec<f64>>>,
+    /// Probability that something is, and what is found then.
+    pub otherwise: Option<Box<(f64, Self)>>,
 }
 
 impl Separated {
@@ -27,28 +30,49 @@ impl Separated {
     /// Either this method assumes nothing wrongly, such as that the bar repeats with the stroke, and
     /// its variance is true; or the other method alone is right, and the variance is that one's and
     /// the mean square difference. Both count as probable as the difference makes them (Bayesian
-    /// model averaging): noise alone makes the difference of their variances.
+    /// model averaging): noise alone makes the difference of their variances. The uncertainty is half
+    /// of what holds 95.45 % of both. The parabola does not
+    /// count there: zeros that drift move that of one method and not the other's.
     #[must_use]
     pub fn with_difference_from(mut self, other: &Self) -> Self {
+        let wrong = self.probably_wrong(other);
         let difference_um2 = self.mean_square_difference_um2(other);
-        let variance = |each: &Option<Vec<f64>>| each.as_deref().map_or(0.0, mean_square);
-        let (of_other, of_self) = (variance(&other.uncertainty_um), variance(&self.uncertainty_um));
-        let wider = if of_self < of_other { other } else { &self };
-        let freedom = wider.covariance_um2.as_deref().map_or(1.0, independent_places);
-        let wrong = beyond_chance(difference_um2 / (of_other - of_self).abs(), freedom);
-        let mixed = |mine_um2: f64, other_um2: f64| mine_um2 + wrong * (other_um2 - mine_um2);
         for (place, u_um) in self.uncertainty_um.iter_mut().flatten().enumerate() {
             let other_um = other.uncertainty_um.as_ref().map_or(0.0, |each| each[place]);
-            *u_um = mixed(*u_um * *u_um, other_um * other_um + difference_um2).sqrt();
+            *u_um = of_either([*u_um, (other_um * other_um + difference_um2).sqrt()], wrong);
         }
-        for (place, row) in self.covariance_um2.iter_mut().flatten().enumerate() {
-            for (at, value) in row.iter_mut().enumerate() {
-                let other_um2 = other.covariance_um2.as_ref().map_or(0.0, |rows| rows[place][at]);
-                let apart_um2 = if at == place { difference_um2 } else { 0.0 };
-                *value = mixed(*value, other_um2 + apart_um2);
-            }
-        }
+        self.otherwise = Some(Box::new((wrong, other.clone())));
         self
+    }
+
+    /// Probability that this method assumes something wrongly, and the other one alone is right.
+    fn probably_wrong(&self, other: &Self) -> f64 {
+        let (Some(mine_um2), Some(other_um2)) = (&self.covariance_um2, &other.covariance_um2)
+        else {
+            let variance = |each: &Option<Vec<f64>>| each.as_deref().map_or(0.0, mean_square);
+            let apart_um2 = variance(&other.uncertainty_um) - variance(&self.uncertainty_um);
+            let ratio = self.mean_square_difference_um2(other) / apart_um2.abs();
+            return beyond_chance(ratio, 1.0, self.size_um2() / apart_um2.abs());
+        };
+        let places = self.workpiece_um.len();
+        let parabola = unit_parabola(places);
+        let (mine_um2, other_um2) = (without(mine_um2, &parabola), without(other_um2, &parabola));
+        let apart: Vec<f64> =
+            self.workpiece_um.iter().zip(&other.workpiece_um).map(|(a, b)| a - b).collect();
+        let along: f64 = apart.iter().zip(&parabola).map(|(um, unit)| um * unit).sum();
+        let difference_um2 = mean_square(&apart) - along * along / number(places);
+        let variance = |rows: &[Vec<f64>]| trace(rows) / number(places);
+        let (of_self, of_other) = (variance(&mine_um2), variance(&other_um2));
+        let wider = if of_self < of_other { &other_um2 } else { &mine_um2 };
+        let chance_um2 = (of_other - of_self).abs();
+        let freedom = independent_places(wider);
+        // A bar that does not repeat does not by as much as itself.
+        beyond_chance(difference_um2 / chance_um2, freedom, self.size_um2() / chance_um2)
+    }
+
+    /// Mean square of the bar, µm².
+    fn size_um2(&self) -> f64 {
+        mean_square(&self.workpiece_um)
     }
 
     /// How far two separations of the same readings are apart over the bar, µm rms.
@@ -88,31 +112,62 @@ impl Separated {
             tilt_urad: tilt_urad.iter().map(|tilt| tilt - mean_tilt).collect(),
             uncertainty_um,
             covariance_um2,
+            otherwise: None,
         }
     }
+}
+
+/// Standard uncertainty of what is normal with one standard deviation, or as probably as told with the
+/// other: half of what holds 95.45 % of it.
+fn of_either([one_um, other_um]: [f64; 2], other_probably: f64) -> f64 {
+    let beyond = |um: f64, standard_um: f64| libm::erfc(2.0 * um / standard_um / 2.0_f64.sqrt());
+    let (mut low, mut high) = (one_um.min(other_um), one_um.max(other_um));
+    for _ in 0..HALVINGS {
+        let um = f64::midpoint(low, high);
+        let all =
+            (1.0 - other_probably) * beyond(um, one_um) + other_probably * beyond(um, other_um);
+        // Two standard deviations of a normal number.
+        if libm::erfc(2.0_f64.sqrt()) < all { low = um } else { high = um }
+    }
+    high
+}
+
+/// Halvings of an uncertainty: to a millionth of it.
+const HALVINGS: usize = 20;
+
+/// A parabola over even places without its line, its squares one.
+fn unit_parabola(places: usize) -> Vec<f64> {
+    let parabola = without_line((0..places).map(|place| number(place).powi(2)).collect());
+    let length = parabola.iter().map(|value| value * value).sum::<f64>().sqrt();
+    parabola.iter().map(|value| value / length).collect()
+}
+
+/// A covariance without what varies along a form whose squares are one: P·C·P.
+fn without(covariance_um2: &[Vec<f64>], form: &[f64]) -> Vec<Vec<f64>> {
+    let product = |row: &[f64]| row.iter().zip(form).map(|(value, unit)| value * unit).sum::<f64>();
+    let along: Vec<f64> = covariance_um2.iter().map(|row| product(row)).collect();
+    let twice = product(&along);
+    let row = |(place, row): (usize, &Vec<f64>)| -> Vec<f64> {
+        let each = row.iter().enumerate();
+        each.map(|(at, value)| {
+            value - form[place] * along[at] - form[at] * along[place]
+                + twice * form[place] * form[at]
+        })
+        .collect()
+    };
+    covariance_um2.iter().enumerate().map(row).collect()
+}
+
+fn trace(covariance_um2: &[Vec<f64>]) -> f64 {
+    covariance_um2.iter().enumerate().map(|(place, row)| row[place]).sum()
 }
 
 /// Degrees of freedom of a mean square over places that vary together: (tr C)²/tr C² (Satterthwaite,
 /// Biometrics Bulletin 2, 1946, 110).
 fn independent_places(covariance_um2: &[Vec<f64>]) -> f64 {
-    let trace: f64 = covariance_um2.iter().enumerate().map(|(place, row)| row[place]).sum();
+    let trace = trace(covariance_um2);
     let squares: f64 = covariance_um2.iter().flatten().map(|value| value * value).sum();
     trace * trace / squares
-}
-
-/// Probability that a mean square of so many degrees of freedom, in units of what chance makes, has
-/// more in it, when as many records have as have not.
-///
-/// The most probable variance is the mean square itself, and no less than that of chance; what that
-/// one value gains in twice the log likelihood of normal numbers, less its price ln ν (Schwarz, Annals
-/// of Statistics 6, 1978, 461).
-fn beyond_chance(ratio: f64, freedom: f64) -> f64 {
-    if ratio.is_infinite() {
-        return 1.0;
-    }
-    let ratio = ratio.max(1.0);
-    let gain = freedom * (ratio - 1.0 - libm::log(ratio)) - libm::log(freedom.max(1.0));
-    1.0 / (1.0 + libm::exp(-gain / 2.0))
 }
 
 fn mean_square(values: &[f64]) -> f64 {
@@ -164,16 +219,6 @@ pub(super) fn without_line(mut values: Vec<f64>) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// What chance makes is improbable to be more, ten times as much is not; of one degree of freedom
-    /// nothing can be told before it.
-    #[test]
-    fn a_difference_counts_by_how_far_it_is_beyond_chance() {
-        assert!((beyond_chance(0.2, 1.0) - 0.5).abs() < 1e-12);
-        assert!((beyond_chance(1.0, 9.0) - 0.25).abs() < 1e-12);
-        assert!(0.999 < beyond_chance(10.0, 9.0));
-        assert!((beyond_chance(f64::INFINITY, 9.0) - 1.0).abs() < 1e-12);
-    }
 
     /// Nine places that vary alike are one, nine that vary on their own are nine.
     #[test]

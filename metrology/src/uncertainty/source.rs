@@ -1,5 +1,7 @@
 //! What may be wrong with a measurement, and by how much.
 
+use crate::number::{mean, number};
+
 /// How the values of an input quantity are spread.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Distribution {
@@ -20,8 +22,13 @@ pub enum Acts {
     AtEachPlace(f64),
     /// It adds to every reading independently, µm.
     AtEachReading(f64),
+    /// It adds to the readings and goes its own way while they are taken, µm: new at each reading,
+    /// or one of each run, or from little to much.
+    AsTimeGoes(f64),
     /// It changes each figure by this, µm, found by other means.
     OnFigures(Vec<f64>),
+    /// The same, and how far off the figures may be is in the readings as they may be.
+    AsDrawn(Vec<f64>),
 }
 
 /// An input quantity of a budget.
@@ -56,6 +63,53 @@ pub enum Added {
     AtReading(usize, f64),
 }
 
+/// What errors of single readings do to a figure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Noise {
+    /// Mean of the true figure less the one as read, µm.
+    pub shift_um: f64,
+    /// Standard uncertainty to below of that mean, half of what holds all but 2.3 %, µm.
+    pub below_um: f64,
+    /// To above of it, µm.
+    pub above_um: f64,
+}
+
+/// So many draws have enough beyond 2.3 % of them.
+const MANY_DRAWS: usize = 1000;
+
+impl Noise {
+    /// As much to either side, and about the figure as read.
+    #[must_use]
+    pub fn even(standard_um: f64) -> Self {
+        Self { shift_um: 0.0, below_um: standard_um, above_um: standard_um }
+    }
+
+    /// Of the true figure as it may be, drawn, and of the one as read, µm. Many draws show where they
+    /// end to either side, few how they scatter.
+    pub(super) fn of(drawn_um: &[f64], found_um: f64) -> Self {
+        let shift_um = mean(drawn_um) - found_um;
+        if MANY_DRAWS <= drawn_um.len() {
+            let mut sorted = drawn_um.to_vec();
+            sorted.sort_by(f64::total_cmp);
+            let beyond = sorted.len() * 23 / 1000;
+            let mean_um = found_um + shift_um;
+            let below_um = (mean_um - sorted[beyond]) / 2.0;
+            let above_um = (sorted[sorted.len() - 1 - beyond] - mean_um) / 2.0;
+            return Self { shift_um, below_um, above_um };
+        }
+        let squares = drawn_um.iter().map(|um| (um - found_um - shift_um).powi(2)).sum::<f64>();
+        let standard_um = (squares / (number(drawn_um.len()) - 1.0)).sqrt();
+        Self { shift_um, ..Self::even(standard_um) }
+    }
+
+    /// With something independent of it, normal, of this standard uncertainty, µm.
+    #[must_use]
+    pub fn with(self, standard_um: f64) -> Self {
+        let with = |um: f64| libm::hypot(um, standard_um);
+        Self { below_um: with(self.below_um), above_um: with(self.above_um), ..self }
+    }
+}
+
 /// Readings from which figures are evaluated.
 pub trait Readings {
     /// Places at which something was read.
@@ -64,6 +118,47 @@ pub trait Readings {
     fn readings(&self) -> usize;
     /// All figures, µm, always in the same order, with an error added to the readings.
     fn figures_um(&self, added: Added) -> Vec<f64>;
+    /// The readings without the errors of single ones as they may have been, drawn given what was read;
+    /// none where nothing but the contributions tells of these errors.
+    fn as_may_be(&self, _sources: &[Source]) -> Vec<Box<dyn Readings>> {
+        Vec::new()
+    }
+}
+
+/// Figures whose errors are told of themselves.
+#[derive(Clone, Debug)]
+pub struct Told {
+    figures_um: Vec<f64>,
+    drawn_um: Vec<Vec<f64>>,
+}
+
+impl Told {
+    /// Figures as found, and as they may be, µm.
+    #[must_use]
+    pub fn new(figures_um: Vec<f64>, drawn_um: Vec<Vec<f64>>) -> Self {
+        Self { figures_um, drawn_um }
+    }
+}
+
+impl Readings for Told {
+    fn places(&self) -> usize {
+        0
+    }
+
+    fn readings(&self) -> usize {
+        0
+    }
+
+    fn figures_um(&self, _: Added) -> Vec<f64> {
+        self.figures_um.clone()
+    }
+
+    fn as_may_be(&self, _: &[Source]) -> Vec<Box<dyn Readings>> {
+        let boxed = |figures_um: &Vec<f64>| -> Box<dyn Readings> {
+            Box::new(Self::new(figures_um.clone(), Vec::new()))
+        };
+        self.drawn_um.iter().map(boxed).collect()
+    }
 }
 
 impl Distribution {

@@ -5,11 +5,15 @@ use crate::banded::{Banded, Factor};
 use crate::number::number;
 
 /// `z = A·h + noise`, h at every place that a probe touches.
+///
+/// Where the noise of a sample is in part its neighbour's, that part of the neighbour's equation is
+/// taken off each, so that what is left is new at every sample (Cochrane and Orcutt, Journal of the
+/// American Statistical Association 44, 1949, 32).
 pub(super) struct System<'a> {
     pub(super) z_um: &'a [f64],
     pub(super) combined: &'a Combined,
-    /// Coefficients of each sample's equation, by place.
-    equations: Vec<[(usize, f64); 3]>,
+    /// Coefficients of each sample's equation, by place; their noise is new at each.
+    equations: Vec<Vec<(usize, f64)>>,
 }
 
 /// The equations with one smoothness weight: `AᵀA + λ·DᵀD`, factored.
@@ -27,8 +31,17 @@ impl<'a> System<'a> {
             let here = sample + spacing.total();
             [(here, 1.0), (here - spacing.first, -(1.0 + r)), (sample, r)]
         };
-        let equations = (0..z_um.len()).map(equation).collect();
-        Self { z_um, combined, equations }
+        let correlation = combined.correlation;
+        let part = 1.0 / (1.0 - correlation * correlation).sqrt();
+        let equations = (0..z_um.len()).map(|sample| match sample.checked_sub(1) {
+            Some(last) if correlation != 0.0 => {
+                let own = equation(sample).map(|(place, c)| (place, c * part));
+                let taken = equation(last).map(|(place, c)| (place, -c * part * correlation));
+                [own, taken].concat()
+            }
+            _ => equation(sample).into(),
+        });
+        Self { z_um, combined, equations: equations.collect() }
     }
 
     /// Places that a probe touches.
@@ -43,20 +56,21 @@ impl<'a> System<'a> {
 
     /// Variance of a mean `z` by the scatter of the runs, µm².
     pub(super) fn variance_of_mean_um2(&self) -> Option<f64> {
-        let sigma_um = self.combined.sigma_um.filter(|sigma_um| 0.0 < *sigma_um)?;
-        Some(sigma_um * sigma_um / number(*self.combined.counts.iter().min()?))
+        self.combined.variance_of_mean_um2().filter(|variance_um2| 0.0 < *variance_um2)
     }
 
     /// What the probes see of a form: `A·h`.
     pub(super) fn seen(&self, places_um: &[f64]) -> Vec<f64> {
-        let value = |row: &[(usize, f64); 3]| row.iter().map(|(p, c)| c * places_um[*p]).sum();
+        let value = |row: &Vec<(usize, f64)>| row.iter().map(|(p, c)| c * places_um[*p]).sum();
         self.equations.iter().map(value).collect()
     }
 
     /// The equations with a smoothness weight; `None` when they cannot be solved.
     pub(super) fn smooth(&self, smoothness: f64) -> Option<Smooth> {
         let places = self.places();
-        let mut matrix = Banded::zeros(places - 2, self.combined.spacing.total().max(2));
+        // An equation that has its neighbour's noise taken off reaches a place farther.
+        let farther = usize::from(self.combined.correlation != 0.0);
+        let mut matrix = Banded::zeros(places - 2, self.combined.spacing.total().max(2) + farther);
         for equation in &self.equations {
             matrix.add_outer(&free(equation, places), 1.0);
         }
