@@ -44,7 +44,7 @@ pub enum Condition {
     Creeping,
 }
 
-/// Share of the figures whose truth lies within ±U, by symbol.
+/// Share of the figures of which U holds the truth, by symbol.
 pub type Held = Vec<(&'static str, f64)>;
 
 /// True scatter of an approach, and half of the reversal, µm.
@@ -168,7 +168,7 @@ fn sources(variation_um: f64) -> Vec<Source> {
     ]
 }
 
-/// Draws so many tests of an axis and counts how often ±U holds the figure of the same approaches
+/// Draws so many tests of an axis and counts how often U holds the figure of the same approaches
 /// without errors of measurement.
 ///
 /// # Errors

@@ -439,6 +439,14 @@ mod tests {
         assert!(below_um.abs() < 0.3 / 16.0, "a part: {below_um}");
     }
 
+    /// Of one degree of freedom when the noise is on the one side, of two on the other.
+    #[test]
+    fn the_limit_at_a_least_holds_as_much() {
+        let one = libm::erf((MOST_AT_LEAST / 2.0).sqrt());
+        let two = 1.0 - libm::exp(-MOST_AT_LEAST / 2.0);
+        assert!((f64::midpoint(one, two) - PROBABILITY).abs() < 1e-3);
+    }
+
     #[test]
     fn nothing_wrong_is_no_uncertainty() {
         assert_eq!(ends_um(1.0, &[], 0.0)[0], [0.0; 2]);
