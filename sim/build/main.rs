@@ -7,7 +7,7 @@ use std::path::Path;
 
 use helixlock_netlist::{Library, Netlist, elaborate};
 use helixlock_rtl::{APART, BLOCKS, BlockCard};
-use random_design::{Dice, random_bits, random_design};
+use random_design::{Dice, random_bits, random_design, random_waiting};
 
 #[path = "../src/engine/random_design.rs"]
 mod random_design;
@@ -19,7 +19,10 @@ const RANDOM_DESIGNS: u64 = 32;
 /// Designs of flip-flops alone, besides.
 const RANDOM_BITS: u64 = 4;
 
-/// How many of the former run in lanes too, which take longest to compile.
+/// Designs that wait for pulses, besides.
+const RANDOM_WAITING: u64 = 8;
+
+/// How many of the first run in lanes too, which take longest to compile.
 const RANDOM_LANES: u64 = 6;
 
 #[expect(clippy::print_stdout, reason = "a build script speaks to Cargo so")]
@@ -44,7 +47,7 @@ fn flat(card: &BlockCard) -> Result<Netlist, Box<dyn Error>> {
 /// Kernels of random designs and of every block, and a list of each.
 fn samples() -> Result<String, Box<dyn Error>> {
     let mut source = String::new();
-    let [mut random, mut bits, mut lanes, mut blocks] = [const { String::new() }; 4];
+    let [mut random, mut bits, mut waiting, mut lanes, mut blocks] = [const { String::new() }; 5];
     for seed in 0..RANDOM_DESIGNS {
         let (name, design) = (format!("Random{seed}"), random_design(&mut Dice(seed)));
         source += &rust_source::generate(&design, &name);
@@ -59,12 +62,23 @@ fn samples() -> Result<String, Box<dyn Error>> {
         source += &rust_source::generate(&design, &name);
         write!(bits, "check::<{name}>, ")?;
     }
+    for seed in 0..RANDOM_WAITING {
+        let (name, design) = (format!("Waiting{seed}"), random_waiting(&mut Dice(seed)));
+        source += &rust_source::generate(&design, &name);
+        write!(waiting, "check::<{name}>, ")?;
+    }
     for (index, card) in BLOCKS.iter().chain(APART).enumerate() {
         let name = format!("Block{index}");
         source += &rust_source::generate(&flat(card)?, &name);
         write!(blocks, "check::<{name}>, ")?;
     }
-    let lists = [("RANDOM", random), ("BITS", bits), ("LANES", lanes), ("BLOCKS", blocks)];
+    let lists = [
+        ("RANDOM", random),
+        ("BITS", bits),
+        ("WAITING", waiting),
+        ("LANES", lanes),
+        ("BLOCKS", blocks),
+    ];
     for (list, checks) in lists {
         writeln!(source, "pub(super) const {list}: &[Check] = &[{checks}];")?;
     }

@@ -11,24 +11,23 @@ mod dense;
 mod gather;
 mod lanes;
 mod layout;
+mod leaping;
 mod outside;
 mod packing;
-mod pieces;
 mod plan;
 mod signals;
+mod split;
 mod tables;
 mod words;
 
 use helixlock_netlist::Netlist;
 
-/// Rust items that define `name`: a kernel that steps every clock and one that leaps.
+/// Rust items that define `name`: a kernel for the engines that step and leap.
 pub(crate) fn generate(netlist: &Netlist, name: &str) -> String {
     let item = format!(
         "/// Generated from the netlist.\n#[derive(Clone, Copy, Debug, Default)]\npub struct {name};\n\n"
     );
-    item + &signals::source(netlist, name)
-        + &dense::source(netlist, name)
-        + &pieces::source(netlist, name)
+    item + &signals::source(netlist, name) + &dense::source(netlist, name)
 }
 
 /// Rust items that make of the `name` that [`generate`] defines a kernel of many copies too.

@@ -8,14 +8,14 @@ use std::sync::LazyLock;
 
 use helixlock_netlist::{Library, Netlist, elaborate};
 
-use crate::engine::{Circuit, Compiled, Lanes, Leap};
+use crate::engine::{Circuit, Compiled, Lanes, Leaping};
 
 #[allow(clippy::all, clippy::pedantic, reason = "generated: written for the compiler alone")]
 #[allow(unused_imports, reason = "a design may do without shifts")]
 #[allow(unused_variables, reason = "bits that nobody takes: the compiler drops them")]
 mod generated {
     use crate::engine::{
-        AllSignals, Coasting, DenseKernel, Kernel, LANE_WORDS, Lane, LaneKernel, Moment, Rest,
+        AllSignals, Coast, DenseKernel, Edge, Gather, Known, LANE_WORDS, Lane, LaneKernel, Rest,
         Vector, choose, shift_down, shift_up,
     };
 
@@ -30,7 +30,7 @@ pub use settings::{Dialled, settings_for};
 pub use wheels::set_wheels;
 
 /// The fast engine of the device: what a closed loop runs on.
-pub type DeviceEngine = Leap<'static, DeviceKernel>;
+pub type DeviceEngine = Leaping<'static, DeviceKernel>;
 
 /// The device's netlist and its pieces; made once.
 ///
@@ -46,7 +46,7 @@ pub fn device() -> &'static Circuit {
 /// The device at power-up, with all inputs low, ready to leap.
 #[must_use]
 pub fn device_engine() -> DeviceEngine {
-    Leap::new(device(), DeviceKernel)
+    Leaping::new(device())
 }
 
 /// The device at power-up, with all inputs low, stepped at every clock.

@@ -20,12 +20,19 @@
 mod agreement;
 mod all_signals;
 mod circuit;
+#[allow(clippy::inline_always, reason = "compiled once a way of gathering")]
 mod compiled;
+mod dense;
+#[allow(unsafe_code, reason = "an instruction, after asking the processor for it")]
+#[allow(clippy::inline_always, reason = "in a function of its own it would lack the instruction")]
+mod gather;
 mod interpreted_pieces;
 mod interpreter;
 #[allow(unsafe_code, reason = "vector instructions, after asking the processor for them")]
 mod lanes;
 mod leap;
+#[allow(clippy::inline_always, reason = "compiled once a way of gathering")]
+mod leaping;
 mod moment;
 mod program;
 #[cfg(test)]
@@ -34,6 +41,8 @@ mod rest;
 #[cfg(test)]
 mod samples;
 mod state;
+#[allow(clippy::inline_always, reason = "compiled once a way of gathering")]
+mod traces;
 #[allow(unsafe_code, reason = "vector instructions have no other way in")]
 #[allow(clippy::inline_always, reason = "in a function of its own it would lack the instructions")]
 mod vector;
@@ -46,11 +55,14 @@ use helixlock_netlist::{Netlist, SignalId};
 pub(crate) use agreement::compare;
 pub use all_signals::AllSignals;
 pub use circuit::Circuit;
-pub use compiled::{Compiled, DenseKernel};
+pub use compiled::Compiled;
+pub use dense::{Coast, DenseKernel, Edge, Known};
+pub use gather::Gather;
 pub use interpreted_pieces::InterpretedPieces;
 pub use interpreter::Interpreter;
 pub use lanes::{LANE_WORDS, LANES, Lane, LaneKernel, Lanes};
 pub use leap::Leap;
+pub use leaping::Leaping;
 pub use moment::{Coasting, Kernel, Moment};
 #[cfg(test)]
 pub(crate) use random_design::Dice;

@@ -24,9 +24,9 @@ pub use device::{
     set_wheels, settings_for, stepped_device,
 };
 pub use engine::{
-    AllSignals, Circuit, Coasting, Compiled, DenseKernel, Engine, FlipFlops, InterpretedPieces,
-    Interpreter, Kernel, LANE_WORDS, LANES, Lane, LaneKernel, Lanes, Leap, Moment, Rest, Snapshot,
-    SnapshotError, Stop, Vector, differences,
+    AllSignals, Circuit, Coast, Coasting, Compiled, DenseKernel, Edge, Engine, FlipFlops, Gather,
+    InterpretedPieces, Interpreter, Kernel, Known, LANE_WORDS, LANES, Lane, LaneKernel, Lanes,
+    Leap, Leaping, Moment, Rest, Snapshot, SnapshotError, Stop, Vector, differences,
 };
 pub use error::{Error, SettingsError};
 pub use historic::{Delays, TTL};

@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::words::{Gate, Operand, Words, number};
 use helixlock_netlist::drivers::Drivers;
-use helixlock_netlist::{Expression, Netlist, Node, SignalId};
+use helixlock_netlist::{Expression, Netlist, Node, SignalId, mask};
 
 /// Beyond so many terms a condition is taken as it is.
 const MOST_TERMS: usize = 64;
@@ -20,29 +20,97 @@ pub(super) fn conditions(
     netlist: &Netlist,
     register: usize,
 ) -> Option<Vec<Operand>> {
-    let register = netlist.registers[register];
     let drivers = Drivers::new(netlist);
-    let holds = |signal| drivers.origin(signal) == register.output;
-    let width = netlist.signal(register.output).width;
-    let next = Expression::signal(width, register.input);
-    let mut found = changes(words, &drivers, &next, &holds)?;
+    let own = netlist.registers[register].output;
+    let holds = |value: &Expression| is_own(&drivers, own, value);
+    unless(words, logic, netlist, register, holds)
+}
+
+/// The step that a register takes at every clock but those at which one of some bits is set.
+pub(super) fn step(
+    words: &mut Words,
+    logic: &mut Logic,
+    netlist: &Netlist,
+    register: usize,
+) -> Option<(u64, Vec<Operand>)> {
+    let drivers = Drivers::new(netlist);
+    let own = netlist.registers[register].output;
+    let mut steps = BTreeSet::new();
+    add_steps(&drivers, own, &next(netlist, register), &mut steps);
+    let step = steps.pop_first().filter(|_| steps.is_empty())?;
+    let takes = |value: &Expression| step_of(&drivers, own, value) == Some(step);
+    Some((step, unless(words, logic, netlist, register, takes)?))
+}
+
+/// Bits one of which is set whenever a register's next value is not of that kind.
+fn unless(
+    words: &mut Words,
+    logic: &mut Logic,
+    netlist: &Netlist,
+    register: usize,
+    is: impl Fn(&Expression) -> bool,
+) -> Option<Vec<Operand>> {
+    let drivers = Drivers::new(netlist);
+    let mut found = changes(words, &drivers, &next(netlist, register), &is)?;
     found.retain(|condition| *condition != Operand::Constant(0));
     (!found.contains(&Operand::Constant(1))).then(|| logic.reduced(words, found))
 }
 
-/// Conditions under which `value` may be another one than the register's.
+fn next(netlist: &Netlist, register: usize) -> Expression {
+    let register = netlist.registers[register];
+    Expression::signal(netlist.signal(register.output).width, register.input)
+}
+
+/// True for a register as it is, under any name.
+fn is_own(drivers: &Drivers, own: SignalId, value: &Expression) -> bool {
+    matches!(value.node, Node::Signal(id) if drivers.origin(id) == own)
+}
+
+/// What is added, modulo its range, to a register.
+fn step_of(drivers: &Drivers, own: SignalId, value: &Expression) -> Option<u64> {
+    let constant = |value: &Expression| match value.node {
+        Node::Constant(value) => Some(value),
+        _ => None,
+    };
+    match &value.node {
+        Node::Add(a, b) if is_own(drivers, own, a) => constant(b),
+        Node::Add(a, b) if is_own(drivers, own, b) => constant(a),
+        Node::Subtract(a, b) if is_own(drivers, own, a) => {
+            Some(constant(b)?.wrapping_neg() & mask(value.width))
+        }
+        _ => None,
+    }
+}
+
+/// All steps among which a value chooses.
+fn add_steps(drivers: &Drivers, own: SignalId, value: &Expression, steps: &mut BTreeSet<u64>) {
+    match &value.node {
+        Node::Signal(id) if drivers.origin(*id) != own => {
+            if let Some(logic) = drivers.logic(*id) {
+                add_steps(drivers, own, logic, steps);
+            }
+        }
+        Node::Select { then, otherwise, .. } => {
+            add_steps(drivers, own, then, steps);
+            add_steps(drivers, own, otherwise, steps);
+        }
+        _ => steps.extend(step_of(drivers, own, value)),
+    }
+}
+
+/// Conditions under which `value` may be of another kind than it `is`.
 fn changes(
     words: &mut Words,
     drivers: &Drivers,
     value: &Expression,
-    holds: &impl Fn(SignalId) -> bool,
+    is: &impl Fn(&Expression) -> bool,
 ) -> Option<Vec<Operand>> {
     match &value.node {
-        Node::Signal(id) if holds(*id) => Some(vec![]),
-        Node::Signal(id) => changes(words, drivers, drivers.logic(*id)?, holds),
+        _ if is(value) => Some(vec![]),
+        Node::Signal(id) => changes(words, drivers, drivers.logic(*id)?, is),
         Node::Select { condition, then, otherwise } => {
-            let then = changes(words, drivers, then, holds);
-            let otherwise = changes(words, drivers, otherwise, holds);
+            let then = changes(words, drivers, then, is);
+            let otherwise = changes(words, drivers, otherwise, is);
             let when = words.value(condition);
             let unless = words.not(when);
             match (then, otherwise) {

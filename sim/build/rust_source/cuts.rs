@@ -43,6 +43,11 @@ impl Cuts {
         entering.filter(|entering| !entering.contains(&word))
     }
 
+    /// True for a word of one bit.
+    pub(super) fn is_bit(&self, word: usize) -> bool {
+        self.bits.contains(&word)
+    }
+
     /// Look-ups one after the other until a word is known.
     pub(super) fn depth(&self, word: usize) -> usize {
         let before =

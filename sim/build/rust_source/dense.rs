@@ -7,80 +7,117 @@
 //! registers that are neither packed nor in a block
 //! ```
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
 use super::blocks::Site;
+use super::leaping;
 use super::outside;
 use super::packing::Packing;
 use super::plan::{Kept, Plan};
+use super::split::Split;
 use super::words::{Operand, Words};
 use helixlock_netlist::drivers::{Driver, Drivers};
 use helixlock_netlist::{Netlist, SignalId};
 
-/// `impl DenseKernel for name`.
-pub(super) fn source(netlist: &Netlist, name: &str) -> String {
+/// `impl DenseKernel for name`, and what it calls and asks.
+pub(super) fn source(original: &Netlist, name: &str) -> String {
+    let Split { netlist, origins } = &Split::new(original);
     let mut plan = Plan::new(netlist);
     let packing = Packing::new(&plan);
     plan.kept.retain(|kept| !packing.bits.contains_key(&kept.word));
     let (plan, packing) = (&plan, &packing);
-    let (inputs, registers) = (netlist.inputs.len(), netlist.registers.len());
-    let mut source = String::new();
+    let (look, entries) = outside::look(plan, packing, name);
+    let (shown_at, shown) = leaping::shown(plan, packing);
+    let mut source = blocks_function(plan, packing, name);
     // Writing into a string does not fail.
     let _ = write!(
         source,
-        "impl DenseKernel for {name} {{
-    type Inputs = [u64; {inputs}];
-    type Registers = [u64; {registers}];
-    type Kept = [u64; {kept}];
-    const INPUTS: Self::Inputs = [0; {inputs}];
-    const REGISTERS: Self::Registers = {initial:?};
-    const KEPT: Self::Kept = [0; {kept}];
-    const KEPT_FROM: &'static [bool] = &{kept_from:?};
-    const TOGGLES: &'static [u64] = &{toggles:?};
-    const TABLES: usize = {tables};
+        "static {tables}_TABLES: [u64; {count}] = {entries:?};
+
+impl DenseKernel for {name} {{
+{constants}    type Joined = [u64; {joined}];
+    const SHOWN: &'static [Option<u32>] = &{shown_at:?};
 
     #[inline(always)]
-    fn step(inputs: &Self::Inputs, registers: &mut Self::Registers, kept: &mut Self::Kept, known: u64, rest: &mut Rest) -> u64 {{
-{step}    }}
+    fn look<G: Gather>(inputs: &Self::Inputs, registers: &Self::Registers, kept: &Self::Kept, Known {{ early: known, late }}: Known) -> Edge {{
+{look}    }}
 
     #[inline(always)]
-    fn keep(inputs: &Self::Inputs, registers: &Self::Registers, kept: &mut Self::Kept, mut next: u64) -> u64 {{
+    fn take(inputs: &Self::Inputs, registers: &mut Self::Registers, kept: &mut Self::Kept, edge: Edge, rest: &mut Rest) -> Known {{
+        let Edge {{ known: Known {{ early: known, late }}, next: Known {{ early: mut next, late: later }}, found }} = edge;
+{take}    }}
+
+    fn keep(inputs: &mut Self::Inputs, registers: &Self::Registers, kept: &mut Self::Kept, mut next: u64) -> u64 {{
 {keep}    }}
 
-    #[inline(always)]
-    fn pack(registers: &Self::Registers, known: u64) -> u64 {{
-{pack}    }}
+    fn split(values: &[u64], registers: &mut Self::Registers, known: u64) -> Known {{
+{split}    }}
 
-    #[inline(always)]
-    fn unpack(known: u64, registers: &mut Self::Registers) {{
-{unpack}    }}
+    fn join(Known {{ early: known, late }}: Known, registers: &Self::Registers) -> Self::Joined {{
+{join}    }}
 
-    #[inline(always)]
-    fn outputs(inputs: &Self::Inputs, registers: &Self::Registers, values: &mut [u64]) {{
+    fn shown(Known {{ early: known, late }}: Known) -> u64 {{
+{shown}    }}
+
+    fn outputs(inputs: &[u64], registers: &[u64], values: &mut [u64]) {{
 {outputs}    }}
 }}
 
-{blocks}",
-        kept = plan.kept.len(),
-        initial = netlist.registers.iter().map(|register| register.initial).collect::<Vec<_>>(),
-        kept_from = (0..inputs).map(|input| is_kept_from(plan, packing, input)).collect::<Vec<_>>(),
-        toggles = (0..inputs).map(|input| toggles(plan, packing, input)).collect::<Vec<_>>(),
-        step = indented(&step(plan, packing)),
-        tables = packing.tables.len(),
-        blocks = blocks_function(plan, packing, name),
+",
+        tables = name.to_uppercase(),
+        count = entries.len(),
+        constants = constants(netlist, plan, packing),
+        joined = original.registers.len(),
+        look = indented(&look),
+        take = indented(&take(plan, packing)),
         keep = indented(&keep_all(plan, packing)),
-        pack = indented(&pack(packing)),
-        unpack = indented(&unpack(packing)),
-        outputs = indented(&stores(netlist, &netlist.outputs)),
+        split = indented(&split(packing, origins)),
+        join = indented(&join(packing, origins, original)),
+        shown = indented(&shown),
+        outputs = indented(&stores(original, &netlist.outputs)),
     );
     source
 }
 
-/// True when words kept depend on an input, other than a bit that is the input itself.
-fn is_kept_from(plan: &Plan, packing: &Packing, input: usize) -> bool {
-    let apart = packing.steady.iter().filter(|kept| plan.input_of(kept.word).is_none());
-    plan.kept.iter().chain(apart).any(|kept| kept.inputs.contains(&input))
+/// Types and constants of a kernel.
+fn constants(netlist: &Netlist, plan: &Plan, packing: &Packing) -> String {
+    let inputs = netlist.inputs.len();
+    format!(
+        "    type Inputs = [u64; {held}];
+    type Registers = [u64; {registers}];
+    type Kept = [u64; {kept}];
+    const INPUTS: Self::Inputs = [0; {held}];
+    const REGISTERS: Self::Registers = [0; {registers}];
+    const KEPT: Self::Kept = [0; {kept}];
+    const TELLS: &'static [bool] = &{tells:?};
+    const TOGGLES: &'static [u64] = &{toggles:?};
+    const TABLES: usize = {tables};
+    const BUSY: Option<u64> = {busy:?};
+    const COASTING: &'static [Coast] = &[{coasting}];
+",
+        held = inputs + plan.set.len(),
+        registers = netlist.registers.len(),
+        kept = plan.kept.len(),
+        tells = (0..inputs).map(|input| tells(plan, packing, input)).collect::<Vec<_>>(),
+        toggles = (0..inputs).map(|input| toggles(plan, packing, input)).collect::<Vec<_>>(),
+        tables = packing.tables.len(),
+        busy = leaping::busy(plan, packing),
+        coasting = leaping::coasting(plan, packing).join(", "),
+    )
+}
+
+/// True when an input is not, or is more than, a packed bit: others are computed from it.
+fn tells(plan: &Plan, packing: &Packing, input: usize) -> bool {
+    let packed = packing.steady.iter().filter(|kept| plan.input_of(kept.word).is_none());
+    let others = plan.kept.iter().chain(packed).chain(&packing.fresh);
+    let mut inputs = others.map(|kept| kept.inputs.clone()).chain(set_from(plan));
+    toggles(plan, packing, input) == 0 || inputs.any(|inputs| inputs.contains(&input))
+}
+
+/// The inputs that words are set by.
+fn set_from(plan: &Plan) -> impl Iterator<Item = BTreeSet<usize>> {
+    plan.set.iter().map(|word| plan.kept(*word).inputs)
 }
 
 /// The packed bit that is an input.
@@ -89,26 +126,51 @@ fn toggles(plan: &Plan, packing: &Packing, input: usize) -> u64 {
     packing.steady.iter().find(is_it).map_or(0, |kept| 1 << packing.bits[&kept.word])
 }
 
-/// Statements that take the packed registers from where they stand one a word.
-fn pack(packing: &Packing) -> Vec<String> {
-    let bits = packing.registers.iter();
+/// Statements that take registers from where they stand whole.
+fn split(packing: &Packing, origins: &[(usize, u32)]) -> Vec<String> {
+    let all = || origins.iter().enumerate();
+    let words = all().filter(|(register, _)| !packing.has(*register));
+    let words =
+        words.map(|(register, (index, _))| format!("registers[{register}] = values[{index}];"));
+    let bits = |of: &BTreeMap<usize, u32>| {
+        let parts = all().filter_map(|(register, (index, low))| {
+            Some(format!(" | (values[{index}] >> {low} & 1) << {}", of.get(&register)?))
+        });
+        parts.collect::<String>()
+    };
     let mask: u64 = packing.registers.values().map(|bit| 1 << bit).sum();
-    let parts = bits.map(|(register, bit)| format!(" | registers[{register}] << {bit}"));
-    vec![format!("known & {:#x}{}", !mask, parts.collect::<String>())]
+    let (early, late) = (bits(&packing.registers), bits(&packing.late));
+    let known = format!("Known {{ early: known & {:#x}{early}, late: 0{late} }}", !mask);
+    words.chain([known]).collect()
 }
 
 /// The other way about.
-fn unpack(packing: &Packing) -> Vec<String> {
-    let bits = packing.registers.iter();
-    bits.map(|(register, bit)| format!("registers[{register}] = known >> {bit} & 1;")).collect()
+fn join(packing: &Packing, origins: &[(usize, u32)], original: &Netlist) -> Vec<String> {
+    let part = |register: usize| {
+        let places = [("known", &packing.registers), ("late", &packing.late)];
+        let mut bits = places.into_iter().filter_map(|(word, of)| Some((word, of.get(&register)?)));
+        match bits.next() {
+            Some((word, bit)) => format!("({word} >> {bit} & 1)"),
+            None => format!("registers[{register}]"),
+        }
+    };
+    let value = |index: usize| {
+        let parts = origins.iter().enumerate().filter(|(_, (origin, _))| *origin == index);
+        let parts = parts.map(|(register, (_, low))| format!("{} << {low}", part(register)));
+        parts.collect::<Vec<_>>().join(" | ")
+    };
+    let values: Vec<String> = (0..original.registers.len()).map(value).collect();
+    vec![format!("[{}]", values.join(", "))]
 }
 
 /// The registers left outside are written last: blocks read their old values.
-fn step(plan: &Plan, packing: &Packing) -> Vec<String> {
-    let mut lines = outside::lines(plan, packing);
+fn take(plan: &Plan, packing: &Packing) -> Vec<String> {
+    let mut lines = outside::left(plan, packing);
     lines.extend(active_blocks(plan, packing));
     lines.extend(packing.left_outside(plan).into_iter().map(|register| plan.update(register)));
-    lines.push("next".to_owned());
+    let fresh: Vec<&Kept> = packing.fresh.iter().collect();
+    lines.extend(keep(plan, packing, [vec![], fresh], &BTreeSet::new()));
+    lines.push("Known { early: next, late: later }".to_owned());
     lines
 }
 
@@ -116,9 +178,11 @@ fn step(plan: &Plan, packing: &Packing) -> Vec<String> {
 fn active_blocks(plan: &Plan, packing: &Packing) -> Option<String> {
     let outer = || plan.blocks.blocks.iter().filter(|block| block.parent.is_none());
     outer().next()?;
-    let call = "Self::blocks(inputs, registers, kept, known, found, next)";
+    let call = "Self::blocks(inputs, registers, kept, known, late, found, next)";
     let statement = if packing.gives_all_to_blocks(plan) {
-        format!("next = rest.passing_over([known, found], registers, next, |registers| {call});")
+        format!(
+            "next = rest.passing_over([known, late, found], registers, next, |registers| {call});"
+        )
     } else {
         format!("next = {call};")
     };
@@ -145,6 +209,7 @@ fn blocks_function(plan: &Plan, packing: &Packing, name: &str) -> String {
         registers: &mut <Self as DenseKernel>::Registers,
         kept: &mut <Self as DenseKernel>::Kept,
         known: u64,
+        late: u64,
         found: u64,
         mut next: u64,
     ) -> u64 {{
@@ -162,7 +227,12 @@ fn blocks(plan: &Plan, packing: &Packing) -> Vec<String> {
     for roots in shared(plan, packing) {
         let actives = roots.iter().map(|root| plan.blocks.blocks[*root].active.to_string());
         lines.push(format!("if {} != 0 {{", actives.collect::<Vec<_>>().join(" | ")));
-        lines.extend(keep(plan, packing, |kept| kept.roots == roots, |kept| kept.roots.len() < 2));
+        lines.extend(keep_where(
+            plan,
+            packing,
+            |kept| kept.roots == roots,
+            |kept| kept.roots.len() < 2,
+        ));
         lines.push("}".to_owned());
     }
     lines.push("next".to_owned());
@@ -181,11 +251,11 @@ fn blocks_in(plan: &Plan, packing: &Packing, site: Site) -> Vec<String> {
     let blocks = plan.blocks.blocks.iter().enumerate();
     for (index, block) in blocks.filter(|(_, block)| block.parent == site) {
         lines.push(format!("if {} != 0 {{", block.active));
-        lines.extend(plan.computed_in(Some(index)).map(|word| plan.words.line(word)));
+        lines.extend(plan.computed_in(Some(index)).map(|word| plan.line(word)));
         lines.extend(blocks_in(plan, packing, Some(index)));
         lines.extend(block.registers.iter().map(|register| plan.update(*register)));
         let own = |kept: &Kept| kept.roots == BTreeSet::from([index]);
-        lines.extend(keep(plan, packing, own, |kept| kept.roots.is_empty()));
+        lines.extend(keep_where(plan, packing, own, |kept| kept.roots.is_empty()));
         lines.push("}".to_owned());
     }
     lines
@@ -193,40 +263,57 @@ fn blocks_in(plan: &Plan, packing: &Packing, site: Site) -> Vec<String> {
 
 /// Statements that compute all that is kept.
 fn keep_all(plan: &Plan, packing: &Packing) -> Vec<String> {
-    let mut lines = keep(plan, packing, |_| true, |_| false);
+    let packed = packing.steady.iter().chain(&packing.fresh);
+    let all = [plan.kept.iter().collect(), packed.collect()];
+    let set = plan.cone_up_to(plan.set.iter().copied(), &BTreeSet::new());
+    let mut lines: Vec<String> = set.into_iter().map(|word| plan.words.line(word)).collect();
+    let words = plan.set.iter().filter_map(|word| Some((word, plan.set_at(*word)?)));
+    lines.extend(words.map(|(word, place)| format!("inputs[{place}] = w{word};")));
+    lines.extend(keep(plan, packing, all, &BTreeSet::new()));
     lines.push("next".to_owned());
     lines
 }
 
-/// Statements that compute words kept anew, in a scope of their own, from bits of `next` where those
-/// are `fresh`.
-fn keep(
+/// Statements that compute words kept anew, from bits of `next` where those are `up_to_date`.
+fn keep_where(
     plan: &Plan,
     packing: &Packing,
     which: impl Fn(&Kept) -> bool,
-    fresh: impl Fn(&Kept) -> bool,
+    up_to_date: impl Fn(&Kept) -> bool,
 ) -> Vec<String> {
-    let kept: Vec<(usize, &Kept)> =
-        plan.kept.iter().enumerate().filter(|(_, kept)| which(kept)).collect();
+    let kept = plan.kept.iter().filter(|kept| which(kept)).collect();
     let (steady, others): (Vec<&Kept>, Vec<&Kept>) =
         packing.steady.iter().partition(|kept| which(kept));
-    let fresh: BTreeSet<usize> =
-        others.into_iter().filter(|kept| fresh(kept)).map(|kept| kept.word).collect();
-    let all = kept.iter().map(|(_, kept)| *kept).chain(steady.iter().copied());
-    let words = plan.cone_up_to(all.map(|kept| kept.word), &fresh);
+    let known = others.into_iter().filter(|kept| up_to_date(kept)).map(|kept| kept.word).collect();
+    keep(plan, packing, [kept, steady], &known)
+}
+
+/// Statements that compute words of their own and packed ones, in a scope, from bits of `next` where
+/// those are `known`.
+fn keep(
+    plan: &Plan,
+    packing: &Packing,
+    [kept, packed]: [Vec<&Kept>; 2],
+    known: &BTreeSet<usize>,
+) -> Vec<String> {
+    let there = known.iter().chain(&plan.set).copied().collect();
+    let words = plan.cone_up_to(kept.iter().chain(&packed).map(|kept| kept.word), &there);
     if words.is_empty() {
         return vec![];
     }
     let mut lines = vec!["{".to_owned()];
     lines.extend(words.into_iter().map(|word| match packing.bits.get(&word) {
-        Some(bit) if fresh.contains(&word) => format!("let w{word} = next >> {bit} & 1;"),
+        Some(bit) if known.contains(&word) => format!("let w{word} = next >> {bit} & 1;"),
+        _ if plan.set.contains(&word) => plan.line(word),
         _ => plan.words.line(word),
     }));
-    lines.extend(
-        kept.iter().map(|(place, kept)| format!("kept[{place}] = {};", Operand::Word(kept.word))),
-    );
-    if !steady.is_empty() {
-        let bits = steady.iter().map(|kept| (kept.word, packing.bits[&kept.word]));
+    for kept in kept {
+        let place = plan.kept.iter().position(|other| other.word == kept.word);
+        let place = place.expect("what is kept has a place");
+        lines.push(format!("kept[{place}] = {};", Operand::Word(kept.word)));
+    }
+    if !packed.is_empty() {
+        let bits = packed.iter().map(|kept| (kept.word, packing.bits[&kept.word]));
         let mask: u64 = bits.clone().map(|(_, bit)| 1 << bit).sum();
         let parts = bits.map(|(word, bit)| format!(" | w{word} << {bit}"));
         lines.push(format!("next = next & {:#x}{};", !mask, parts.collect::<String>()));

@@ -1,4 +1,4 @@
-//! Which bit of a word each one-bit register and each steady bit has.
+//! Which bit of a word each one-bit register has, and each bit that is computed beside them.
 //!
 //! A register that copies another stands right above it, so that one shift moves all chains. What
 //! enters one table stands together as far as chains leave room, so that few runs make its index.
@@ -22,17 +22,22 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// Gives every packed register a bit, and steady words that enter tables what is left.
-    pub(super) fn new(plan: &Plan, packed: &[usize], tables: &[Table]) -> Self {
+    /// Gives every packed register a bit, and words `beside` them that enter tables what is left.
+    pub(super) fn new(plan: &Plan, packed: &[usize], tables: &[Table], beside: &[usize]) -> Self {
         let register_of: BTreeMap<usize, usize> = packed
             .iter()
             .filter_map(|register| Some((plan.leaf_of(*register)?, *register)))
             .collect();
         let mut chains = chains(plan, &register_of);
-        chains.extend(steady_words(plan, &chains, tables).into_iter().map(|word| vec![word]));
+        let placed: BTreeSet<usize> = chains.iter().flatten().copied().collect();
+        let others = beside.iter().filter(|word| !placed.contains(word));
+        chains.extend(others.map(|word| vec![*word]));
         let enters =
             |chain: &[usize], table: &Table| chain.iter().any(|word| table.entering.contains(word));
-        chains.sort_by_key(|chain| tables.iter().position(|table| enters(chain, table)));
+        // What enters none comes last, if there is room.
+        chains.sort_by_key(|chain| {
+            tables.iter().position(|table| enters(chain, table)).unwrap_or(tables.len())
+        });
         let mut layout = Self::default();
         let mut room = BITS - packed.len();
         for word in chains.into_iter().flatten() {
@@ -89,11 +94,4 @@ fn chains(plan: &Plan, register_of: &BTreeMap<usize, usize>) -> Vec<Vec<usize>> 
         chains.push(chain);
     }
     chains
-}
-
-/// Steady words that enter tables and stand in no chain.
-fn steady_words(plan: &Plan, chains: &[Vec<usize>], tables: &[Table]) -> BTreeSet<usize> {
-    let entering = tables.iter().flat_map(|table| &table.entering).copied();
-    let placed: BTreeSet<usize> = chains.iter().flatten().copied().collect();
-    entering.filter(|word| plan.is_steady(*word) && !placed.contains(word)).collect()
 }

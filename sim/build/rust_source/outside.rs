@@ -4,16 +4,34 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::gather::gathered;
-use super::packing::Packing;
+use super::packing::{PACKED, Packing};
 use super::plan::Plan;
 use super::tables::Table;
 use super::words::number;
 
-/// Statements that ask all tables, in `found`, compute what packed registers become, in `next`, and
-/// the values that the other registers outside all blocks take next.
-pub(super) fn lines(plan: &Plan, packing: &Packing) -> Vec<String> {
+/// Statements that ask all tables and give what packed registers become and what is found; and the
+/// entries of the tables of the kernel of that name.
+pub(super) fn look(plan: &Plan, packing: &Packing, name: &str) -> (Vec<String>, Vec<u64>) {
+    let mut outside = Outside::new(plan, packing);
+    outside.lines.push(format!("let tables = &{}_TABLES;", name.to_uppercase()));
+    outside.look_up();
+    let known = "Known { early: known, late }";
+    let next = "Known { early: next, late: later }";
+    outside.lines.push(format!("Edge {{ known: {known}, next: {next}, found }}"));
+    (outside.lines, outside.entries)
+}
+
+/// True when what tables say, and packed registers become, follows from what is known.
+pub(super) fn looks_at_known_alone(plan: &Plan, packing: &Packing) -> bool {
     let mut outside = Outside::new(plan, packing);
     outside.look_up();
+    outside.looks_at_known_alone()
+}
+
+/// Statements that compute what registers left outside all blocks take next when tables have been
+/// asked.
+pub(super) fn left(plan: &Plan, packing: &Packing) -> Vec<String> {
+    let mut outside = Outside::found(plan, packing);
     for register in packing.left_outside(plan) {
         outside.compute(number(plan.next[register]));
     }
@@ -22,27 +40,44 @@ pub(super) fn lines(plan: &Plan, packing: &Packing) -> Vec<String> {
 
 /// Statements that compute what blocks need when `known` and `found` are.
 pub(super) fn needed_by_blocks(plan: &Plan, packing: &Packing) -> Vec<String> {
-    let mut outside = Outside::new(plan, packing);
-    outside.found = packing.places.keys().copied().collect();
+    let mut outside = Outside::found(plan, packing);
     for word in plan.needed_by_blocks() {
         outside.compute(Some(word));
     }
     outside.lines
 }
 
-struct Outside<'a> {
+/// Code outside all blocks in the making.
+pub(super) struct Outside<'a> {
     plan: &'a Plan<'a>,
     packing: &'a Packing,
     /// Functions that tables have been asked for.
     found: BTreeSet<usize>,
     computed: BTreeSet<usize>,
-    lines: Vec<String>,
+    pub(super) lines: Vec<String>,
+    /// Of all tables asked, one behind the other.
+    entries: Vec<u64>,
 }
 
 impl<'a> Outside<'a> {
-    fn new(plan: &'a Plan<'a>, packing: &'a Packing) -> Self {
+    /// Before any table has been asked.
+    pub(super) fn new(plan: &'a Plan<'a>, packing: &'a Packing) -> Self {
         let [found, computed] = [BTreeSet::new(), BTreeSet::new()];
-        Self { plan, packing, found, computed, lines: vec![] }
+        Self { plan, packing, found, computed, lines: vec![], entries: vec![] }
+    }
+
+    /// When all tables have been asked.
+    fn found(plan: &'a Plan<'a>, packing: &'a Packing) -> Self {
+        let found = packing.places.keys().copied().collect();
+        Self { found, ..Self::new(plan, packing) }
+    }
+
+    /// True when nothing is read but what is known, which then is all that the code depends on.
+    pub(super) fn looks_at_known_alone(&self) -> bool {
+        let reads = |line: &String| {
+            ["inputs[", "registers[", "kept["].iter().any(|place| line.contains(place))
+        };
+        !self.lines.iter().any(reads)
     }
 
     fn look_up(&mut self) {
@@ -51,10 +86,16 @@ impl<'a> Outside<'a> {
         let at_once = packing.tables.partition_point(|table| table.depth == 1);
         let (first, later) = packing.tables.split_at(at_once);
         self.ask_all(first);
-        self.update_packed();
+        self.update("next", &packing.registers);
+        let beside = packing.steady.iter().chain(&packing.fresh);
+        let beside: u64 = beside.map(|kept| 1 << packing.bits[&kept.word]).sum();
+        if beside != 0 {
+            self.lines.push(format!("let next = next | known & {beside:#x};"));
+        }
         for tables in later.chunk_by(|one, next| one.depth == next.depth) {
             self.ask_all(tables);
         }
+        self.update("later", &packing.late);
     }
 
     fn ask_all(&mut self, tables: &[Table]) {
@@ -65,61 +106,66 @@ impl<'a> Outside<'a> {
     }
 
     fn ask(&mut self, table: &Table) {
-        let (bits, alone) = self.packing.entering(table);
+        let entering = self.packing.entering(table, &self.found);
         let (mut order, mut index) = (vec![], vec![]);
-        if !bits.is_empty() {
+        for (word, bits) in PACKED.iter().zip(&entering.packed) {
+            if bits.is_empty() {
+                continue;
+            }
             let places: Vec<u32> = bits.keys().copied().collect();
-            let (text, places) = gathered(&places);
-            index.push(text);
-            order.extend(places.iter().map(|place| bits[place]));
+            let text = gathered(word, &places);
+            index.push(if order.is_empty() { text } else { format!("{text} << {}", order.len()) });
+            order.extend(bits.values());
         }
-        for word in alone {
+        for word in entering.alone {
             self.compute(Some(word));
             index.push(format!("w{word} << {}", order.len()));
             order.push(word);
         }
         let entries = table.entries(self.plan, &order, &self.packing.places);
-        let (length, index) = (entries.len(), index.join(" | "));
+        let (first, last, index) = (self.entries.len(), entries.len() - 1, index.join(" | "));
         // The mask is there for the compiler, which needs not look whether an entry is there.
-        self.lines.push(format!(
-            "found |= {{ static TABLE: [u64; {length}] = {entries:?}; TABLE[({index}) as usize & {:#x}] }};",
-            length - 1
-        ));
+        self.lines.push(format!("found |= tables[{first} + (({index}) as usize & {last:#x})];"));
+        self.entries.extend(entries);
     }
 
-    fn update_packed(&mut self) {
+    /// What registers become that are bits of one word.
+    fn update(&mut self, name: &str, registers: &BTreeMap<usize, u32>) {
         let packing = self.packing;
-        let steady: u64 = packing.steady.iter().map(|kept| 1 << packing.bits[&kept.word]).sum();
         let mut found = 0_u64;
         let mut shifted: BTreeMap<i64, u64> = BTreeMap::new();
-        let mut parts = vec![];
-        for (register, bit) in &packing.registers {
+        let mut parts = vec!["0".to_owned()];
+        for (register, bit) in registers {
             let next = self.plan.next[*register];
-            let place = number(next).and_then(|word| packing.places.get(&word));
-            let source = number(next).and_then(|word| packing.bits.get(&word));
+            let word = number(next);
+            let place = word.and_then(|word| packing.places.get(&word));
+            let source = word.and_then(|word| packing.bits.get(&word));
             if place == Some(bit) {
                 found |= 1 << bit;
             } else if let Some(source) = source {
-                *shifted.entry(i64::from(*bit) - i64::from(*source)).or_default() |= 1 << source;
+                let distance = i64::from(*bit) - i64::from(*source);
+                *shifted.entry(distance).or_default() |= 1 << source;
             } else {
-                self.compute(number(next));
+                self.compute(word);
                 parts.push(format!("{next} << {bit}"));
             }
         }
-        parts.push(format!("known & {steady:#x}"));
         parts.push(format!("found & {found:#x}"));
         for (distance, mask) in shifted {
             let shift = if distance < 0 { ">>" } else { "<<" };
             parts.push(format!("(known & {mask:#x}) {shift} {}", distance.abs()));
         }
-        self.lines.push(format!("let mut next = {};", parts.join(" | ")));
+        self.lines.push(format!("let {name} = {};", parts.join(" | ")));
     }
 
     /// Computes a word and, before it, those it needs.
-    fn compute(&mut self, word: Option<usize>) {
+    pub(super) fn compute(&mut self, word: Option<usize>) {
         let Some(word) = word.filter(|word| self.computed.insert(*word)) else { return };
         if let Some(bit) = self.packing.bits.get(&word) {
             return self.lines.push(format!("let w{word} = known >> {bit} & 1;"));
+        }
+        if let Some(bit) = self.packing.late_bits.get(&word) {
+            return self.lines.push(format!("let w{word} = late >> {bit} & 1;"));
         }
         if self.found.contains(&word) {
             let bit = self.packing.places[&word];

@@ -6,14 +6,19 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::blocks::{Blocks, Site};
+use super::activity::{Logic, step};
+use super::blocks::{Block, Blocks, Site};
 use super::cuts::Cuts;
 use super::words::{Operand, Words, number};
 use helixlock_netlist::drivers::{Driver, Drivers};
-use helixlock_netlist::{Netlist, Register};
+use helixlock_netlist::settle::counters;
+use helixlock_netlist::{Expression, Netlist, Node, Register};
 
 /// A block that spares fewer operations than this is dissolved: a branch costs as much.
 const FEWEST_SPARED: usize = 8;
+
+/// A narrower counter leaves its stretch too soon to be worth a leap.
+const NARROWEST_COASTING: u32 = 6;
 
 /// Keeping a word that takes fewer operations than this spares nothing.
 const FEWEST_KEPT: usize = 2;
@@ -37,6 +42,17 @@ pub(super) struct Kept {
     pub(super) roots: BTreeSet<usize>,
 }
 
+/// A register that takes the same step at every clock, and is seen only by how it compares.
+pub(super) struct Coasting {
+    /// Index in [`Netlist::registers`].
+    pub(super) register: usize,
+    pub(super) width: u32,
+    pub(super) step: u64,
+    pub(super) thresholds: Vec<u64>,
+    /// One bit: it does something else.
+    pub(super) strays: Operand,
+}
+
 /// All decisions about a kernel.
 pub(super) struct Plan<'a> {
     pub(super) words: Words<'a>,
@@ -46,9 +62,17 @@ pub(super) struct Plan<'a> {
     /// Where each word that is needed is computed.
     pub(super) places: BTreeMap<usize, Site>,
     pub(super) kept: Vec<Kept>,
+    /// Words of several bits that follow from inputs alone, and are read like them.
+    pub(super) set: Vec<usize>,
+    /// What each output shows.
+    pub(super) outputs: Vec<Operand>,
+    /// Registers that count at every clock, or nearly.
+    pub(super) coasting: Vec<Coasting>,
     leaves: BTreeMap<usize, Leaf>,
     /// Of every register.
     widths: Vec<u32>,
+    /// How many there are.
+    inputs: usize,
 }
 
 impl<'a> Plan<'a> {
@@ -60,11 +84,33 @@ impl<'a> Plan<'a> {
         let widths = registers.clone().map(width).collect();
         let next = registers.map(|register| words.signal(register.input)).collect();
         let blocks = Blocks::new(&mut words, netlist);
-        let places = BTreeMap::new();
-        let mut plan = Self { words, blocks, next, places, kept: vec![], leaves, widths };
+        let outputs = netlist.outputs.iter().map(|output| words.signal(*output)).collect();
+        let coasting = coasting(&mut words, netlist);
+        let (places, kept, set) = (BTreeMap::new(), vec![], vec![]);
+        let inputs = netlist.inputs.len();
+        let mut plan = Self {
+            words,
+            blocks,
+            next,
+            places,
+            kept,
+            set,
+            outputs,
+            coasting,
+            leaves,
+            widths,
+            inputs,
+        };
         plan.places = plan.placed();
         while let Some(register) = plan.looked_up() {
             plan.blocks.take_out(register);
+            plan.places = plan.placed();
+        }
+        while let Some(block) = plan.looked_up_block() {
+            for register in plan.blocks.blocks[block].registers.clone() {
+                plan.blocks.take_out(register);
+            }
+            plan.blocks.dissolve(block);
             plan.places = plan.placed();
         }
         while let Some(hollow) = plan.blocks.hollow() {
@@ -75,6 +121,8 @@ impl<'a> Plan<'a> {
             plan.blocks.dissolve(poor);
             plan.places = plan.placed();
         }
+        plan.set = plan.set_by_inputs();
+        plan.places = plan.placed();
         plan.kept = plan.worth_keeping();
         plan.places = plan.placed();
         plan
@@ -88,6 +136,11 @@ impl<'a> Plan<'a> {
     /// The place of a word among those kept.
     fn kept_at(&self, word: usize) -> Option<usize> {
         self.kept.iter().position(|kept| kept.word == word)
+    }
+
+    /// Where a word that follows from inputs stands behind them.
+    pub(super) fn set_at(&self, word: usize) -> Option<usize> {
+        Some(self.inputs + self.set.iter().position(|set| *set == word)?)
     }
 
     /// True for a word that is read from an input or a register.
@@ -122,8 +175,11 @@ impl<'a> Plan<'a> {
 
     /// The statement that computes a word, or takes it from where it is kept.
     pub(super) fn line(&self, word: usize) -> String {
-        match self.kept_at(word) {
-            Some(place) => format!("let {} = kept[{place}];", Operand::Word(word)),
+        if let Some(place) = self.kept_at(word) {
+            return format!("let {} = kept[{place}];", Operand::Word(word));
+        }
+        match self.set_at(word) {
+            Some(place) => format!("let {} = inputs[{place}];", Operand::Word(word)),
             None => self.words.line(word),
         }
     }
@@ -135,7 +191,8 @@ impl<'a> Plan<'a> {
 
     /// Words that are to be known before this one: none when it is taken from where it is kept.
     pub(super) fn operands(&self, word: usize) -> &[usize] {
-        if self.kept_at(word).is_some() { &[] } else { &self.words.all()[word].operands }
+        let is_there = self.kept_at(word).is_some() || self.set_at(word).is_some();
+        if is_there { &[] } else { &self.words.all()[word].operands }
     }
 
     /// A word and all it is computed from.
@@ -170,6 +227,9 @@ impl<'a> Plan<'a> {
             if self.kept_at(word).is_some() || self.is_written_first(word) {
                 // Read before anything is written.
                 places.insert(word, None);
+                continue;
+            }
+            if self.set_at(word).is_some() {
                 continue;
             }
             for operand in &of.operands {
@@ -226,6 +286,33 @@ impl<'a> Plan<'a> {
         inside.copied().filter(|register| self.is_bit(*register)).find(looked_up)
     }
 
+    /// A block of one-bit registers, known after two look-ups at most, and of nothing else: looked up
+    /// they need no branch.
+    fn looked_up_block(&self) -> Site {
+        let cuts = Cuts::new(self);
+        let is_looked_up = |register: &usize| {
+            let word = number(self.next[*register]);
+            self.is_bit(*register) && word.is_some_and(|word| (1..=2).contains(&cuts.depth(word)))
+        };
+        let blocks = &self.blocks.blocks;
+        (0..blocks.len()).find(|index| {
+            let is_inside = |block: &Block| block.parent == Some(*index);
+            blocks[*index].registers.iter().all(is_looked_up) && !blocks.iter().any(is_inside)
+        })
+    }
+
+    /// Words of several bits that follow from inputs alone, where others are computed from them.
+    fn set_by_inputs(&self) -> Vec<usize> {
+        let needs = self.needs().into_iter().map(|(word, _)| word);
+        let all = self.cone_up_to(needs, &BTreeSet::new());
+        let is_set = |word: &usize| !self.is_read(*word) && !self.reads(*word, |_| true);
+        let others = all.into_iter().filter(|word| !is_set(word));
+        let operands = others.flat_map(|word| self.words.all()[word].operands.clone());
+        let wide = |word: &usize| 1 < self.words.all()[*word].width;
+        let set: BTreeSet<usize> = operands.filter(|word| is_set(word) && wide(word)).collect();
+        set.into_iter().collect()
+    }
+
     /// A block that spares too little.
     fn poor_block(&self) -> Site {
         (0..self.blocks.blocks.len()).find(|block| self.spared(*block) < FEWEST_SPARED)
@@ -247,7 +334,7 @@ impl<'a> Plan<'a> {
         }
         let worth = |word: &usize| {
             let computed = self.cone(*word).into_iter().filter(|word| !self.is_read(*word));
-            FEWEST_KEPT <= computed.count()
+            self.set_at(*word).is_none() && FEWEST_KEPT <= computed.count()
         };
         steady.intersection(&seen).copied().filter(worth).map(|word| self.kept(word)).collect()
     }
@@ -260,7 +347,15 @@ impl<'a> Plan<'a> {
         })
     }
 
-    /// A steady word, and what it depends on.
+    /// True when a word is computed from a register of that kind, at this clock.
+    pub(super) fn reads(&self, word: usize, which: impl Fn(&usize) -> bool) -> bool {
+        self.cone(word).iter().any(|word| match self.leaves.get(word) {
+            Some(Leaf::Register(register)) => which(register),
+            _ => false,
+        })
+    }
+
+    /// A word that is not computed at every clock, or not for others, and what it depends on.
     pub(super) fn kept(&self, word: usize) -> Kept {
         let mut kept = Kept { word, inputs: BTreeSet::new(), roots: BTreeSet::new() };
         for word in self.cone(word) {
@@ -276,11 +371,35 @@ impl<'a> Plan<'a> {
     }
 }
 
+/// Counters whose step and thresholds are constants.
+fn coasting(words: &mut Words, netlist: &Netlist) -> Vec<Coasting> {
+    let mut logic = Logic::default();
+    let mut found = vec![];
+    for counter in counters(netlist, NARROWEST_COASTING) {
+        let register = counter.register;
+        let constant = |threshold: &Expression| match threshold.node {
+            Node::Constant(value) => Some(value),
+            _ => None,
+        };
+        let thresholds: Option<Vec<u64>> = counter.thresholds.iter().map(constant).collect();
+        let step = step(words, &mut logic, netlist, register);
+        if let (Some(thresholds), Some((step, conditions))) = (thresholds, step) {
+            let none = Operand::Constant(0);
+            let strays = conditions.into_iter().fold(none, |any, bit| words.or(any, bit));
+            let width = netlist.signal(netlist.registers[register].output).width;
+            found.push(Coasting { register, width, step, thresholds, strays });
+        }
+    }
+    found
+}
+
 /// Places inputs and registers, and says which words they are.
 fn leaves(words: &mut Words, netlist: &Netlist) -> BTreeMap<usize, Leaf> {
     let mut leaves = BTreeMap::new();
     let drivers = Drivers::new(netlist);
-    for end in drivers.ends(netlist.registers.iter().map(|register| register.input), |_| false) {
+    let inputs = netlist.registers.iter().map(|register| register.input);
+    let roots = inputs.chain(netlist.outputs.iter().copied());
+    for end in drivers.ends(roots, |_| false) {
         let (leaf, place) = match drivers.of(end) {
             Driver::Input(index) => (Leaf::Input(index), format!("inputs[{index}]")),
             Driver::Register(index) => (Leaf::Register(index), format!("registers[{index}]")),

@@ -14,15 +14,39 @@ pub(super) struct Table {
     pub(super) functions: Vec<usize>,
 }
 
-/// Puts functions into tables, those that come first into the first.
+/// A function, what enters it, and look-ups until it is known.
+#[derive(Clone, Copy)]
+struct Function<'a> {
+    word: usize,
+    entering: &'a BTreeSet<usize>,
+    depth: usize,
+}
+
+/// Puts functions into few tables.
 pub(super) fn tables(cuts: &Cuts, functions: &[usize]) -> Vec<Table> {
+    let function = |word: &usize| {
+        Some(Function { word: *word, entering: cuts.entering(*word)?, depth: cuts.depth(*word) })
+    };
+    let mut functions: Vec<Function> = functions.iter().filter_map(function).collect();
+    functions.sort_by_key(|of| (of.depth, usize::MAX - of.entering.len(), of.word));
+    // Which comes first decides how well the others fit: each is tried.
+    let firsts = 0..functions.len();
+    let tries = firsts.map(|first| in_order(&[&functions[first..=first], &functions].concat()));
+    tries.min_by_key(|tables| (tables.len(), entries(tables))).unwrap_or_default()
+}
+
+/// All entries of some tables.
+fn entries(tables: &[Table]) -> usize {
+    tables.iter().map(|table| 1_usize << table.entering.len()).sum()
+}
+
+/// Puts each function into the table that it widens least; one that comes again stays.
+fn in_order(functions: &[Function]) -> Vec<Table> {
     let mut tables: Vec<Table> = vec![];
-    let mut order: Vec<(usize, &BTreeSet<usize>, usize)> = functions
-        .iter()
-        .filter_map(|word| Some((cuts.depth(*word), cuts.entering(*word)?, *word)))
-        .collect();
-    order.sort_by_key(|(depth, entering, word)| (*depth, usize::MAX - entering.len(), *word));
-    for (depth, entering, word) in order {
+    for Function { word, entering, depth } in functions.iter().copied() {
+        if tables.iter().any(|table| table.functions.contains(&word)) {
+            continue;
+        }
         let more = |table: &Table| entering.difference(&table.entering).count();
         let fitting = tables.iter_mut().filter(|table| {
             table.depth == depth && table.entering.len() + more(table) <= MOST_ENTERING
@@ -34,6 +58,7 @@ pub(super) fn tables(cuts: &Cuts, functions: &[usize]) -> Vec<Table> {
             tables.push(Table { depth, entering: entering.clone(), functions: vec![word] });
         }
     }
+    tables.sort_by_key(|table| table.depth);
     tables
 }
 

@@ -89,14 +89,6 @@ impl<'a> Words<'a> {
         word
     }
 
-    /// Computes the targets of assignments, given in evaluation order.
-    pub(super) fn body(&mut self, assignments: &[usize]) {
-        for index in assignments {
-            let target = self.netlist.assignments[*index].target;
-            self.signal(target);
-        }
-    }
-
     /// The value of an expression.
     pub(super) fn value(&mut self, expression: &Expression) -> Operand {
         match &expression.node {

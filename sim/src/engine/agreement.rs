@@ -19,7 +19,8 @@ pub(crate) fn compare(netlist: &Netlist, engine: &mut dyn Engine, dice: &mut Dic
                 engine.set_input(*input, value);
             }
         }
-        let watched: Vec<SignalId> = (0..dice.below(3)).map(|_| dice.pick(&all)).collect();
+        let watchable = if dice.below(2) == 0 { &netlist.outputs } else { &all };
+        let watched: Vec<SignalId> = (0..dice.below(3)).map(|_| dice.pick(watchable)).collect();
         reference.watch(&watched);
         engine.watch(&watched);
         let span = dice.pick(&[0, 1, 2, 3, 17, 300]);

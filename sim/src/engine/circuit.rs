@@ -2,7 +2,7 @@
 
 use helixlock_netlist::drivers::{Driver, Drivers};
 use helixlock_netlist::partition::Partition;
-use helixlock_netlist::{Netlist, SignalId};
+use helixlock_netlist::{Netlist, Signal, SignalId, mask};
 
 /// Where the value of a signal is found without evaluating anything.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,12 +96,22 @@ impl Circuit {
     ///
     /// When the signal is no input, or the value is wider than it.
     pub(crate) fn input_index(&self, input: SignalId, value: u64) -> usize {
-        let signal = self.netlist.signal(input);
-        assert!(value <= helixlock_netlist::mask(signal.width), "{value} fits `{}`", signal.path);
         match self.place(input) {
-            Place::Input(index) => index,
-            _ => panic!("`{}` is an input", signal.path),
+            Place::Input(index) if value <= mask(self.netlist.signal(input).width) => index,
+            _ => self.refuse(input, value),
         }
+    }
+
+    /// Says why a signal takes no such value from outside.
+    ///
+    /// # Panics
+    ///
+    /// Always.
+    #[cold]
+    pub(crate) fn refuse(&self, input: SignalId, value: u64) -> ! {
+        let Signal { path, width } = self.netlist.signal(input);
+        assert!(value <= mask(*width), "{value} fits `{path}`");
+        panic!("`{path}` is an input");
     }
 }
 

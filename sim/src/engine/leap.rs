@@ -1,5 +1,5 @@
-//! The engine that leaps: evaluates only what is called upon, and when nobody is, jumps to the
-//! clock at which something happens.
+//! The engine that leaps through a design met at run time: evaluates only what is called upon, and
+//! when nobody is, jumps to the clock at which something happens.
 //!
 //! ```text
 //! clock         0 1 2 3 4 5 6 ················ 4711 4712 4713 4714

@@ -68,6 +68,42 @@ pub(crate) fn random_bits(dice: &mut Dice) -> Netlist {
     draft.finished()
 }
 
+/// A design that waits for pulses: synchronisers, a counter that is loaded again when it has run down,
+/// a narrow register and decades that pulses step, and bits behind logic of more bits than one table
+/// takes.
+pub(crate) fn random_waiting(dice: &mut Dice) -> Netlist {
+    let mut draft = Draft::new(dice);
+    let width = draft.dice.pick(&[6, 8]);
+    let counter = draft.signal("counter", width);
+    let tick = draft.compared(counter, width);
+    let chain: Vec<SignalId> = (0..6).map(|_| draft.signal("bit", 1)).collect();
+    draft.known.extend([tick].iter().chain(&chain));
+    let pins = [draft.netlist.inputs[0], draft.netlist.inputs[1]];
+    for (chain, pin) in chain.chunks(3).zip(pins) {
+        for (output, before) in chain.iter().zip([&[pin], chain].concat()) {
+            draft.register(*output, read(before, 1));
+        }
+    }
+    let run_down = draft.run_down(counter, width);
+    draft.register(counter, run_down);
+    let pulses = [draft.risen(&chain[..3]), draft.risen(&chain[3..])];
+    for width in [1, 2, 3, 4] {
+        let output = draft.signal("held", width);
+        let pulse = Box::new(read(draft.dice.pick(&pulses), 1));
+        let value = Box::new(draft.expression(width, 2));
+        let value = select(width, pulse, value, Box::new(read(output, width)));
+        draft.known.push(output);
+        draft.register(output, value);
+    }
+    let late: Vec<SignalId> = (0..4).map(|_| draft.signal("late", 1)).collect();
+    for output in &late {
+        let value = draft.logic_of_many();
+        draft.register(*output, value);
+    }
+    draft.known.extend(late);
+    draft.finished()
+}
+
 struct Draft<'a> {
     dice: &'a mut Dice,
     netlist: Netlist,
@@ -127,6 +163,34 @@ impl Draft<'_> {
             self.netlist.assignments.push(Assignment { target, value });
             self.known.push(target);
         }
+    }
+
+    /// A signal that says whether a register has a certain value.
+    fn compared(&mut self, register: SignalId, width: u32) -> SignalId {
+        let value = Box::new(constant(self.dice.below(3), width));
+        let node = Node::Equal(Box::new(read(register, width)), value);
+        let target = self.signal("local", 1);
+        self.netlist.assignments.push(Assignment { target, value: Expression { width: 1, node } });
+        target
+    }
+
+    /// A signal that says that the end of a synchroniser has just risen.
+    fn risen(&mut self, chain: &[SignalId]) -> SignalId {
+        let fell = Expression { width: 1, node: Node::Not(Box::new(read(chain[2], 1))) };
+        let node = Node::And(Box::new(read(chain[1], 1)), Box::new(fell));
+        let target = self.signal("local", 1);
+        self.netlist.assignments.push(Assignment { target, value: Expression { width: 1, node } });
+        target
+    }
+
+    /// One less at every clock, until that is over or an input says otherwise.
+    fn run_down(&mut self, counter: SignalId, width: u32) -> Expression {
+        let (over, clear) = (self.compared(counter, width), self.netlist.inputs[1]);
+        let node = Node::Or(Box::new(read(over, 1)), Box::new(read(clear, 1)));
+        let restart = Box::new(self.fitted(self.netlist.inputs[2], width));
+        let ends = Box::new(Expression { width: 1, node });
+        let node = Node::Subtract(Box::new(read(counter, width)), Box::new(constant(1, width)));
+        select(width, ends, restart, Box::new(Expression { width, node }))
     }
 
     fn comparison(&mut self, register: SignalId, width: u32) -> Expression {

@@ -7,12 +7,13 @@ use helixlock_rtl::{APART, BLOCKS};
 use super::Engine;
 use super::agreement::compare;
 use super::circuit::Circuit;
-use super::compiled::{Compiled, DenseKernel};
+use super::compiled::Compiled;
+use super::dense::{DenseKernel, Known};
+use super::gather::Gathering;
 use super::interpreter::Interpreter;
 use super::lanes::{LaneKernel, Lanes};
-use super::leap::Leap;
-use super::moment::Kernel;
-use super::random_design::{Dice, random_bits, random_design};
+use super::leaping::Leaping;
+use super::random_design::{Dice, random_bits, random_design, random_waiting};
 
 #[allow(clippy::all, clippy::pedantic, reason = "generated: written for the compiler alone")]
 #[allow(unused_imports, reason = "a design may do without shifts")]
@@ -23,9 +24,9 @@ use super::random_design::{Dice, random_bits, random_design};
 mod generated {
     use super::{Check, check, check_lanes};
     use crate::engine::all_signals::AllSignals;
-    use crate::engine::compiled::DenseKernel;
+    use crate::engine::dense::{Coast, DenseKernel, Edge, Known};
+    use crate::engine::gather::Gather;
     use crate::engine::lanes::{LANE_WORDS, Lane, LaneKernel};
-    use crate::engine::moment::{Coasting, Kernel, Moment};
     use crate::engine::rest::Rest;
     use crate::engine::vector::Vector;
     use crate::engine::words::{choose, shift_down, shift_up};
@@ -38,36 +39,45 @@ type Check = fn(&Circuit, &Dice) -> Traits;
 
 /// What makes a design one that tests something.
 struct Traits {
-    keeps_words: bool,
-    has_counters: bool,
-    /// Registers that are bits of one word.
-    packed: u32,
+    /// Words that are kept, and such as follow from inputs alone.
+    kept: usize,
+    set: usize,
+    /// Registers that are bits of what is known, early and late.
+    packed: [u32; 2],
     tables: usize,
+    /// It is leapt through, and a counter coasts meanwhile.
+    leaps: bool,
+    coasts: bool,
+    /// Registers that splitting adds.
+    split: usize,
 }
 
-fn check<K: DenseKernel + Kernel + Default>(circuit: &Circuit, dice: &Dice) -> Traits {
-    compare(circuit.netlist(), &mut Compiled::<K>::new(circuit), &mut dice.clone());
-    compare(circuit.netlist(), &mut Leap::new(circuit, K::default()), &mut dice.clone());
+fn check<K: DenseKernel>(circuit: &Circuit, dice: &Dice) -> Traits {
+    let netlist = circuit.netlist();
+    for by in Gathering::all() {
+        compare(netlist, &mut Compiled::<K>::by(circuit, by), &mut dice.clone());
+        compare(netlist, &mut Leaping::<K>::by(circuit, by), &mut dice.clone());
+    }
     Traits {
-        keeps_words: !K::KEPT.as_ref().is_empty(),
-        has_counters: !circuit.partition().counters.is_empty(),
+        kept: K::KEPT.as_ref().len(),
+        set: K::INPUTS.as_ref().len() - netlist.inputs.len(),
         packed: packed::<K>(),
         tables: K::TABLES,
+        leaps: K::BUSY.is_some(),
+        coasts: K::BUSY.is_some() && !K::COASTING.is_empty(),
+        split: K::REGISTERS.as_ref().len() - netlist.registers.len(),
     }
 }
 
 /// Counted by setting all registers.
-fn packed<K: DenseKernel>() -> u32 {
-    let mut registers = K::REGISTERS;
-    registers.as_mut().fill(1);
-    K::pack(&registers, 0).count_ones()
+fn packed<K: DenseKernel>() -> [u32; 2] {
+    let values = vec![u64::MAX; K::join(Known::default(), &K::REGISTERS).as_ref().len()];
+    let Known { early, late } = K::split(&values, &mut { K::REGISTERS }, 0);
+    [early.count_ones(), late.count_ones()]
 }
 
 /// One lane among others with inputs of their own, besides the other engines.
-fn check_lanes<K: LaneKernel + DenseKernel + Kernel + Default>(
-    circuit: &Circuit,
-    seed: &Dice,
-) -> Traits {
+fn check_lanes<K: LaneKernel + DenseKernel>(circuit: &Circuit, seed: &Dice) -> Traits {
     let netlist = circuit.netlist();
     let mut dice = seed.clone();
     let mut lanes = Lanes::<K>::new(circuit);
@@ -97,11 +107,27 @@ fn generated_engines_of_random_designs_agree_with_the_reference() {
         }
     }
     let count = |has: fn(&Traits) -> bool| traits.iter().filter(|traits| has(traits)).count();
-    assert!(10 <= count(|traits| traits.keeps_words), "designs that keep words");
-    assert!(10 <= count(|traits| traits.has_counters), "designs that leap");
-    assert!(10 <= count(|traits| !traits.has_counters), "designs with nothing to leap");
-    assert!(10 <= count(|traits| 0 < traits.packed), "designs with packed registers");
+    assert!(10 <= count(|traits| 0 < traits.kept), "designs that keep words");
+    assert!(10 <= count(|traits| !traits.leaps), "designs with nothing to leap");
+    assert!(10 <= count(|traits| 0 < traits.packed[0]), "designs with packed registers");
     assert!(10 <= count(|traits| 0 < traits.tables), "designs that look logic up");
+    assert!(10 <= count(|traits| 0 < traits.set), "designs with words that follow from inputs");
+}
+
+#[test]
+fn generated_engines_of_designs_that_wait_agree_with_the_reference() {
+    let mut traits = Vec::new();
+    for (seed, check) in (0..).zip(generated::WAITING) {
+        let mut dice = Dice(seed);
+        let circuit = Circuit::new(random_waiting(&mut dice));
+        for round in 0..20 {
+            traits.push(check(&circuit, &Dice(round)));
+        }
+    }
+    let count = |has: fn(&Traits) -> bool| traits.iter().filter(|traits| has(traits)).count() / 20;
+    assert!(3 <= count(|traits| traits.coasts), "designs with a counter that coasts");
+    assert!(3 <= count(|traits| 0 < traits.split), "designs with narrow registers that are split");
+    assert!(3 <= count(|traits| 0 < traits.packed[1]), "designs with registers known late");
 }
 
 #[test]
@@ -110,18 +136,18 @@ fn generated_engines_of_more_flip_flops_than_a_word_has_bits_agree_with_the_refe
         let mut dice = Dice(seed);
         let circuit = Circuit::new(random_bits(&mut dice));
         let traits = check(&circuit, &dice);
-        assert_eq!(traits.packed, u64::BITS, "as many as there is room for");
+        assert_eq!(traits.packed[0], u64::BITS, "as many as there is room for");
         assert!(4 <= traits.tables, "logic of more bits than one table takes");
     }
 }
 
 #[test]
 fn generated_engines_of_every_block_agree_with_the_reference() {
+    let mut leaping = 0;
     for (card, check) in BLOCKS.iter().chain(APART).zip(generated::BLOCKS) {
         let design = elaborate(card.name, (card.build)().as_ref(), &Library::new()).unwrap();
         let circuit = Circuit::new(Netlist::new(&design).unwrap());
-        for seed in 0..5 {
-            check(&circuit, &Dice(seed));
-        }
+        leaping += usize::from((0..5).all(|seed| check(&circuit, &Dice(seed)).leaps));
     }
+    assert!(10 <= leaping, "blocks that leap");
 }
