@@ -1,5 +1,4 @@
 //! What there and back do not share, in passes that run by turns, is told and no noise.
-#![expect(clippy::cast_precision_loss, reason = "some hundred rows")]
 
 use helixlock_lab::Diagnosis;
 use rand::SeedableRng;
@@ -16,11 +15,11 @@ fn by_turns(seed: u64, error_um: &dyn Fn(f64, f64, f64) -> f64) -> Diagnosis {
     for pass in 0..4 {
         let way = if pass % 2 == 0 { 1.0 } else { -1.0 };
         for row in 0..200 {
-            let gone = 2.0 * row as f64;
+            let gone = 2.0 * f64::from(row);
             let mm = if pass % 2 == 0 { gone } else { 398.0 - gone };
             let noise: f64 = StandardNormal.sample(&mut chance);
             let error = 0.1 * noise + error_um(way, gone, mm);
-            let cells = [pass as f64, 300.0 * pass as f64 + gone / 2.0, mm, error];
+            let cells = [f64::from(pass), 300.0 * f64::from(pass) + gone / 2.0, mm, error];
             columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
         }
     }
