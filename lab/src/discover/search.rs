@@ -8,7 +8,7 @@ use super::proposal::{Granted, Proposal};
 use crate::answer::{Advice, FittedEffect, apart, effects};
 use crate::doubts::{Doubt, doubts};
 use crate::formulas::{Delta, Shape, formulas};
-use crate::hypotheses::{Structure, is_left, samples_a_pass, structures};
+use crate::hypotheses::{Structure, is_left, no_all_clear, samples_a_pass, structures};
 use crate::model::{Columns, Component, Problem, State, helps_unseen, holdout_rms};
 use crate::noise::rms;
 use crate::policy::chance::{SIGNIFICANCE, STANDARD_ERRORS};
@@ -174,6 +174,9 @@ impl Now {
         let mut answer = told(&whole, &state);
         answer.effects.truncate(named);
         answer.residual = structures(small, &self.state.columns, &self.state.fit);
+        if self.state.components.is_empty() && answer.residual.is_empty() {
+            answer.residual.extend(no_all_clear(small, &self.state.fit));
+        }
         answer.found = match (proposals.is_empty(), answer.residual.is_empty()) {
             (_, false) => Found::Unexplained,
             (false, true) => Found::Formula,

@@ -320,7 +320,11 @@ impl<K: DenseKernel> Engine for Leaping<'_, K> {
     fn watch(&mut self, signals: &[SignalId]) {
         let mut watched = 0;
         self.watched_others.clear();
-        self.watches_counter = !self.circuit.counters_shown_by(signals).is_empty();
+        let coasts = |counter: &usize| {
+            let register = self.circuit.partition().counters[*counter].counter.register;
+            K::COASTING.iter().any(|coast| coast.register == register)
+        };
+        self.watches_counter = self.circuit.counters_shown_by(signals).iter().any(coasts);
         for signal in signals {
             match (self.shown[signal.0 as usize], self.circuit.place(*signal)) {
                 (Some(place), _) => watched |= 1 << place,
