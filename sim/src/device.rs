@@ -14,6 +14,8 @@ use crate::engine::{Circuit, Compiled, Lanes, Leaping};
 #[allow(unused_imports, reason = "a design may do without shifts")]
 #[allow(unused_variables, reason = "bits that nobody takes: the compiler drops them")]
 mod generated {
+    use helixlock_netlist::SignalId;
+
     use crate::engine::{
         AllSignals, Coast, DenseKernel, Edge, Gather, Known, LANE_WORDS, Lane, LaneKernel, Rest,
         Vector, choose, shift_down, shift_up,

@@ -103,7 +103,7 @@ fn constants(netlist: &Netlist, plan: &Plan, packing: &Packing) -> String {
         toggles = (0..inputs).map(|input| toggles(plan, packing, input)).collect::<Vec<_>>(),
         tables = packing.tables.len(),
         busy = leaping::busy(plan, packing),
-        coasting = leaping::coasting(plan, packing).join(", "),
+        coasting = leaping::coasting(netlist, plan, packing).join(", "),
     )
 }
 

@@ -1,5 +1,7 @@
 //! What a kernel may leap over: edges that change nothing but what is known, and counters that coast.
 
+use helixlock_netlist::Netlist;
+
 use super::layout::BITS;
 use super::outside::{self, Outside};
 use super::packing::Packing;
@@ -22,12 +24,13 @@ pub(super) fn busy(plan: &Plan, packing: &Packing) -> Option<u64> {
 }
 
 /// The counters left outside that coast, as Rust.
-pub(super) fn coasting(plan: &Plan, packing: &Packing) -> Vec<String> {
+pub(super) fn coasting(netlist: &Netlist, plan: &Plan, packing: &Packing) -> Vec<String> {
     let left = packing.left_outside(plan);
     let coasting = plan.coasting.iter().filter(|coasting| left.contains(&coasting.register));
     let text = |Coasting { register, width, step, thresholds, .. }: &Coasting| {
+        let output = netlist.registers[*register].output.0;
         format!(
-            "Coast {{ register: {register}, width: {width}, step: {step:#x}, thresholds: &{thresholds:?} }}"
+            "Coast {{ register: {register}, output: SignalId({output}), width: {width}, step: {step:#x}, thresholds: &{thresholds:?} }}"
         )
     };
     coasting.map(text).collect()

@@ -20,7 +20,8 @@ pub(crate) fn compare(netlist: &Netlist, engine: &mut dyn Engine, dice: &mut Dic
             }
         }
         let watchable = if dice.below(2) == 0 { &netlist.outputs } else { &all };
-        let watched: Vec<SignalId> = (0..dice.below(3)).map(|_| dice.pick(watchable)).collect();
+        let some = (0..dice.below(3)).map(|_| dice.pick(watchable)).collect();
+        let watched: Vec<SignalId> = if dice.below(8) == 0 { all.clone() } else { some };
         reference.watch(&watched);
         engine.watch(&watched);
         let span = dice.pick(&[0, 1, 2, 3, 17, 300]);

@@ -112,8 +112,10 @@ pub struct Edge {
 /// otherwise.
 #[derive(Clone, Copy, Debug)]
 pub struct Coast {
-    /// Index in [`Netlist::registers`].
+    /// Index in [`DenseKernel::Registers`].
     pub register: usize,
+    /// The signal that is the register.
+    pub output: SignalId,
     /// In bits.
     pub width: u32,
     /// What is added at every clock.

@@ -87,8 +87,9 @@ impl<'a, K: DenseKernel> Leaping<'a, K> {
     fn note_watched_others(&mut self) -> bool {
         let mut others = std::mem::take(&mut self.watched_others);
         let mut changed = false;
+        let all = self.evaluate();
         for (signal, before) in &mut others {
-            let value = self.value(*signal);
+            let value = all[signal.0 as usize];
             changed |= std::mem::replace(before, value) != value;
         }
         self.watched_others = others;
@@ -144,10 +145,13 @@ impl<K: DenseKernel> Run<K> {
     /// Finds when counters that have just been stepped, or set, leave their stretches.
     #[inline]
     fn find_wake(&mut self) {
-        let clocks = K::COASTING.iter().flat_map(|Coast { register, width, step, thresholds }| {
-            let value = self.machine.registers.as_ref()[*register];
-            thresholds.iter().map(move |threshold| clocks_within(value, *step, *threshold, *width))
-        });
+        let clocks =
+            K::COASTING.iter().flat_map(|Coast { register, width, step, thresholds, .. }| {
+                let value = self.machine.registers.as_ref()[*register];
+                thresholds
+                    .iter()
+                    .map(move |threshold| clocks_within(value, *step, *threshold, *width))
+            });
         self.since = self.machine.clock;
         self.wake = self.since.saturating_add(clocks.min().unwrap_or(u64::MAX));
     }
@@ -311,6 +315,12 @@ impl<K: DenseKernel> Engine for Leaping<'_, K> {
         }
     }
 
+    fn values(&mut self, signals: &[SignalId], values: &mut Vec<u64>) {
+        let all = self.evaluate();
+        values.clear();
+        values.extend(signals.iter().map(|signal| all[signal.0 as usize]));
+    }
+
     fn step(&mut self) {
         self.evaluated.forget();
         let next = self.run.machine.clock + 1;
@@ -322,7 +332,8 @@ impl<K: DenseKernel> Engine for Leaping<'_, K> {
         self.watched_others.clear();
         let coasts = |counter: &usize| {
             let register = self.circuit.partition().counters[*counter].counter.register;
-            K::COASTING.iter().any(|coast| coast.register == register)
+            let output = self.circuit.netlist().registers[register].output;
+            K::COASTING.iter().any(|coast| coast.output == output)
         };
         self.watches_counter = self.circuit.counters_shown_by(signals).iter().any(coasts);
         for signal in signals {

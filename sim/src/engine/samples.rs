@@ -22,6 +22,8 @@ use super::random_design::{Dice, random_bits, random_design, random_waiting};
 #[allow(unused_comparisons, reason = "a random design compares with anything")]
 #[allow(unreachable_pub, reason = "the device's kernel is public, these are not")]
 mod generated {
+    use helixlock_netlist::SignalId;
+
     use super::{Check, check, check_lanes};
     use crate::engine::all_signals::AllSignals;
     use crate::engine::dense::{Coast, DenseKernel, Edge, Known};
