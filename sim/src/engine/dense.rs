@@ -124,6 +124,14 @@ pub struct Coast {
     pub thresholds: &'static [u64],
 }
 
+impl Coast {
+    /// Its value so many clocks on.
+    #[inline]
+    pub(super) fn after(&self, value: u64, clocks: u64) -> u64 {
+        value.wrapping_add(self.step.wrapping_mul(clocks)) & mask(self.width)
+    }
+}
+
 /// A signal as an input.
 #[derive(Clone, Copy, Debug)]
 struct Port {

@@ -14,7 +14,7 @@
 //! tell when an edge is busy is stepped clock by clock.
 
 use helixlock_netlist::settle::clocks_within;
-use helixlock_netlist::{Netlist, SignalId, mask};
+use helixlock_netlist::{Netlist, SignalId};
 
 use super::all_signals::Evaluated;
 use super::circuit::{Circuit, Place};
@@ -37,6 +37,17 @@ pub struct Leaping<'a, K: DenseKernel> {
     /// A watched signal shows a counter that coasts.
     watches_counter: bool,
     evaluated: Evaluated,
+}
+
+/// What the edges behind one change, all of them alike until an input changes or a counter wakes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Behind {
+    /// Not known.
+    More,
+    /// Counters alone, which coast.
+    Coasting,
+    /// Nothing.
+    Nothing,
 }
 
 /// A machine with counters that coast.
@@ -156,9 +167,9 @@ impl<K: DenseKernel> Run<K> {
         self.wake = self.since.saturating_add(clocks.min().unwrap_or(u64::MAX));
     }
 
-    /// Takes an edge with all that it changes; true when it is seen to change nothing.
+    /// Takes an edge with all that it changes.
     #[inline(always)]
-    fn edge<G: Gather>(&mut self) -> bool {
+    fn edge<G: Gather>(&mut self) -> Behind {
         let Machine { inputs, registers, kept, known, .. } = &self.machine;
         let edge = K::look::<G>(inputs, registers, kept, *known);
         self.take(edge)
@@ -166,7 +177,7 @@ impl<K: DenseKernel> Run<K> {
 
     /// The same for one that has been looked at.
     #[inline(always)]
-    fn take(&mut self, edge: Edge) -> bool {
+    fn take(&mut self, edge: Edge) -> Behind {
         self.catch_up();
         let counter = |machine: &Machine<K>| {
             K::COASTING.first().map(|coast| machine.registers.as_ref()[coast.register])
@@ -175,8 +186,22 @@ impl<K: DenseKernel> Run<K> {
         self.machine.take(edge);
         self.find_wake();
         let same = self.machine.known.difference(edge.known) == 0;
-        let same = same && before == counter(&self.machine);
-        same && K::COASTING.len() < 2 && self.machine.rest.is_settled()
+        if !same || 1 < K::COASTING.len() || !self.machine.rest.is_settled() {
+            return Behind::More;
+        }
+        let after = counter(&self.machine);
+        let coasted = before.zip(K::COASTING.first()).map(|(value, coast)| coast.after(value, 1));
+        match after {
+            _ if after == before => Behind::Nothing,
+            _ if after == coasted => Behind::Coasting,
+            _ => Behind::More,
+        }
+    }
+
+    /// Goes to this clock at the farthest, while counters do nothing but coast.
+    #[inline]
+    fn coast_to(&mut self, clock: u64) {
+        self.machine.clock = clock.min(self.wake - 1).max(self.machine.clock);
     }
 }
 
@@ -207,7 +232,7 @@ impl<K: DenseKernel> Work for Leaps<'_, K> {
             }
             // The edge that takes a counter out of its stretch is one to be taken by itself.
             let calm = clock.min(*wake - 1);
-            let nothing_more = if trace.clocks <= calm.saturating_sub(machine.clock) {
+            let behind = if trace.clocks <= calm.saturating_sub(machine.clock) {
                 machine.clock += trace.clocks;
                 machine.known = trace.to;
                 before = Some(trace.shown[1]);
@@ -231,10 +256,14 @@ impl<K: DenseKernel> Work for Leaps<'_, K> {
                 before = Some(trace.shown[0]);
                 run.edge::<G>()
             };
-            if nothing_more {
-                run.machine.clock = clock;
-                run.find_wake();
-                return Stop::Reached;
+            match behind {
+                Behind::More => {}
+                Behind::Coasting => run.coast_to(clock),
+                Behind::Nothing => {
+                    run.machine.clock = clock;
+                    run.find_wake();
+                    return Stop::Reached;
+                }
             }
         }
     }
@@ -269,8 +298,8 @@ impl<K: DenseKernel> Work for OneEdge<'_, K> {
         let rests = K::BUSY.is_some_and(|busy| found & busy == 0 && next.difference(*known) == 0);
         if rests && run.machine.clock < calm {
             run.machine.clock = calm;
-        } else {
-            run.edge::<G>();
+        } else if run.edge::<G>() == Behind::Coasting {
+            run.coast_to(clock);
         }
     }
 }
@@ -278,9 +307,9 @@ impl<K: DenseKernel> Work for OneEdge<'_, K> {
 /// Gives counters that had their values at clock `since` those that they have now.
 #[inline]
 fn coast<K: DenseKernel>(machine: &mut Machine<K>, since: u64) {
-    for Coast { register, width, step, .. } in K::COASTING {
-        let value = &mut machine.registers.as_mut()[*register];
-        *value = value.wrapping_add(step.wrapping_mul(machine.clock - since)) & mask(*width);
+    for coast in K::COASTING {
+        let value = &mut machine.registers.as_mut()[coast.register];
+        *value = coast.after(*value, machine.clock - since);
     }
 }
 
