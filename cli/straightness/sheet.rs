@@ -27,7 +27,9 @@ pub(super) fn sheet_of(mut file: SheetFile, found: &Evaluation) -> anyhow::Resul
         });
     }
     let separated = &found.chosen().separated;
-    match (straightness_uncertainty_um(separated, SEED), found.combined.sigma_um) {
+    let drawn_um = drawn_straightness_um(separated, SEED);
+    let each_um = drawn_um.as_deref().and_then(|all| straightness_uncertainty_um(separated, all));
+    match (each_um, found.combined.sigma_um) {
         (Some(each), Some(sigma_um)) if 0.0 < sigma_um => sources.push(Source {
             quantity: "noise of the probes, and what they cannot see".into(),
             estimate: 0.0,
@@ -39,8 +41,7 @@ pub(super) fn sheet_of(mut file: SheetFile, found: &Evaluation) -> anyhow::Resul
         }),
         _ => file.missing.push("the noise of the probes, which needs several runs"),
     }
-    let drawn_um = drawn_straightness_um(separated, SEED).unwrap_or_default();
-    let told = Told::new(values_um, drawn_um.iter().map(|each| each.to_vec()).collect());
+    let told = Told::new(values_um, drawn_um.iter().flatten().map(|each| each.to_vec()).collect());
     Sheet::new(file, named, &told, &sources)
 }
 

@@ -113,7 +113,7 @@ fn compared(problem: &Problem) -> Comparison {
     let mut along = all_structures(small, &state.columns, &state.fit);
     let noise_p_value = along.first().map_or(1.0, |first| first.p_value);
     let by_chance = SIGNIFICANCE < noise_p_value;
-    let slow = || no_all_clear(small, &state.fit).filter(|_| by_chance);
+    let slow = || by_chance.then(|| no_all_clear(small, &state, &[])).flatten();
     let taken = taken_for_noise(small, &state.fit, &along).or_else(slow);
     let noise_only = by_chance && taken.is_none();
     along.splice(..0, taken);

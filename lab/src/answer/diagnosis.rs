@@ -215,9 +215,7 @@ fn searched(problem: &Problem) -> Diagnosis {
     let of_means_um = rms(&small.layout, &last.fit.left);
     no_larger_than(noise_um, &mut residual);
     residual.extend(of_targets);
-    if state.components.is_empty() && residual.is_empty() {
-        residual.extend(no_all_clear(&problem, &state.fit));
-    }
+    residual.extend(no_all_clear(&problem, state, &residual));
     add_scatter(&mut candidates, (noise_um * noise_um - of_means_um * of_means_um).max(0.0));
     Diagnosis {
         verdict: verdict(state, &found, &residual),

@@ -174,9 +174,7 @@ impl Now {
         let mut answer = told(&whole, &state);
         answer.effects.truncate(named);
         answer.residual = structures(small, &self.state.columns, &self.state.fit);
-        if self.state.components.is_empty() && answer.residual.is_empty() {
-            answer.residual.extend(no_all_clear(small, &self.state.fit));
-        }
+        answer.residual.extend(no_all_clear(small, &self.state, &answer.residual));
         answer.found = match (proposals.is_empty(), answer.residual.is_empty()) {
             (_, false) => Found::Unexplained,
             (false, true) => Found::Formula,

@@ -4,7 +4,7 @@
 //! beyond chance against it. It has then been told from nothing, and nothing from it.
 
 use super::probes::Structure;
-use crate::model::{Fit, Problem};
+use crate::model::{Fit, Problem, State};
 use crate::noise::{effective_samples, weighed_rms};
 use crate::numerics::count;
 use crate::policy::size::{SMOOTH_SHARE, WORTH_A_PASS, WORTH_AN_ALL_CLEAR};
@@ -28,11 +28,20 @@ pub(crate) fn taken_for_noise(
     Some(Structure { shape, ..curve.clone() })
 }
 
-/// What a model without any effect leaves, where it is noise so slow that it may be a cause.
+/// What a model without any effect leaves, where nothing is `left` but noise, which is so slow that it
+/// may be a cause.
 ///
 /// Where effects explain the rest such noise is the smaller part; an all-clear rests on it alone.
 #[must_use]
-pub(crate) fn no_all_clear(problem: &Problem, fit: &Fit) -> Option<Structure> {
+pub(crate) fn no_all_clear(
+    problem: &Problem,
+    state: &State,
+    left: &[Structure],
+) -> Option<Structure> {
+    if !state.components.is_empty() || !left.is_empty() {
+        return None;
+    }
+    let fit = &state.fit;
     let worth = samples_a_pass(problem, fit);
     let shape = format!("noise so slow that a pass is worth {worth:.1} samples, or a slow cause");
     let rms_um = weighed_rms(&problem.layout, &fit.left);

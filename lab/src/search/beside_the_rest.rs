@@ -3,8 +3,8 @@
 //! Where structure is left, an effect may have taken a part of it: a drift of the laser a part of a
 //! curve that is another one in each pass, wear one of several humps. So every structure that
 //! columns draw is put beside the model in any size, and an effect that is not worth its price then,
-//! or counts no whole number, is not told from it. A line is no such structure: beside an effect of the same frequency it is
-//! that effect's own swelling.
+//! or counts no whole number, is not told from it. A line is no such structure: beside an effect of the
+//! same frequency it is that effect's own swelling.
 
 use std::collections::BTreeSet;
 

@@ -37,14 +37,17 @@ pub fn drawn_straightness_um(separated: &Separated, seed: u64) -> Option<Vec<[f6
 }
 
 /// Standard uncertainty of each straightness of the bar, µm: the root mean square distance of what may
-/// be from what was found.
+/// be, as drawn, from what was found.
 #[must_use]
-pub fn straightness_uncertainty_um(separated: &Separated, seed: u64) -> Option<[f64; 3]> {
+pub fn straightness_uncertainty_um(
+    separated: &Separated,
+    drawn_um: &[[f64; 3]],
+) -> Option<[f64; 3]> {
     let found = errors_um(&straightness(&separated.position_mm, &separated.workpiece_um)?);
     let mut squares = [0.0; 3];
-    for drawn_um in drawn_straightness_um(separated, seed)? {
-        for (square, (error, found)) in squares.iter_mut().zip(drawn_um.iter().zip(&found)) {
-            *square += (error - found).powi(2) / number(DRAWS);
+    for each_um in drawn_um {
+        for (square, (error, found)) in squares.iter_mut().zip(each_um.iter().zip(&found)) {
+            *square += (error - found).powi(2) / number(drawn_um.len());
         }
     }
     Some(squares.map(f64::sqrt))
@@ -107,7 +110,9 @@ mod tests {
             covariance_um2: Some((0..11).map(row).collect()),
             otherwise: None,
         };
-        let found = straightness_uncertainty_um(&separated, 1).unwrap();
+        let found = drawn_straightness_um(&separated, 1)
+            .and_then(|drawn_um| straightness_uncertainty_um(&separated, &drawn_um))
+            .unwrap();
         for um in &found[1..] {
             assert!((um - 0.1).abs() < 0.012, "{found:?}");
         }
