@@ -12,7 +12,8 @@ use crate::hypotheses::{
     samples_a_pass, structures,
 };
 use crate::model::{
-    Component, JointCovariance, Judged, Problem, State, holdout_rms, joint_covariance,
+    Component, JointCovariance, Judged, Problem, State, covariance_of_all_values, holdout_rms,
+    joint_covariance,
 };
 use crate::noise::rms;
 use crate::numerics::least_squares::covariance_rows;
@@ -387,39 +388,48 @@ fn rejected(step: &Step, chosen: Option<&str>) -> Vec<(String, String)> {
     dropped.chain(refused.map(|(judged, refusal)| (name(judged), refusal.to_string()))).collect()
 }
 
+/// How much larger a standard error is told to be wider because other values of an effect are free.
+const WIDENED: f64 = 1.2;
+
 /// Every component of a state with its parameters.
 #[must_use]
 pub(crate) fn effects(problem: &Problem, state: &State) -> Vec<FittedEffect> {
-    let covariance = joint_covariance(problem, state);
-    (0..state.components.len()).map(|index| fitted(problem, state, &covariance, index)).collect()
+    let of_used = joint_covariance(problem, state);
+    let of_all = covariance_of_all_values(problem, state).unwrap_or_else(|| of_used.clone());
+    let both = [of_used, of_all];
+    (0..state.components.len()).map(|index| fitted(problem, state, &both, index)).collect()
 }
 
+/// A component with its values; their covariance with its other values at 0, and with all of them free.
 fn fitted(
     problem: &Problem,
     state: &State,
-    covariance: &JointCovariance,
+    [of_used, of_all]: &[JointCovariance; 2],
     index: usize,
 ) -> FittedEffect {
     let component = &state.components[index];
     let (used, from) = state.coefficients(index);
-    let linear = covariance_rows(&covariance.linear, from, component.width());
+    let estimates = |covariance: &JointCovariance| {
+        component.estimates(used, &covariance_rows(&covariance.linear, from, component.width()))
+    };
     let term = component.valued(used);
     let mut parameters = Vec::new();
-    for estimate in component.estimates(used, &linear) {
+    for (estimate, wider) in estimates(of_used).into_iter().zip(estimates(of_all)) {
         let what = &component.term.parameters[estimate.parameter];
         if component.is_counted(estimate.parameter) {
             let (key, value) = (what.key(), estimate.value.round());
             parameters.push(FittedParameter { key, value, stderr: None, warning: None });
             continue;
         }
-        let stderr =
-            libm::hypot(estimate.stderr, component.term.nature().uncertainty * estimate.value);
+        let of_nature = component.term.nature().uncertainty * estimate.value;
+        let [narrow, stderr] = [&estimate, &wider].map(|one| libm::hypot(one.stderr, of_nature));
         // Neither zero nor half a turn is a special phase.
         let has_ends = what.role != Role::Phase;
         let warning = has_ends
-            .then(|| warning(estimate.value, stderr, &what.range))
+            .then(|| warning(estimate.value, narrow, &what.range))
             .flatten()
-            .or_else(|| another_material(&component.term, estimate.parameter));
+            .or_else(|| another_material(&component.term, estimate.parameter))
+            .or((WIDENED * narrow < stderr).then_some("± with its other values free"));
         parameters.push(FittedParameter {
             key: what.key(),
             value: estimate.value,
@@ -434,7 +444,7 @@ fn fitted(
         if unused || !component.depends_on(problem, used, place) {
             continue;
         }
-        let stderr = covariance.nonlinear[index][place];
+        let stderr = of_all.nonlinear[index][place];
         let stderr = if what.search == Search::Time {
             Some(stderr.unwrap_or(0.0).max(between_samples_s(problem, value)))
         } else {

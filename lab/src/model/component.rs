@@ -112,6 +112,15 @@ impl Component {
         linear.zip(atoms).filter(|(what, _)| counting(what)).map(|(_, atom)| atom[0]).collect()
     }
 
+    /// Per column of its basis: true for a size of its own that is not in use.
+    #[must_use]
+    pub(crate) fn set_aside(&self) -> Vec<bool> {
+        let counts = self.counts();
+        let alone = self.atoms().into_iter().filter(|atom| atom.len() == 1).map(|atom| atom[0]);
+        let alone: Vec<usize> = alone.filter(|column| !counts.contains(column)).collect();
+        (0..self.kept.len()).map(|column| !self.kept[column] && alone.contains(&column)).collect()
+    }
+
     /// Number of columns in use.
     #[must_use]
     pub(crate) fn width(&self) -> usize {

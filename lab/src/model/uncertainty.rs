@@ -23,12 +23,27 @@ pub(crate) struct JointCovariance {
 /// continuous nonlinear parameter, whose derivative is taken by a central difference.
 #[must_use]
 pub(crate) fn joint_covariance(problem: &Problem, state: &State) -> JointCovariance {
+    covariance_beside(problem, state, &Columns::default())
+}
+
+/// The same where a value that was left at 0 for want of evidence may be another one: a slope is known
+/// no better than the bow beside it lets it be. `None` where no value is.
+#[must_use]
+pub(crate) fn covariance_of_all_values(
+    problem: &Problem,
+    state: &State,
+) -> Option<JointCovariance> {
+    let others = set_aside(problem, state);
+    (!others.raw.is_empty()).then(|| covariance_beside(problem, state, &others))
+}
+
+fn covariance_beside(problem: &Problem, state: &State, others: &Columns) -> JointCovariance {
     let mut columns = state.columns.clone();
     columns.fixed = None;
     let linear_width = columns.raw.len();
     let slopes = slopes(problem, state);
     let raw = slopes.iter().map(|slope| slope.column.clone());
-    columns = columns.and(&Columns::free(raw));
+    columns = columns.and(&Columns::free(raw)).and(others);
     let covariance = covariance(problem, &columns, &state.fit.noises);
     let mut nonlinear: Vec<Vec<Option<f64>>> = state
         .components
@@ -41,6 +56,19 @@ pub(crate) fn joint_covariance(problem: &Problem, state: &State) -> JointCovaria
     }
     let linear = covariance.view((0, 0), (linear_width, linear_width)).into_owned();
     JointCovariance { linear, nonlinear }
+}
+
+/// The columns of a model's effects that are not in use, but for counts, which are whole, and for the
+/// sizes of waves, which hardly share anything with others.
+fn set_aside(problem: &Problem, state: &State) -> Columns {
+    let mut all = Columns::default();
+    for component in &state.components {
+        let Ok(design) = problem.design(&component.term) else { continue };
+        let free = component.set_aside();
+        let columns = design.columns.into_iter().zip(free).filter(|(_, free)| *free);
+        all = all.and(&Columns::free(columns.map(|(column, _)| column)));
+    }
+    all
 }
 
 fn covariance(problem: &Problem, columns: &Columns, noises: &[Noise]) -> DMatrix<f64> {

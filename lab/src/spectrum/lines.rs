@@ -58,6 +58,16 @@ impl LineSearch<'_> {
         self.with_scan(|scan, white| scan.strongest(white))
     }
 
+    /// A line found there, measured under the noise that is left when it is taken out: noise fitted
+    /// with it inside is larger just where it stands. What it was found by stays.
+    fn measured(&self, found: &Line) -> Line {
+        let anew = self.with_scan(|scan, white| {
+            let (frequency, _) = scan.settled(white, found.frequency);
+            scan.line(white, frequency)
+        });
+        Line { gain: found.gain, p_value: found.p_value, ..anew }
+    }
+
     /// The clearest band of frequencies that is no line.
     #[must_use]
     pub(crate) fn band(&self) -> Option<Band> {
@@ -119,8 +129,11 @@ pub(crate) fn lines(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<NamedL
                 break;
             }
             columns = columns.and(&wave(problem, sensor, &turns, line.frequency));
-            now = settle(problem, &columns, &now.noises);
+            let without = settle(problem, &columns, &now.noises);
+            let with = Fit { noises: without.noises.clone(), ..now.clone() };
+            let line = LineSearch { fit: &with, ..search }.measured(&line);
             found.push(named(problem, sensor, line));
+            now = without;
         }
         harmonics(&mut found);
         all.extend(found);
