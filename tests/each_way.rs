@@ -43,3 +43,15 @@ fn a_lens_between_there_and_back_is_no_noise() {
 fn play_that_each_start_takes_up_is_no_noise() {
     is_nobodys(|seed| by_turns(seed, &|way, gone, _| -0.4 * way * libm::exp(-gone / 40.0)));
 }
+
+/// A rail that is rough for the roller of one way alone: only every second pass repeats it.
+#[test]
+fn a_rough_rail_of_one_way_is_no_noise() {
+    is_nobodys(|seed| {
+        by_turns(seed, &|way, _, mm| {
+            let rough =
+                libm::sin(2.4 * mm + 3.0 * libm::sin(0.9 * mm)) * libm::sin(0.031 * mm * mm);
+            if way < 0.0 { 0.0 } else { 0.25 * rough }
+        })
+    });
+}

@@ -105,6 +105,37 @@ fn no_effect_of_time_is_named_at_targets_that_nobody_timed() {
     assert_eq!(found.verdict, Verdict::Unexplained);
 }
 
+/// Eight times the noise at one target of 21: bells of many widths and heights pass there.
+#[test]
+fn one_target_apart_is_no_wear() {
+    let mut noise = white(4, 0.38);
+    let mut columns = ["pass", "position_mm", "error_um"].map(|name| (name, Vec::new()));
+    for (run, target) in (0..10_u8).flat_map(|run| (0..21_u8).map(move |target| (run, target))) {
+        let own = if target == 6 { 3.0 } else { 0.0 };
+        let row = [f64::from(run), 25.0 * f64::from(target), own + noise()];
+        columns.iter_mut().zip(row).for_each(|((_, values), value)| values.push(value));
+    }
+    let found = diagnosed(columns.into());
+    assert_eq!((names(&found), found.verdict), (vec![], Verdict::Unexplained));
+    let honest = |shape: &&str| *shape == OF_TARGETS || shape.contains("one target alone");
+    assert!(left(&found).iter().any(honest), "{:?}", left(&found));
+}
+
+/// The first of five runs was cold; noise of all runs may be as slow as its bow.
+#[test]
+fn one_run_that_is_bent_is_no_noise() {
+    for bow_um in [30.0, 300.0] {
+        let bent = |run, target: usize, _| {
+            let share = f64::from(u8::try_from(target).expect("nine")) / 8.0;
+            if run == 0 { bow_um * libm::sin(std::f64::consts::PI * share) } else { 0.0 }
+        };
+        let found = targets(bent);
+        assert_eq!((names(&found), found.verdict), (vec![], Verdict::Unexplained));
+        let told = left(&found);
+        assert!(told.contains(&"curve of one pass alone"), "{bow_um}: {told:?}");
+    }
+}
+
 /// One run that turns back, with something at 72 s.
 fn one_run(happens_um: impl Fn(f64) -> f64) -> Diagnosis {
     let mut noise = white(5, 0.4);

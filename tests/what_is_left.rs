@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use helixlock_lab::{Diagnosis, Found, Verdict, compare, diagnose, discover};
 
-use crate::support::passes::{Passes, noise};
+use crate::support::passes::{Passes, noise, white};
 
 #[test]
 fn noise_at_two_speeds_and_in_two_directions_is_noise() {
@@ -220,5 +220,52 @@ fn uneven_targets_name_waves_far_shorter_than_their_distances() {
     let uneven: Vec<f64> = (1..=41).map(|nth| place(nth) * 0.5 + 12.5 * f64::from(nth)).collect();
     for harmonic in [1.0, 3.0] {
         assert_eq!(at_targets(&uneven, harmonic), ["screw-periodic"], "{harmonic} waves a turn");
+    }
+}
+
+/// A stage that rests in either of two places: slow noise would follow it, but for its steps.
+#[test]
+fn two_levels_at_odd_moments_are_no_noise() {
+    for seed in 11..14 {
+        let mut noise = white(seed, 0.05);
+        let rows = (0..400_u16).map(|row| {
+            let t = 4.5 * f64::from(row);
+            let phase = t / 130.0 + 1.7 * libm::sin(t / 211.0) + 0.9 * libm::sin(t / 67.0);
+            let level = if libm::sin(phase * TAU) < 0.2 { 0.0 } else { 0.8 };
+            [0.0, t, 0.8 * f64::from(row), 1.0, level + noise()]
+        });
+        let found = diagnose(&Passes::of_rows(rows).problem());
+        assert_eq!(found.verdict, Verdict::Unexplained, "{seed}: {:?}", found.residual);
+    }
+}
+
+/// A wave in noise of five rows' length is known as well as it is told to be: noise that is fitted with
+/// the wave inside is larger just there, and its errors were told twice as large.
+#[test]
+fn a_line_under_slow_noise_is_as_sure_as_it_is_told() {
+    let (order, size) = (1.7, 0.1);
+    let squares = (0..40).map(|seed| {
+        let mut new = white(seed, 0.05);
+        let mut slow = 0.0;
+        let mut noise = || {
+            slow = libm::exp(-0.2) * slow + 0.57 * new();
+            slow
+        };
+        let rows = (0..800_u16).map(|row| {
+            let x = f64::from(row % 400);
+            let wave = size * libm::sin(TAU * order * x / 6.0);
+            [f64::from(row / 400), f64::from(row), x, 1.0, wave + noise()]
+        });
+        let found = compare(&Passes::of_rows(rows).problem());
+        let line = &found.lines.first().expect("a line").line;
+        let off = [
+            (line.frequency - order) / line.frequency_stderr,
+            (line.amplitude - size) / line.amplitude_stderr,
+        ];
+        off.map(|off| off * off)
+    });
+    let sums = squares.fold([0.0; 2], |sum, one| [sum[0] + one[0], sum[1] + one[1]]);
+    for square in sums.map(|sum| sum / 40.0) {
+        assert!((0.5..1.7).contains(&square), "{square}");
     }
 }

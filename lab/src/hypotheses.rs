@@ -9,6 +9,7 @@ mod grid;
 mod jumps;
 mod likelihood;
 mod local;
+mod odd_pass;
 mod probes;
 mod repeatability;
 mod setting_trial;

@@ -15,6 +15,7 @@ pub(crate) fn nameless(problem: &Problem) -> Vec<Shape> {
     let mut all = Vec::new();
     if quantities.have_places() {
         all.extend(moving::along_travel(&quantities));
+        all.extend(moving::one_target(&quantities));
         all.extend(moving::edges(&quantities));
         all.extend(moving::again_and_again(&quantities));
         all.extend(moving::of_each_pass(&quantities));

@@ -21,6 +21,9 @@ const MOST_PASSES: usize = 4;
 /// [`RUN_IN`].
 const AWAY: f64 = 2.0 * RUN_IN;
 
+/// Half of the width of a target alone, as a share of the least way to another.
+const SHARE_OF_A_GAP: f64 = 0.4;
+
 /// Most that a wave changes over half of the travel, as a share of its frequency in the middle.
 const CHANGE: f64 = 0.9;
 
@@ -82,6 +85,18 @@ pub(super) fn along_travel(all: &Quantities) -> Vec<Shape> {
             .curve("size", (from() / unknown(1)) * bell(from() / unknown(1)))
             .curve("rim_size", rim(from() / unknown(1))),
     ]
+}
+
+/// One target that is off and no other: what is narrower than targets lie apart has no other shape.
+pub(super) fn one_target(all: &Quantities) -> Option<Shape> {
+    let x = &all.position;
+    let gaps = all.targets.windows(2).map(|pair| pair[1] - pair[0]);
+    let half = Expression::Number(SHARE_OF_A_GAP * gaps.reduce(f64::min)?, x.dimension.clone());
+    let physics = "a mistyped reading, dirt under a mount, a spot narrower than targets lie apart";
+    let one = shape("one target alone", all.way(), physics)
+        .unknown(all.in_unit("at_mm", "at_rev"), &x.dimension, all.targets.clone())
+        .curve("size", call(Function::Step, half - call(Function::Abs, of(x) - unknown(0))));
+    Some(one.placed())
 }
 
 /// A shape at one of so many places.

@@ -18,6 +18,8 @@ const MOST_TOGETHER: usize = 12;
 pub(crate) struct Quantities {
     /// Travel, or the angle of a rotary chain.
     pub(crate) position: Arc<Quantity>,
+    /// Where on it all samples lie, lowest first, if those places are few.
+    pub(crate) targets: Vec<f64>,
     pub(crate) time: Arc<Quantity>,
     /// True when time was measured.
     pub(crate) timed: bool,
@@ -47,12 +49,15 @@ impl Quantities {
         let columns = covariates
             .filter(|(name, values)| *name != "steps" && 0.0 < spread(values))
             .map(|(name, values)| quantity(name, Dimension::of_column(name), values.clone()));
+        let position = if problem.model.rotary {
+            quantity("angle_rev", Dimension::number(), record.turns().collect())
+        } else {
+            quantity("position_mm", unit("mm"), record.position_mm.clone())
+        };
+        let of_few = |turns: Vec<f64>| distinct(&position.values, turns.len());
         Self {
-            position: if problem.model.rotary {
-                quantity("angle_rev", Dimension::number(), record.turns().collect())
-            } else {
-                quantity("position_mm", unit("mm"), record.position_mm.clone())
-            },
+            targets: problem.places().map(of_few).unwrap_or_default(),
+            position,
             time: quantity("time_s", unit("s"), record.time_s.clone()),
             timed: problem.measurement.timed,
             turns: quantity("angle_rev", Dimension::number(), record.turns().collect()),
@@ -125,6 +130,18 @@ impl Quantities {
         });
         shafts
     }
+}
+
+/// So many distinct values, lowest first: the first of each crowd between the widest gaps.
+fn distinct(values: &[f64], number: usize) -> Vec<f64> {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let mut gaps: Vec<usize> = (1..sorted.len()).collect();
+    let gap = |at: usize| sorted[at] - sorted[at - 1];
+    gaps.sort_by(|a, b| gap(*b).total_cmp(&gap(*a)));
+    gaps.truncate(number.saturating_sub(1));
+    gaps.sort_unstable();
+    std::iter::once(0).chain(gaps).map(|at| sorted[at]).collect()
 }
 
 /// A quantity in a formula.

@@ -3,35 +3,61 @@
 use super::tails::chance_beyond;
 use crate::model::{Fit, Problem};
 use crate::noise::Whitener;
-use crate::numerics::median;
-use crate::policy::chance::{FEWEST_JUMPS, JUMP_DEVIATIONS};
+use crate::numerics::{count, median};
+use crate::policy::chance::{
+    FEWEST_JUMPS, JUMP_DEVIATIONS, JUMP_KEPT, JUMP_SIDE, SAMPLES_THAT_TELL,
+};
+
+/// Deviation of a normal law against its median size.
+const MEDIAN_TO_DEVIATION: f64 = 1.482_6;
 
 /// Usual size of the jumps, µm (arcsec), and the chance of so many in noise.
 ///
-/// Outliers are weighed down already, and they come back with the next sample; a jump stays.
+/// Many jumps make the noise that is fitted to them, so they are held against what most samples
+/// say. Outliers are weighed down already, and they come back with the next sample; a jump stays.
 /// `None` when there are fewer than two, which a slip or a knock explains.
 #[must_use]
 pub(crate) fn jumps(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
     let white = Whitener::new(&problem.layout, &fit.noises).whiten(fit.left.clone());
     let mut sizes = Vec::new();
+    let mut innovations = Vec::new();
     for block in &problem.layout.blocks {
-        for row in block.rows.clone().skip(1) {
-            if JUMP_DEVIATIONS < white[row].abs() {
-                sizes.push((fit.left[row] - fit.left[row - 1]).abs());
-            }
-        }
+        let rows = block.rows.clone();
+        let usual = usual(problem, fit, (block.sensor, &white[rows.clone()]));
+        innovations.extend(white[rows.clone()].iter().map(|value| value / usual));
+        let left = &fit.left[rows.clone()];
+        let far = rows.clone().skip(1).filter(|&row| JUMP_DEVIATIONS * usual < white[row].abs());
+        sizes.extend(far.filter_map(|row| stays(left, row - rows.start)));
     }
     if sizes.len() < FEWEST_JUMPS {
         return None;
     }
-    let p_value = chance_beyond(&white, JUMP_DEVIATIONS, sizes.len());
+    let p_value = chance_beyond(&innovations, JUMP_DEVIATIONS, sizes.len());
     Some((median(&mut sizes), p_value))
+}
+
+/// What most whitened samples of a pass are, against what its noise says; no finer than its sensor.
+fn usual(problem: &Problem, fit: &Fit, (sensor, white): (usize, &[f64])) -> f64 {
+    if white.len() < SAMPLES_THAT_TELL {
+        return 1.0;
+    }
+    let mut sizes: Vec<f64> = white.iter().map(|value| value.abs()).collect();
+    let least = (problem.least_variance[sensor] / fit.noises[sensor].white).sqrt();
+    (MEDIAN_TO_DEVIATION * median(&mut sizes)).clamp(least.min(1.0), 1.0)
+}
+
+/// Size of the change before a row, if the level stays.
+fn stays(left: &[f64], row: usize) -> Option<f64> {
+    let mean = |part: &[f64]| part.iter().sum::<f64>() / count(part.len());
+    let change = left[row] - left[row - 1];
+    let before = mean(&left[row.saturating_sub(JUMP_SIDE)..row]);
+    let behind = mean(&left[row..left.len().min(row + JUMP_SIDE)]);
+    (JUMP_KEPT < (behind - before) / change).then_some(change.abs())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::count;
     use crate::policy::chance::SIGNIFICANCE;
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;

@@ -7,6 +7,7 @@ use super::calibration;
 use super::flaws::above_flaws;
 use super::jumps::jumps;
 use super::local::{self, Local};
+use super::odd_pass::odd_pass;
 use super::repeatability::repeatability;
 use super::slow_noise::taken_for_noise;
 use super::tails::chance_with_tails;
@@ -117,6 +118,7 @@ pub(crate) fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> V
     all.extend(cyclic_shapes(problem, model, fit));
     all.extend(repeats(problem, fit));
     all.extend(at_targets(problem, model, fit));
+    all.extend(bent_pass(problem, fit));
     all.extend(jumping(problem, fit));
     all.extend(one_way_jumps(problem, fit));
     all.extend(local_shapes(problem, fit));
@@ -242,6 +244,14 @@ pub(crate) fn at_targets(problem: &Problem, model: &Columns, fit: &Fit) -> Optio
     Some(Structure::without_place("position", AT_TARGETS, rms_um, p_value).drawn_by(raw))
 }
 
+/// One pass that is bent as no other is.
+fn bent_pass(problem: &Problem, fit: &Fit) -> Option<Structure> {
+    let odd = odd_pass(problem, fit)?;
+    let p_value = (probes(problem) * odd.chance).min(1.0);
+    let told = Structure::without_place("position", "curve of one pass alone", odd.rms_um, p_value);
+    Some(told.drawn_by(odd.columns))
+}
+
 /// Several jumps, wherever they are.
 fn jumping(problem: &Problem, fit: &Fit) -> Option<Structure> {
     let (rms_um, chance) = jumps(problem, fit)?;
@@ -315,7 +325,7 @@ fn stacked(problem: &Problem, samples: &[Vec<f64>]) -> Vec<Column> {
 }
 
 /// Chebyshev polynomials 1 … order over the range of a coordinate.
-fn chebyshev(values: &[f64], order: usize) -> Vec<Vec<f64>> {
+pub(super) fn chebyshev(values: &[f64], order: usize) -> Vec<Vec<f64>> {
     let low = values.iter().copied().fold(f64::INFINITY, f64::min);
     let range = spread(values);
     let scaled: Vec<f64> = values.iter().map(|v| 2.0 * (v - low) / range - 1.0).collect();

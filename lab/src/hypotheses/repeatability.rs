@@ -13,37 +13,70 @@ use crate::policy::extent::COMMON_SAMPLES;
 /// Correlation of what is the same but for rounding.
 const MOST: f64 = 1.0 - 1e-9;
 
-/// Mean correlation of neighbouring ways, and its chance in independent noise.
+/// Mean correlation of ways over the same travel, and its chance in independent noise.
 ///
-/// Passes, or their ways there and back, are compared two by two on the whitened residual, the second interpolated to the places
-/// of the first. The standard error of a correlation allows for what autocorrelation is left in
-/// both (Bartlett 1946). `None` without two passes over the same travel.
+/// Passes, or their ways there and back, are compared two by two on the whitened residual, the second
+/// interpolated to the places of the first: neighbours, and neighbours of those that go the same way,
+/// which alone share what shows one way only. The clearer of both looks is told. The standard error
+/// of a correlation allows for what autocorrelation is left in both (Bartlett 1946). `None` without two
+/// passes over the same travel.
 #[must_use]
 pub(crate) fn repeatability(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
     let whitener = Whitener::new(&problem.layout, &fit.noises);
     let white = whitener.whiten(fit.left.clone());
-    let (mut score, mut correlations, mut pairs) = (0.0, 0.0, 0.0);
+    let (mut neighbours, mut alike) = (Compared::default(), Compared::default());
     for sensor in 0..problem.sensors.len() {
-        let passes: Vec<Vec<(f64, f64)>> = problem
-            .layout
-            .blocks
-            .iter()
-            .filter(|block| block.sensor == sensor)
-            .flat_map(|block| one_way(problem, block.rows.clone()))
+        let blocks = problem.layout.blocks.iter().filter(|block| block.sensor == sensor);
+        let ways: Vec<Way> = blocks
+            .flat_map(|block| from_turn_to_turn(problem, block.rows.clone()))
             .filter_map(|rows| along_travel(problem, &white, rows))
             .collect();
-        for pair in passes.chunks_exact(2) {
-            let Some((correlation, deviation)) = correlation(&pair[0], &pair[1]) else { continue };
-            score += transformed(correlation, deviation);
-            correlations += correlation;
-            pairs += 1.0;
+        neighbours.add(&ways.iter().collect::<Vec<_>>());
+        let (there, back): (Vec<&Way>, Vec<&Way>) = ways.iter().partition(|way| way.forward);
+        if !there.is_empty() && !back.is_empty() {
+            alike.add(&there);
+            alike.add(&back);
         }
     }
-    if pairs == 0.0 {
-        return None;
+    let looked = [neighbours, alike].into_iter().filter_map(|looked| looked.judged());
+    let looked: Vec<(f64, f64)> = looked.collect();
+    let (correlation, chance) = looked.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some((correlation, (count(looked.len()) * chance).min(1.0)))
+}
+
+/// Pairs of ways that were compared.
+#[derive(Debug, Default)]
+struct Compared {
+    score: f64,
+    correlations: f64,
+    pairs: f64,
+}
+
+impl Compared {
+    /// Compares ways with their neighbours, each once.
+    fn add(&mut self, ways: &[&Way]) {
+        for pair in ways.chunks_exact(2) {
+            let both = correlation(&pair[0].points, &pair[1].points);
+            let Some((correlation, deviation)) = both else { continue };
+            self.score += transformed(correlation, deviation);
+            self.correlations += correlation;
+            self.pairs += 1.0;
+        }
     }
-    let normal = Normal::standard();
-    Some((correlations / pairs, normal.sf(score / f64::sqrt(pairs))))
+
+    /// Mean correlation and chance; `None` without a pair.
+    fn judged(&self) -> Option<(f64, f64)> {
+        let chance = || Normal::standard().sf(self.score / self.pairs.sqrt());
+        (0.0 < self.pairs).then(|| (self.correlations / self.pairs, chance()))
+    }
+}
+
+/// A way over the travel.
+#[derive(Debug)]
+struct Way {
+    forward: bool,
+    /// `(place, residual)` sorted by place.
+    points: Vec<(f64, f64)>,
 }
 
 /// A correlation as a deviate of the normal law: Fisher's transformation, of as many independent
@@ -55,7 +88,7 @@ fn transformed(correlation: f64, deviation: f64) -> f64 {
 }
 
 /// The rows of a pass from one reversal to the next.
-fn one_way(problem: &Problem, rows: Range<usize>) -> Vec<Range<usize>> {
+fn from_turn_to_turn(problem: &Problem, rows: Range<usize>) -> Vec<Range<usize>> {
     let direction = |row: usize| problem.record.direction[problem.samples[row]];
     let turns = rows.clone().skip(1).filter(|&row| direction(row) * direction(row - 1) < 0.0);
     let ends: Vec<usize> = turns.chain([rows.end]).collect();
@@ -63,8 +96,8 @@ fn one_way(problem: &Problem, rows: Range<usize>) -> Vec<Range<usize>> {
     starts.zip(&ends).map(|(start, &end)| start..end).collect()
 }
 
-/// `(place, residual)` sorted by place; `None` for a way that turns back or stands, or is short.
-fn along_travel(problem: &Problem, white: &[f64], rows: Range<usize>) -> Option<Vec<(f64, f64)>> {
+/// What some rows show over the travel; `None` for a way that turns back or stands, or is short.
+fn along_travel(problem: &Problem, white: &[f64], rows: Range<usize>) -> Option<Way> {
     let place = |row: usize| problem.record.spindle_rad[problem.samples[row]];
     let mut points: Vec<(f64, f64)> = rows.clone().map(|row| (place(row), white[row])).collect();
     let forward = place(rows.start) < place(rows.end - 1);
@@ -75,7 +108,7 @@ fn along_travel(problem: &Problem, white: &[f64], rows: Range<usize>) -> Option<
     if !forward {
         points.reverse();
     }
-    (one_way && COMMON_SAMPLES <= points.len()).then_some(points)
+    (one_way && COMMON_SAMPLES <= points.len()).then_some(Way { forward, points })
 }
 
 /// Correlation over the common travel, and its standard deviation in independent noise.

@@ -49,6 +49,13 @@ pub(crate) const HIGH_HARMONIC_PRICE: f64 = 9.2;
 /// thousand, and faint square waves are two sines.
 pub(crate) const NO_SINE_PRICE: f64 = 9.2;
 
+/// Square of what an effect shows at all other targets, about their mean, against that at one, below
+/// which it shows at one alone.
+///
+/// Derived: a bell half as wide as targets lie apart shows a tenth at both neighbours. Doubled: one
+/// of 0.54 of that is no shape either.
+pub(crate) const OTHER_TARGETS: f64 = 0.02;
+
 /// Share of a pattern's square that a straight line must leave for it to have a shape.
 ///
 /// Chosen: a thirtieth of its size. Doubled: a curve of a twenty-second part of its slope is no

@@ -172,6 +172,24 @@ pub(crate) const CURVE_OF_A_LOG: usize = 12;
 /// Chosen. Doubled: short files are not looked at for bumps.
 pub(crate) const ROWS_A_COLUMN: usize = 6;
 
+/// Fewest targets of a table that tell what is at one of them alone from a curve.
+///
+/// Source: ISO 230-2 asks for five a metre. Doubled: a dent at one target of nine is wear.
+pub(crate) const FEWEST_TARGETS: usize = 5;
+
+/// Order of the curve that one pass may have and no other.
+///
+/// Chosen: a slope, a bow and an S, as what warms up bends. Doubled: three waves, which the rows of
+/// a table of targets do not tell from noise.
+pub(crate) const BEND_OF_A_PASS: usize = 3;
+
+/// Rows of a pass beyond that and its level, which tell its noise.
+///
+/// Measured on drawn noise, white to a random walk: with eleven, of up to twenty passes no more fall
+/// below a chance than three times what it says; with six, fifteen times. Doubled: runs of eleven
+/// targets there and back are not compared.
+pub(crate) const ROWS_BESIDE_A_BEND: usize = 11;
+
 /// Columns of all passes together that their own smooth curves may have.
 ///
 /// Chosen. Doubled: eight passes may have curves of eight columns each.

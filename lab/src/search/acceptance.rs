@@ -38,6 +38,7 @@ pub(crate) fn refusal(problem: &Problem, now: &State, judged: &Judged) -> Option
         .or_else(|| (!likeness::by_the_clock(problem, component)).then_some(Refusal::Clock))
         .or_else(|| (!likeness::has_its_time(problem, component)).then_some(Refusal::Untimed))
         .or_else(|| (!likeness::resolved(problem, component)).then_some(Refusal::Targets))
+        .or_else(|| likeness::at_one_target(problem, component, used).then_some(Refusal::OneTarget))
         .or_else(|| (!likeness::lets_motion_through(problem, component)).then_some(Refusal::Play))
         .or_else(|| at_an_end(problem, now, judged))
         .or_else(|| (!repeats(judged, now)).then_some(Refusal::Again))

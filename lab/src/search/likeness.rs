@@ -8,9 +8,9 @@ use helixlock_plant::{CATALOGUE, Entry, Role, Search, Term};
 use crate::model::{Component, Problem, State, pattern};
 use crate::noise::{Block, Whitener};
 use crate::numerics::least_squares::dot;
-use crate::numerics::{count, least_squares, one_in, resolves, spread};
-use crate::policy::evidence::{HIGH_HARMONIC_PRICE, SHAPE, WAVE, WAVES_A_PASS};
-use crate::policy::extent::{ROWS_A_COLUMN, RUN_IN};
+use crate::numerics::{count, least_squares, median, one_in, resolves, spread};
+use crate::policy::evidence::{HIGH_HARMONIC_PRICE, OTHER_TARGETS, SHAPE, WAVE, WAVES_A_PASS};
+use crate::policy::extent::{FEWEST_TARGETS, ROWS_A_COLUMN, RUN_IN};
 use crate::policy::reading::REVERSAL_REACH;
 use crate::policy::size::{ANOTHER_SPEED, ON_THE_WAY};
 
@@ -268,6 +268,33 @@ pub(crate) fn resolved(problem: &Problem, component: &Component) -> bool {
     }
     let Some(turns) = problem.places() else { return true };
     resolves(&turns, component.waves_a_turn(problem))
+}
+
+/// True where all samples lie at a few places, and an effect is at one of them what it is at no other:
+/// every curve that is narrow enough passes there.
+#[must_use]
+pub(crate) fn at_one_target(problem: &Problem, component: &Component, used: &[f64]) -> bool {
+    let Some(targets) = problem.places().filter(|all| FEWEST_TARGETS <= all.len()) else {
+        return false;
+    };
+    let Some(shown) = component.shown_um(problem, used) else { return false };
+    let turns: Vec<f64> = problem.record.turns().collect();
+    let mut sums = vec![(0.0, 0.0); targets.len()];
+    for (value, &sample) in shown.iter().zip(&problem.samples) {
+        let behind = targets.partition_point(|target| *target <= turns[sample]);
+        let (sum, number) = &mut sums[behind.saturating_sub(1)];
+        (*sum, *number) = (*sum + value, *number + 1.0);
+    }
+    let mut means: Vec<f64> = sums.iter().map(|(sum, number)| sum / number).collect();
+    let usual = median(&mut means.clone());
+    let far = |at: &usize| (means[*at] - usual).abs();
+    let Some(alone) = (0..means.len()).max_by(|a, b| far(a).total_cmp(&far(b))) else {
+        return false;
+    };
+    let alone = means.swap_remove(alone);
+    let level = means.iter().sum::<f64>() / count(means.len().max(1));
+    let others: f64 = means.iter().map(|mean| (mean - level) * (mean - level)).sum();
+    others < OTHER_TARGETS * (alone - level) * (alone - level)
 }
 
 /// True unless an effect is one of whole waves a turn of a part of which the record has not a whole

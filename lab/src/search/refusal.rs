@@ -35,6 +35,8 @@ pub(crate) enum Refusal {
     Untimed,
     /// A wave shorter than what targets resolve.
     Targets,
+    /// A curve that is at one target what it is nowhere else: it has no shape there.
+    OneTarget,
     /// A play wider than every move of the motor.
     Play,
     /// It is in the model already, and a sum of such shapes imitates anything.
@@ -67,6 +69,7 @@ impl Refusal {
                 | Self::Piece
                 | Self::Edge
                 | Self::Untimed
+                | Self::OneTarget
                 | Self::Play
                 | Self::Again
         )
@@ -116,6 +119,7 @@ impl fmt::Display for Refusal {
             ),
             Self::Untimed => f.write_str("the axis stands at targets, and no time was measured"),
             Self::Targets => f.write_str("not told by the targets from a longer wave"),
+            Self::OneTarget => f.write_str("it shows at one target alone, where it has no shape"),
             Self::Play => f.write_str("a play wider than every move of the motor"),
             Self::Again => f.write_str("it is in the model already"),
             Self::Angle { order, ahead } => {
