@@ -43,8 +43,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         [("compare", of_lines), ("discover", of_formulas), ("diagnose", of_effects)];
     for (name, table) in tables.into_iter().filter(|(name, _)| name.contains(&asked)) {
         let held = table(number)?;
-        writeln!(out, "| `{name}` | | ± told | within two ± | rms of error / ± |")?;
-        writeln!(out, "|---|---|---:|---:|---:|")?;
+        writeln!(out, "| `{name}` | | ± told | within two ± | error / ±, mean | rms |")?;
+        writeln!(out, "|---|---|---:|---:|---:|---:|")?;
         for ((what, parameter), errors) in &held.0 {
             writeln!(out, "| {what} | `{parameter}` | {} |", cells(errors))?;
         }
@@ -69,7 +69,8 @@ fn cells(errors: &[f64]) -> String {
     let number = errors.len().max(1) as f64;
     let within = errors.iter().filter(|error| error.abs() <= 2.0).count() as f64;
     let rms = (errors.iter().map(|error| error * error).sum::<f64>() / number).sqrt();
-    format!("{} | {:.1} % | {rms:.2}", errors.len(), 100.0 * within / number)
+    let mean = errors.iter().sum::<f64>() / number;
+    format!("{} | {:.1} % | {mean:+.2} | {rms:.2}", errors.len(), 100.0 * within / number)
 }
 
 /// A hidden effect of a challenge, where it is named rightly.
@@ -147,21 +148,27 @@ fn of_formulas(number: u64) -> Drawn {
     type Law = fn(f64, [f64; 2]) -> f64;
     let root: Law = |x, [size, at]| size * (x - at).max(0.0).sqrt();
     let bend: Law = |x, [size, at]| size * (x - at).max(0.0);
-    let laws = [("root", root, 0.1, ["size", "at_mm"]), ("bend", bend, 0.008, ["size", "at_mm"])];
+    let laws = [
+        ("size*sqrt(ramp(position_mm - at_mm))", root, 0.1),
+        ("slope*position_mm + size*ramp(position_mm - at_mm)", bend, 0.008),
+    ];
     let mut held = Held::default();
-    for (words, law, usual, names) in laws {
+    for (formula, law, usual) in laws {
         for seed in 0..number {
             let mut chance = ChaCha8Rng::seed_from_u64(seed);
             let truth = [usual * chance.random_range(0.5..2.0), chance.random_range(100.0..300.0)];
             let drawn = record(&mut chance, 2, 100, [0.0, 0.0], |x| law(x, truth))?;
             let found = discover(&drawn);
-            let Some(first) = found.proposals.first() else { continue };
-            for (name, truth) in names.iter().zip(truth) {
-                let one = first.parameters.iter().find(|one| one.name == *name);
+            let Some(first) = found.proposals.first().filter(|first| first.formula == formula)
+            else {
+                continue;
+            };
+            for (name, truth) in ["size", "at_mm"].into_iter().zip(truth) {
+                let one = first.parameters.iter().find(|one| one.name == name);
                 let Some((one, stderr)) = one.and_then(|one| Some((one, one.stderr?))) else {
                     continue;
                 };
-                held.add(&format!("{words}: {}", first.formula), name, one.value - truth, stderr);
+                held.add(&format!("`{formula}`"), name, one.value - truth, stderr);
             }
         }
     }

@@ -356,8 +356,12 @@ fn step(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
         let best = places.iter().zip(gains).max_by(|a, b| a.1.total_cmp(&b.1));
         let Some((&place, _)) = best else { continue };
         let raw = stacked(problem, &[above(values, place)]);
-        let (rms_um, p_value) = probe(problem, model, fit, &raw);
+        let (explained_um, p_value) = probe(problem, model, fit, &raw);
         let mut p_value = (p_value * count(places.len())).min(1.0);
+        let mut rms_um = explained_um;
+        if p_value < SIGNIFICANCE {
+            rms_um = rms_um.max(height_um(problem, model, fit, &raw));
+        }
         if matters(problem, fit, rms_um, p_value) {
             let with_tails = step_with_tails(problem, model, fit, raw.clone(), places.len());
             p_value = p_value.max(with_tails);
@@ -366,6 +370,15 @@ fn step(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
         found.push(Structure { at: Some(place), ..told });
     }
     found
+}
+
+/// Root mean square of what columns show, µm: slow noise that follows a step without it leaves no more
+/// with it, though the step is there.
+fn height_um(problem: &Problem, model: &Columns, fit: &Fit, raw: &[Column]) -> f64 {
+    let columns = Columns::free(raw.to_vec());
+    let wider = settle(problem, &model.and(&columns), &fit.noises);
+    let own = &wider.linear.coefficients[model.raw.len()..];
+    rms(&problem.layout, &columns.left(&vec![0.0; problem.samples.len()], own))
 }
 
 /// Chance of a step when the noise may have tails.
