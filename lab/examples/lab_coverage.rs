@@ -1,7 +1,7 @@
 //! Prints how often the ± of `compare`, `diagnose` and `discover` hold the truth: tables in
 //! docs/metrology.md. What is measured is drawn, with a known truth.
 //!
-//! `cargo run --release -p helixlock-lab --example coverage -- NUMBER`, the number of records of
+//! `cargo run --release -p helixlock-lab --example lab_coverage -- NUMBER`, the number of records of
 //! each table; after it, a word that asks for the tables that have it in their name alone.
 
 use std::collections::BTreeMap;
