@@ -49,8 +49,8 @@ pub(crate) const HIGH_HARMONIC_PRICE: f64 = 9.2;
 /// thousand, and faint square waves are two sines.
 pub(crate) const NO_SINE_PRICE: f64 = 9.2;
 
-/// Square of what an effect shows at all other targets, about their mean, against that at one, below
-/// which it shows at one alone.
+/// Square of what an effect shows beside its mean at one target and that at all others, against their
+/// difference's, below which it shows at one alone.
 ///
 /// Derived: a bell half as wide as targets lie apart shows a tenth at both neighbours. Doubled: one
 /// of 0.54 of that is no shape either.

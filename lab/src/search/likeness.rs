@@ -279,22 +279,25 @@ pub(crate) fn at_one_target(problem: &Problem, component: &Component, used: &[f6
     };
     let Some(shown) = component.shown_um(problem, used) else { return false };
     let turns: Vec<f64> = problem.record.turns().collect();
-    let mut sums = vec![(0.0, 0.0); targets.len()];
+    let mut of_targets = vec![Vec::new(); targets.len()];
     for (value, &sample) in shown.iter().zip(&problem.samples) {
         let behind = targets.partition_point(|target| *target <= turns[sample]);
-        let (sum, number) = &mut sums[behind.saturating_sub(1)];
-        (*sum, *number) = (*sum + value, *number + 1.0);
+        of_targets[behind.saturating_sub(1)].push(*value);
     }
-    let mut means: Vec<f64> = sums.iter().map(|(sum, number)| sum / number).collect();
-    let usual = median(&mut means.clone());
-    let far = |at: &usize| (means[*at] - usual).abs();
-    let Some(alone) = (0..means.len()).max_by(|a, b| far(a).total_cmp(&far(b))) else {
+    let mean = |part: &[f64]| part.iter().sum::<f64>() / count(part.len().max(1));
+    let about = |part: &[f64], level: f64| -> f64 {
+        part.iter().map(|value| (value - level) * (value - level)).sum()
+    };
+    let usual = median(&mut shown.clone());
+    let far = |at: &usize| (mean(&of_targets[*at]) - usual).abs();
+    let Some(at) = (0..of_targets.len()).max_by(|a, b| far(a).total_cmp(&far(b))) else {
         return false;
     };
-    let alone = means.swap_remove(alone);
-    let level = means.iter().sum::<f64>() / count(means.len().max(1));
-    let others: f64 = means.iter().map(|mean| (mean - level) * (mean - level)).sum();
-    others < OTHER_TARGETS * (alone - level) * (alone - level)
+    let own = of_targets.swap_remove(at);
+    let others = of_targets.concat();
+    let (here, level) = (mean(&own), mean(&others));
+    let elsewhere = about(&own, here) + about(&others, level);
+    elsewhere < OTHER_TARGETS * count(own.len()) * (here - level) * (here - level)
 }
 
 /// True unless an effect is one of whole waves a turn of a part of which the record has not a whole
