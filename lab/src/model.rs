@@ -25,4 +25,5 @@ pub(crate) use judged::Judged;
 pub use problem::Problem;
 pub(crate) use stage::{Gain, Stage};
 pub(crate) use state::{State, pattern};
+pub(crate) use targets::distinct;
 pub(crate) use uncertainty::{JointCovariance, covariance_of_all_values, joint_covariance, slopes};

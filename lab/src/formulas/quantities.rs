@@ -6,7 +6,7 @@ use helixlock_plant::Column;
 
 use super::dimension::Dimension;
 use super::expression::{Expression, Quantity, number};
-use crate::model::Problem;
+use crate::model::{Problem, distinct};
 use crate::numerics::{count, spread};
 use crate::policy::extent::TURNS;
 
@@ -54,9 +54,9 @@ impl Quantities {
         } else {
             quantity("position_mm", unit("mm"), record.position_mm.clone())
         };
-        let of_few = |turns: Vec<f64>| distinct(&position.values, turns.len());
+        let targets = problem.places().map(|_| distinct(position.values.to_vec()));
         Self {
-            targets: problem.places().map(of_few).unwrap_or_default(),
+            targets: targets.unwrap_or_default(),
             position,
             time: quantity("time_s", unit("s"), record.time_s.clone()),
             timed: problem.measurement.timed,
@@ -130,18 +130,6 @@ impl Quantities {
         });
         shafts
     }
-}
-
-/// So many distinct values, lowest first: the first of each crowd between the widest gaps.
-fn distinct(values: &[f64], number: usize) -> Vec<f64> {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let mut gaps: Vec<usize> = (1..sorted.len()).collect();
-    let gap = |at: usize| sorted[at] - sorted[at - 1];
-    gaps.sort_by(|a, b| gap(*b).total_cmp(&gap(*a)));
-    gaps.truncate(number.saturating_sub(1));
-    gaps.sort_unstable();
-    std::iter::once(0).chain(gaps).map(|at| sorted[at]).collect()
 }
 
 /// A quantity in a formula.

@@ -9,6 +9,15 @@ use crate::policy::extent::ROWS_A_COLUMN;
 /// Places that count as one, against the travel.
 const ONE_PLACE: f64 = 1e-6;
 
+/// Values that are more than a place apart, lowest first.
+#[must_use]
+pub(crate) fn distinct(mut values: Vec<f64>) -> Vec<f64> {
+    values.sort_by(f64::total_cmp);
+    let apart = ONE_PLACE * spread(&values);
+    values.dedup_by(|next, before| *next - *before <= apart);
+    values
+}
+
 impl Problem {
     /// Places of the targets, where all samples lie at a few places and the axis may have stopped there.
     fn targets(&self) -> Option<Vec<f64>> {
@@ -19,12 +28,16 @@ impl Problem {
     /// times.
     #[must_use]
     pub(crate) fn places(&self) -> Option<Vec<f64>> {
-        let mut turns: Vec<f64> = self.record.turns().collect();
-        let samples = turns.len();
-        turns.sort_by(f64::total_cmp);
-        let apart = ONE_PLACE * spread(&turns);
-        turns.dedup_by(|next, before| *next - *before <= apart);
-        (VISITS * turns.len() <= samples).then_some(turns)
+        let turns = distinct(self.record.turns().collect());
+        (VISITS * turns.len() <= self.record.len()).then_some(turns)
+    }
+
+    /// Which of some targets each sample is at.
+    #[must_use]
+    pub(crate) fn visited(&self, targets: &[f64]) -> Vec<usize> {
+        let apart = ONE_PLACE * spread(targets);
+        let behind = |turn: f64| targets.partition_point(|target| *target <= turn + apart);
+        self.record.turns().map(|turn| behind(turn).saturating_sub(1)).collect()
     }
 
     /// True where time was measured and the axis goes as fast as it is told to: it stops nowhere.
@@ -44,16 +57,13 @@ impl Problem {
         if self.samples.len() < ROWS_A_COLUMN * width {
             return Vec::new();
         }
-        let apart = ONE_PLACE * (targets[targets.len() - 1] - targets[0]);
-        let turns: Vec<f64> = self.record.turns().collect();
-        let target_of = |turn: f64| targets.partition_point(|target| *target <= turn + apart);
-        let of: Vec<usize> = turns.into_iter().map(target_of).collect();
+        let of = self.visited(&targets);
         let one =
             |sensor, target| self.alone(sensor, |sample| f64::from(u8::from(of[sample] == target)));
         // The zero of a pass stands for the first.
         let sensors = 0..self.sensors.len();
         sensors
-            .flat_map(|sensor| (2..=targets.len()).map(move |target| one(sensor, target)))
+            .flat_map(|sensor| (1..targets.len()).map(move |target| one(sensor, target)))
             .collect()
     }
 

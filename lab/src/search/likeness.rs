@@ -278,11 +278,10 @@ pub(crate) fn at_one_target(problem: &Problem, component: &Component, used: &[f6
         return false;
     };
     let Some(shown) = component.shown_um(problem, used) else { return false };
-    let turns: Vec<f64> = problem.record.turns().collect();
+    let visited = problem.visited(&targets);
     let mut of_targets = vec![Vec::new(); targets.len()];
     for (value, &sample) in shown.iter().zip(&problem.samples) {
-        let behind = targets.partition_point(|target| *target <= turns[sample]);
-        of_targets[behind.saturating_sub(1)].push(*value);
+        of_targets[visited[sample]].push(*value);
     }
     let mean = |part: &[f64]| part.iter().sum::<f64>() / count(part.len().max(1));
     let about = |part: &[f64], level: f64| -> f64 {
