@@ -35,6 +35,8 @@ async function diagnose(place, page) {
 // What a diagnosis says: its verdict, what it would add, and everything else that was tried.
 async function render(root, page) {
   const { result } = last;
+  // Asked for before anything is drawn, so that a verdict never stands without its cards.
+  const catalogue = new Map((await get("catalogue")).map((about) => [about.effect, about]));
   const unit = t(`unit.${result.unit}`);
   const first = result.rounds[0];
   const final = result.rounds[result.rounds.length - 1];
@@ -53,7 +55,6 @@ async function render(root, page) {
   root.append(unexplained(result, unit));
   const trial = make("div", { id: "trial" });
   root.append(trial);
-  const catalogue = new Map((await get("catalogue")).map((about) => [about.effect, about]));
   const isSuggested = (one) => suggested.some((effect) => effect.effect === one.effect);
   const cards = result.candidates.map((one) => card(one, { result, unit, trial, page, refused, suggested: isSuggested(one), about: catalogue.get(one.effect) }));
   const top = cards.filter((_, index) => isSuggested(result.candidates[index]));
