@@ -4,6 +4,7 @@
 mod agreement;
 mod calibration;
 mod candidates;
+mod excursions;
 mod flaws;
 mod grid;
 mod jumps;

@@ -21,4 +21,6 @@ pub(crate) use golden_section::golden_maximum;
 pub(crate) use looks::Looks;
 pub(crate) use random_effects::drawn_sizes_gain;
 pub(crate) use sampling::{highest_frequency, resolves, usual_rate};
-pub(crate) use summary::{count, median, one_in, rms_about_means, spread, weighted_median};
+pub(crate) use summary::{
+    count, deviation, median, one_in, rms_about_means, spread, weighted_median,
+};

@@ -2,8 +2,8 @@
 
 use crate::model::{Columns, Problem};
 use crate::noise::{Noise, Whitener};
+use crate::numerics::deviation;
 use crate::numerics::least_squares::fit;
-use crate::numerics::median;
 
 /// Whitening by a fixed noise, free of what is common.
 pub(super) struct View {
@@ -51,7 +51,7 @@ pub(super) fn rough_noises(problem: &Problem) -> Vec<Noise> {
         let inner = blocks
             .flat_map(|block| block.rows.clone().skip(1).take(block.rows.len().saturating_sub(2)));
         let mut sizes: Vec<f64> = inner.map(off).collect();
-        let deviation = (1.4826 * median(&mut sizes)).max(f64::MIN_POSITIVE.sqrt());
+        let deviation = deviation(&mut sizes).max(f64::MIN_POSITIVE.sqrt());
         Noise::white().scaled(deviation * deviation)
     };
     (0..problem.sensors.len()).map(noise).collect()

@@ -89,7 +89,7 @@ fn drawn_gain(problem: &Problem, model: &Columns, fit: &Fit, raw: &[Column], see
 }
 
 /// Noise of each block, sample after sample: the slow parts forget exponentially.
-fn draw(layout: &Layout, noises: &[Noise], chance: &mut ChaCha8Rng) -> Vec<f64> {
+pub(super) fn draw(layout: &Layout, noises: &[Noise], chance: &mut ChaCha8Rng) -> Vec<f64> {
     let mut normal = || -> f64 { StandardNormal.sample(chance) };
     let mut all = vec![0.0; layout.len()];
     for block in &layout.blocks {

@@ -3,13 +3,10 @@
 use super::tails::chance_beyond;
 use crate::model::{Fit, Problem};
 use crate::noise::Whitener;
-use crate::numerics::{count, median};
+use crate::numerics::{count, deviation, median};
 use crate::policy::chance::{
     FEWEST_JUMPS, JUMP_DEVIATIONS, JUMP_KEPT, JUMP_SIDE, SAMPLES_THAT_TELL,
 };
-
-/// Deviation of a normal law against its median size.
-const MEDIAN_TO_DEVIATION: f64 = 1.482_6;
 
 /// Usual size of the jumps, µm (arcsec), and the chance of so many in noise.
 ///
@@ -43,7 +40,7 @@ fn usual(problem: &Problem, fit: &Fit, (sensor, white): (usize, &[f64])) -> f64 
     }
     let mut sizes: Vec<f64> = white.iter().map(|value| value.abs()).collect();
     let least = (problem.least_variance[sensor] / fit.noises[sensor].white).sqrt();
-    (MEDIAN_TO_DEVIATION * median(&mut sizes)).clamp(least.min(1.0), 1.0)
+    deviation(&mut sizes).clamp(least.min(1.0), 1.0)
 }
 
 /// Size of the change before a row, if the level stays.

@@ -4,6 +4,7 @@
 //! noise fitted anew on both sides, says whether something is left, and its shape says what.
 
 use super::calibration;
+use super::excursions::excursions;
 use super::flaws::above_flaws;
 use super::jumps::jumps;
 use super::local::{self, Local};
@@ -119,6 +120,7 @@ pub(crate) fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> V
     all.extend(repeats(problem, fit));
     all.extend(at_targets(problem, model, fit));
     all.extend(bent_pass(problem, fit));
+    all.extend(standing_out(problem, fit));
     all.extend(jumping(problem, fit));
     all.extend(one_way_jumps(problem, fit));
     all.extend(local_shapes(problem, fit));
@@ -260,6 +262,14 @@ fn jumping(problem: &Problem, fit: &Fit) -> Option<Structure> {
     }
     let p_value = (probes(problem) * chance).min(1.0);
     Some(Structure::without_place("time", "several jumps", rms_um, p_value))
+}
+
+/// What most of the record does not show.
+fn standing_out(problem: &Problem, fit: &Fit) -> Option<Structure> {
+    let found = excursions(problem, fit)?;
+    let p_value = (probes(problem) * found.p_value).min(1.0);
+    let shape = "excursions that most of the record does not show";
+    Some(Structure::without_place("time", shape, found.rms_um, p_value))
 }
 
 /// Creep one way and jumps back, as stick and slip leave them.

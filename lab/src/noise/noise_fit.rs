@@ -3,8 +3,6 @@
 //! Restricted: the offsets of the passes are projected out and counted, so that short passes do
 //! not make the noise look smaller than it is (Patterson and Thompson 1971).
 
-use std::ops::Range;
-
 use nalgebra::SVector;
 use rayon::prelude::*;
 
@@ -12,7 +10,7 @@ use super::kernel::{Noise, SlowPart};
 use super::layout::{Block, Layout};
 use super::sweep::squares_and_log_determinants;
 use crate::numerics::quasi_newton::{Descent, minimise};
-use crate::numerics::{count, median, one_in};
+use crate::numerics::{count, deviation, median, one_in};
 use crate::policy::reading::{
     BEYOND_ARE_OUTLIERS, BEYOND_DEVIATIONS, NO_LAW, OUTLIER_DEVIATIONS, OUTLIER_NEIGHBOURS,
 };
@@ -175,14 +173,10 @@ pub(crate) fn outlier_inflation(
     let mut inflation = vec![1.0; residual.len()];
     for (sensor, least) in least_variance.iter().enumerate() {
         let blocks = || layout.blocks.iter().filter(|block| block.sensor == sensor);
-        let mut near = Vec::new();
-        let mut departures = Vec::new();
-        for block in blocks() {
-            let rows = block.rows.clone();
-            departures.extend(rows.map(|row| departure(residual, row, &block.rows, &mut near)));
-        }
+        let departures: Vec<f64> =
+            blocks().flat_map(|block| departures(&residual[block.rows.clone()])).collect();
         let mut sizes: Vec<f64> = departures.iter().map(|value| value.abs()).collect();
-        let told = 1.4826 * median(&mut sizes);
+        let told = deviation(&mut sizes);
         if 0.0 < told {
             let most = one_in(&mut sizes, BEYOND_ARE_OUTLIERS) / BEYOND_DEVIATIONS;
             let told = if NO_LAW * told < most { most } else { told };
@@ -196,11 +190,15 @@ pub(crate) fn outlier_inflation(
     inflation
 }
 
-/// What a value differs by from the median of those about it, for whose copy there is room.
-fn departure(residual: &[f64], row: usize, rows: &Range<usize>, near: &mut Vec<f64>) -> f64 {
-    let from = row.saturating_sub(OUTLIER_NEIGHBOURS).max(rows.start);
-    let to = (row + OUTLIER_NEIGHBOURS + 1).min(rows.end);
-    near.clear();
-    near.extend_from_slice(&residual[from..to]);
-    residual[row] - median(near)
+/// What each value of a pass differs by from the median of itself and its neighbours.
+#[must_use]
+pub(crate) fn departures(values: &[f64]) -> Vec<f64> {
+    let mut near = Vec::new();
+    let of = |(row, value): (usize, &f64)| {
+        let to = (row + OUTLIER_NEIGHBOURS + 1).min(values.len());
+        near.clear();
+        near.extend_from_slice(&values[row.saturating_sub(OUTLIER_NEIGHBOURS)..to]);
+        value - median(&mut near)
+    };
+    values.iter().enumerate().map(of).collect()
 }

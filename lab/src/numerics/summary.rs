@@ -22,6 +22,15 @@ pub(crate) fn median(values: &mut [f64]) -> f64 {
     one_in(values, 2)
 }
 
+/// Median size of a normal variable whose deviation is 1, inverted.
+const MEDIAN_TO_DEVIATION: f64 = 1.482_6;
+
+/// Deviation of the normal law whose median size some sizes have.
+#[must_use]
+pub(crate) fn deviation(sizes: &mut [f64]) -> f64 {
+    MEDIAN_TO_DEVIATION * median(sizes)
+}
+
 /// Median of values with weights: half of all weight is on it and on smaller ones; 0 of none.
 #[must_use]
 pub(crate) fn weighted_median(pairs: &mut [(f64, f64)]) -> f64 {

@@ -77,6 +77,18 @@ pub(crate) const MOST_DRAWS: u64 = 256;
 /// Derived: χ² with one degree exceeds 40 once in 4·10⁹. Doubled: more draws, the same answers.
 pub(crate) const BEYOND_DOUBT: f64 = 40.0;
 
+/// Standard deviations of noise, sixteen times drawn, from which on changes that stand out are held
+/// against more of it.
+///
+/// Derived: what is beyond [`SIGNIFICANCE`] is beyond five, known to one. Doubled: half of it is
+/// missed.
+pub(crate) const WORTH_DRAWING: f64 = 3.0;
+
+/// Changes from one stretch of a pass to the next from which on their median says what is usual.
+///
+/// Chosen: it is good to a third. Doubled: stretches are half as long at most.
+pub(crate) const FEWEST_CHANGES: usize = 16;
+
 /// A whitened sample beyond this many deviations is a jump.
 ///
 /// Derived: Gaussian noise does so once in 1.7 million samples. Heavier tails are read from the

@@ -16,7 +16,7 @@ use crate::model::{
     with_noise,
 };
 use crate::noise::{Noise, rms};
-use crate::numerics::{chi_squared_tail, count, median};
+use crate::numerics::{chi_squared_tail, count, deviation};
 use crate::policy::chance::NAMED;
 use crate::policy::evidence::{MARGIN, SET_MARGIN};
 use crate::policy::extent::{KNOWN_IN_SETS, MOST_ROUNDS, NEAR_THE_BEST, SHORTLIST};
@@ -282,7 +282,7 @@ pub(super) fn plain_noises(problem: &Problem, fit: &Fit) -> Vec<Noise> {
                 .flat_map(|block| block.rows.clone().skip(1))
                 .map(|row| (fit.left[row] - fit.left[row - 1]).abs())
                 .collect();
-            let deviation = (median(&mut steps) * 1.4826).max(f64::MIN_POSITIVE.sqrt());
+            let deviation = deviation(&mut steps).max(f64::MIN_POSITIVE.sqrt());
             Noise::white().scaled(0.5 * deviation * deviation)
         })
         .collect()

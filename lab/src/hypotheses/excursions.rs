@@ -1,0 +1,294 @@
+//! Excursions that most of a record does not show: levels that switch, gusts, saw teeth, a bump one
+//! way.
+//!
+//! Noise that is fitted to all of a record becomes as slow and as large as its excursions. But
+//! stationary Gaussian noise, whatever its spectrum, changes as much in one place as in another: the
+//! changes of its mean from one stretch to the next follow a normal law, of which the median says
+//! what the largest may be. Each change is measured by how loud its neighbourhood is from sample to
+//! sample, for a louder stretch is louder at every length, and outliers are cut off. How far the
+//! largest stand out is held against noise drawn from the fit.
+
+use std::iter::successors;
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+use rayon::prelude::*;
+use statrs::distribution::{ContinuousCDF, Gamma};
+
+use super::calibration::draw;
+use crate::model::{Fit, Problem};
+use crate::noise::{Layout, Noise, departures, rms};
+use crate::numerics::{count, deviation, median};
+use crate::policy::chance::{DRAWS, FEWEST_CHANGES, MOST_DRAWS, WORTH_DRAWING};
+use crate::policy::extent::{LONGEST_STRETCH, LOUDNESS_ROWS, SHORTEST_STRETCH};
+use crate::policy::reading::{LEAST_LOUD, OUTLIER_DEVIATIONS};
+
+/// Power that the changes are raised to, for the few large ones to decide.
+///
+/// At 2 saw teeth and gusts stand out less, from 4 on bumps of several samples do.
+const POWER: i32 = 3;
+
+/// What stands out.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Excursions {
+    /// Root mean square of it over the whole record, µm (arcsec).
+    pub(super) rms_um: f64,
+    /// Chance of as much in noise.
+    pub(super) p_value: f64,
+}
+
+/// How far changes over stretches of one length stand out.
+#[derive(Debug, Clone, Copy)]
+struct Standing {
+    /// Logarithm of their mean size against their usual one.
+    out: f64,
+    /// Share of their square beyond that of usual ones.
+    share: f64,
+}
+
+/// What stands out of most of a record; `None` where it is too short to tell, or the file says how
+/// sure each reading is, so that neighbours need not be alike.
+#[must_use]
+pub(super) fn excursions(problem: &Problem, fit: &Fit) -> Option<Excursions> {
+    if problem.measurement.deviations.is_some() {
+        return None;
+    }
+    let sensors = 0..problem.sensors.len();
+    let of_sensor = |sensor| {
+        let (mut layout, rows) = problem.layout.of_sensor(sensor);
+        layout.inflation = vec![1.0; layout.len()].into();
+        let own =
+            Own { layout, noise: &fit.noises[sensor], finest: problem.least_variance[sensor] };
+        own.clearest(&fit.left[rows])
+    };
+    let found: Vec<(Standing, f64)> = sensors.filter_map(of_sensor).collect();
+    let (standing, chance) = found.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let rms_um = rms(&problem.layout, &fit.left) * standing.share.sqrt();
+    Some(Excursions { rms_um, p_value: (count(found.len()) * chance).min(1.0) })
+}
+
+/// One sensor.
+struct Own<'a> {
+    layout: Layout,
+    noise: &'a Noise,
+    /// Variance below which its readings are all alike.
+    finest: f64,
+}
+
+impl Own<'_> {
+    /// The length of stretches at which changes stand out most, and the chance that any does so.
+    fn clearest(&self, left: &[f64]) -> Option<(Standing, f64)> {
+        // Readings on a lattice have many changes of exactly none.
+        let mut dither = ChaCha8Rng::seed_from_u64(u64::MAX);
+        let found = self.standing(left, &mut dither);
+        let mut drawn: Vec<Vec<Standing>> = Vec::new();
+        for most in [DRAWS, MOST_DRAWS] {
+            let seeds = (drawn.len() as u64..most).into_par_iter();
+            drawn.par_extend(seeds.map(|seed| {
+                let mut chance = ChaCha8Rng::seed_from_u64(seed);
+                let noise = draw(&self.layout, std::slice::from_ref(self.noise), &mut chance);
+                self.standing(&noise, &mut chance)
+            }));
+            let laws: Vec<Law> = (0..found.len()).map(|place| Law::of(&drawn, place)).collect();
+            let beyond = laws.iter().zip(&found).map(|(law, one)| law.deviations(one.out));
+            if beyond.fold(f64::NEG_INFINITY, f64::max) < WORTH_DRAWING {
+                break;
+            }
+            if drawn.len() as u64 == MOST_DRAWS {
+                let chances = laws.iter().zip(&found).map(|(law, one)| (*one, law.chance(one.out)));
+                let (clearest, chance) = chances.min_by(|a, b| a.1.total_cmp(&b.1))?;
+                return Some((clearest, (count(found.len()) * chance).min(1.0)));
+            }
+        }
+        found.first().map(|one| (*one, 1.0))
+    }
+
+    /// How far changes stand out, for each length of stretches that there are enough of.
+    fn standing(&self, values: &[f64], dither: &mut ChaCha8Rng) -> Vec<Standing> {
+        let finest = self.finest.sqrt();
+        let mut fine = |value: &f64| -> f64 {
+            let normal: f64 = StandardNormal.sample(dither);
+            value + finest * normal
+        };
+        let fine: Vec<f64> = values.iter().map(&mut fine).collect();
+        let blocks = self.layout.blocks.iter();
+        let passes: Vec<Pass> = blocks.map(|block| Pass::of(&fine[block.rows.clone()])).collect();
+        let lengths = successors(Some(SHORTEST_STRETCH), |length| Some(2 * length));
+        let sizes = lengths.take_while(|&length| length <= LONGEST_STRETCH).map(|length| {
+            passes.iter().filter_map(|pass| pass.changes(length)).flatten().collect::<Vec<_>>()
+        });
+        sizes.take_while(|sizes| !sizes.is_empty()).map(|sizes| Standing::of(&sizes)).collect()
+    }
+}
+
+/// The law of Pearson's third type that has the mean, variance and skewness of what was drawn: a
+/// mean of cubes is skewed, and by a normal law its tail would be too short thirtyfold.
+struct Law {
+    mean: f64,
+    deviation: f64,
+    skewness: f64,
+}
+
+/// Least skewness of it; below, it is the normal law.
+const LEAST_SKEWNESS: f64 = 0.1;
+
+impl Law {
+    fn of(drawn: &[Vec<Standing>], place: usize) -> Self {
+        let number = count(drawn.len());
+        let mean_of = |of: &dyn Fn(f64) -> f64| {
+            drawn.iter().map(|one| of(one[place].out)).sum::<f64>() / number
+        };
+        let mean = mean_of(&|out| out);
+        let deviation = mean_of(&|out| (out - mean).powi(2)).sqrt().max(f64::MIN_POSITIVE);
+        let skewness = mean_of(&|out| ((out - mean) / deviation).powi(3)).max(LEAST_SKEWNESS);
+        Self { mean, deviation, skewness }
+    }
+
+    /// Standard deviations above the mean.
+    fn deviations(&self, value: f64) -> f64 {
+        (value - self.mean) / self.deviation
+    }
+
+    /// Chance of as much or more.
+    fn chance(&self, value: f64) -> f64 {
+        let shape = 4.0 / (self.skewness * self.skewness);
+        let place = (shape + self.deviations(value) * shape.sqrt()).max(0.0);
+        Gamma::new(shape, 1.0).map_or(1.0, |law| law.sf(place))
+    }
+}
+
+/// One pass without its outliers.
+struct Pass {
+    /// Sums of the values before each row.
+    sums: Vec<f64>,
+    /// Per row: usual change from sample to sample in its neighbourhood.
+    loudness: Vec<f64>,
+}
+
+impl Pass {
+    fn of(values: &[f64]) -> Self {
+        let departures = departures(values);
+        let mut sizes: Vec<f64> = departures.iter().map(|value| value.abs()).collect();
+        let most = OUTLIER_DEVIATIONS * deviation(&mut sizes);
+        let near = values.iter().zip(departures);
+        let kept: Vec<f64> =
+            near.map(|(value, off)| value - off + off.clamp(-most, most)).collect();
+        let steps: Vec<f64> = kept.windows(2).map(|two| (two[1] - two[0]).abs()).collect();
+        let around = |row: usize| {
+            let to = (row + LOUDNESS_ROWS).min(steps.len());
+            median(&mut steps[row.saturating_sub(LOUDNESS_ROWS).min(to)..to].to_vec())
+        };
+        let loudness = (0..kept.len()).map(around).collect();
+        let mut sum = 0.0;
+        let sums = kept.iter().map(|value| {
+            sum += value;
+            sum
+        });
+        Self { sums: std::iter::once(0.0).chain(sums).collect(), loudness }
+    }
+
+    /// Sizes of the changes of the mean from one stretch to the next, half a stretch apart, against the
+    /// loudness there and the usual one; `None` where they are too few to say what is usual.
+    fn changes(&self, length: usize) -> Option<Vec<f64>> {
+        let least = LEAST_LOUD * median(&mut self.loudness.clone());
+        let middles = length..(self.loudness.len() + 1).saturating_sub(length);
+        let of = |middle: usize| {
+            let [from, to] = [middle - length, middle + length].map(|row| self.sums[row]);
+            let change = (from + to - 2.0 * self.sums[middle]) / count(length);
+            change.abs() / self.loudness[middle].max(least).max(f64::MIN_POSITIVE)
+        };
+        let mut sizes: Vec<f64> = middles.step_by(length / 2).map(of).collect();
+        let usual = deviation(&mut sizes).max(f64::MIN_POSITIVE);
+        let against_usual = || sizes.iter().map(|size| size / usual).collect();
+        (FEWEST_CHANGES <= sizes.len()).then(against_usual)
+    }
+}
+
+impl Standing {
+    /// Of sizes against their usual one.
+    fn of(sizes: &[f64]) -> Self {
+        let mean = |power: i32| {
+            sizes.iter().map(|size| size.powi(power)).sum::<f64>() / count(sizes.len())
+        };
+        let out = libm::log(mean(POWER)) / f64::from(POWER);
+        Self { out, share: (1.0 - 1.0 / mean(2)).max(0.0) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::noise::{Block, fit_noise};
+    use rand_distr::{Exp1, StudentT};
+
+    /// Chance of what two passes of 350 rows show, under the noise that is fitted to them.
+    fn chance_of(values: &[f64]) -> f64 {
+        let block = |pass: usize| Block { sensor: 0, pass, rows: 350 * pass..350 * (pass + 1) };
+        let layout = Layout {
+            blocks: vec![block(0), block(1)],
+            clock: (0..values.len()).map(count).collect(),
+            inflation: vec![1.0; values.len()].into(),
+        };
+        let noise = fit_noise(&layout, values, None).noise;
+        Own { layout, noise: &noise, finest: 1.0 / 12.0 }.clearest(values).unwrap().1
+    }
+
+    /// Of 100 records of a noise hardly more fall below a chance than should: of a thousand skewed ones
+    /// two fall below 1e-6.
+    fn is_calibrated(what: &str, mut noise: impl FnMut(&mut ChaCha8Rng, usize) -> f64) {
+        let mut of_seed = |seed| {
+            let mut random = ChaCha8Rng::seed_from_u64(seed);
+            let values: Vec<f64> = (0..700).map(|row| noise(&mut random, row)).collect();
+            chance_of(&values)
+        };
+        let chances: Vec<f64> = (0..100).map(&mut of_seed).collect();
+        for (limit, most) in [(0.01, 6), (1e-3, 4), (1e-7, 0)] {
+            let below = chances.iter().filter(|chance| **chance < limit).count();
+            assert!(below <= most, "{what}: {below} of 100 below {limit}");
+        }
+    }
+
+    fn normal(random: &mut ChaCha8Rng) -> f64 {
+        StandardNormal.sample(random)
+    }
+
+    #[test]
+    fn noise_has_none() {
+        is_calibrated("white", |random, _| normal(random));
+        is_calibrated("skewed", |random, _| Exp1.sample(random));
+        is_calibrated("tails", |random, _| StudentT::new(3.0).unwrap().sample(random));
+        is_calibrated("rounded", |random, _| normal(random).round());
+        let louder = |row: usize| if (200..300).contains(&row) { 4.0 } else { 1.0 };
+        is_calibrated("louder in places", |random, row| louder(row) * normal(random));
+    }
+
+    #[test]
+    fn slow_noise_has_none() {
+        let mut last = [0.0; 3];
+        is_calibrated("slow", |random, _| {
+            last[0] = 0.95 * last[0] + 0.3 * normal(random);
+            last[0] + normal(random)
+        });
+        is_calibrated("of many lengths", |random, _| {
+            for (value, kept) in last.iter_mut().zip([0.5, 0.9, 0.99]) {
+                *value = kept * *value + (1.0_f64 - kept * kept).sqrt() * normal(random);
+            }
+            last.iter().sum()
+        });
+    }
+
+    /// Gusts of six deviations that die away, and levels that switch by five.
+    #[test]
+    fn gusts_and_levels_stand_out() {
+        for seed in 0..6 {
+            let mut random = ChaCha8Rng::seed_from_u64(seed);
+            let gust = |row: usize| 6.0 * libm::exp(-count(row % 90) / 8.0);
+            let gusts: Vec<f64> = (0..700).map(|row| gust(row) + normal(&mut random)).collect();
+            assert!(chance_of(&gusts) < 1e-3, "{seed}");
+            let level = |row: usize| if row % 130 < 40 { 5.0 } else { 0.0 };
+            let levels: Vec<f64> = (0..700).map(|row| level(row) + normal(&mut random)).collect();
+            assert!(chance_of(&levels) < 1e-6, "{seed}");
+        }
+    }
+}
