@@ -2,8 +2,7 @@
 
 use super::probes::Structure;
 use crate::model::{Fit, Problem};
-use crate::noise::rms;
-use crate::numerics::count;
+use crate::noise::{about_means, rms};
 use crate::numerics::least_squares::dot;
 use crate::policy::chance::STANDARD_ERRORS;
 use crate::policy::size::{SHARE_OF_ERROR, SLOW_SHARE_OF_HUNTING};
@@ -37,27 +36,14 @@ pub(super) fn above_flaws(problem: &Problem, fit: &Fit, structure: &Structure) -
 fn of_rounded_logs(problem: &Problem, fit: &Fit) -> f64 {
     let residual = problem.residual();
     let shown: Vec<f64> = residual.iter().zip(&fit.left).map(|(all, left)| all - left).collect();
-    let shown = about_means(problem, &shown);
+    let shown = about_means(&problem.layout, &shown);
     let by_log = problem.measurement.off_by.iter().filter_map(|(name, off_by)| {
         let values = problem.measurement.covariates.get(name)?;
         let column: Vec<f64> = problem.samples.iter().map(|&sample| values[sample]).collect();
-        let column = about_means(problem, &column);
+        let column = about_means(&problem.layout, &column);
         let (square, common) = (dot(&column, &column), dot(&column, &shown));
         let all = square * dot(&shown, &shown);
         (0.0 < all).then(|| off_by * common.abs() / square * common * common / all)
     });
     by_log.map(|um| um * um).sum::<f64>().sqrt()
-}
-
-/// Values of rows about the mean of their pass.
-fn about_means(problem: &Problem, values: &[f64]) -> Vec<f64> {
-    let mut about = values.to_vec();
-    for block in &problem.layout.blocks {
-        let part = &mut about[block.rows.clone()];
-        let mean = part.iter().sum::<f64>() / count(part.len().max(1));
-        for value in part {
-            *value -= mean;
-        }
-    }
-    about
 }

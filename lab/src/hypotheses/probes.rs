@@ -229,8 +229,8 @@ fn smooth_in_passes(problem: &Problem, model: &Columns, fit: &Fit) -> Option<Str
 
 /// Anything at all that comes back at the same place in another pass.
 fn repeats(problem: &Problem, fit: &Fit) -> Option<Structure> {
-    let (correlation, chance) = repeatability(problem, fit)?;
-    let rms_um = rms(&problem.layout, &fit.left) * correlation.max(0.0).sqrt();
+    let (share, chance) = repeatability(problem, fit)?;
+    let rms_um = rms(&problem.layout, &fit.left) * share.max(0.0).sqrt();
     let p_value = (probes(problem) * chance).min(1.0);
     Some(Structure::without_place("position", "repeats from pass to pass", rms_um, p_value))
 }

@@ -13,61 +13,66 @@ use crate::policy::extent::COMMON_SAMPLES;
 /// Correlation of what is the same but for rounding.
 const MOST: f64 = 1.0 - 1e-9;
 
-/// Mean correlation of ways over the same travel, and its chance in independent noise.
+/// Rows of a cell whose mean is compared: what is as long as several rows stands out of their noise.
+const CELLS: [usize; 3] = [1, 4, 16];
+
+/// Share of the whitened square of a way that others over the same travel show too, and the chance of
+/// as much in independent noise.
 ///
-/// Passes, or their ways there and back, are compared two by two on the whitened residual, the second
-/// interpolated to the places of the first: neighbours, and neighbours of those that go the same way,
-/// which alone share what shows one way only. The clearer of both looks is told. The standard error
-/// of a correlation allows for what autocorrelation is left in both (Bartlett 1946). `None` without two
-/// passes over the same travel.
+/// Of all passes, or of their ways there and back, the mean of every other one is compared with that
+/// of the rest, on the whitened residual, interpolated to the places of the longest; and so are those
+/// that go the same way, which alone share what shows one way only; both in cells of several lengths.
+/// The clearest look is told. The standard error of a correlation allows for what autocorrelation is
+/// left in both (Bartlett 1946). `None` without two passes over the same travel.
 #[must_use]
 pub(crate) fn repeatability(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
     let whitener = Whitener::new(&problem.layout, &fit.noises);
     let white = whitener.whiten(fit.left.clone());
-    let (mut neighbours, mut alike) = (Compared::default(), Compared::default());
+    let mut looked = [[Compared::default(); 2]; CELLS.len()];
     for sensor in 0..problem.sensors.len() {
         let blocks = problem.layout.blocks.iter().filter(|block| block.sensor == sensor);
         let ways: Vec<Way> = blocks
             .flat_map(|block| from_turn_to_turn(problem, block.rows.clone()))
             .filter_map(|rows| along_travel(problem, &white, rows))
             .collect();
-        neighbours.add(&ways.iter().collect::<Vec<_>>());
         let (there, back): (Vec<&Way>, Vec<&Way>) = ways.iter().partition(|way| way.forward);
-        if !there.is_empty() && !back.is_empty() {
-            alike.add(&there);
-            alike.add(&back);
+        let all = halves(&ways.iter().collect::<Vec<_>>());
+        let both_ways = !there.is_empty() && !back.is_empty();
+        let alike = if both_ways { [halves(&there), halves(&back)] } else { [None, None] };
+        for (rows, [of_all, of_alike]) in CELLS.iter().zip(&mut looked) {
+            of_all.add(all.as_ref(), *rows);
+            for one_way in &alike {
+                of_alike.add(one_way.as_ref(), *rows);
+            }
         }
     }
-    let looked = [neighbours, alike].into_iter().filter_map(|looked| looked.judged());
-    let looked: Vec<(f64, f64)> = looked.collect();
-    let (correlation, chance) = looked.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1))?;
-    Some((correlation, (count(looked.len()) * chance).min(1.0)))
+    let judged: Vec<(f64, f64)> = looked.iter().flatten().filter_map(Compared::judged).collect();
+    let (share, chance) = judged.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some((share, (count(judged.len()) * chance).min(1.0)))
 }
 
-/// Pairs of ways that were compared.
-#[derive(Debug, Default)]
+/// Halves of ways that were compared.
+#[derive(Debug, Default, Clone, Copy)]
 struct Compared {
     score: f64,
-    correlations: f64,
+    shares: f64,
     pairs: f64,
 }
 
 impl Compared {
-    /// Compares ways with their neighbours, each once.
-    fn add(&mut self, ways: &[&Way]) {
-        for pair in ways.chunks_exact(2) {
-            let both = correlation(&pair[0].points, &pair[1].points);
-            let Some((correlation, deviation)) = both else { continue };
-            self.score += transformed(correlation, deviation);
-            self.correlations += correlation;
-            self.pairs += 1.0;
-        }
+    /// Compares two halves in cells of some rows.
+    fn add(&mut self, halves: Option<&Halves>, rows: usize) {
+        let cells = halves.and_then(|halves| halves.in_cells(rows));
+        let Some((covariance, correlation, deviation)) = cells.and_then(compared) else { return };
+        self.score += transformed(correlation, deviation);
+        self.shares += halves.map_or(0.0, |halves| covariance / halves.square);
+        self.pairs += 1.0;
     }
 
-    /// Mean correlation and chance; `None` without a pair.
+    /// Mean share and chance; `None` without a pair.
     fn judged(&self) -> Option<(f64, f64)> {
         let chance = || Normal::standard().sf(self.score / self.pairs.sqrt());
-        (0.0 < self.pairs).then(|| (self.correlations / self.pairs, chance()))
+        (0.0 < self.pairs).then(|| ((self.shares / self.pairs).min(1.0), chance()))
     }
 }
 
@@ -77,6 +82,24 @@ struct Way {
     forward: bool,
     /// `(place, residual)` sorted by place.
     points: Vec<(f64, f64)>,
+}
+
+impl Way {
+    /// How far it goes.
+    fn span(&self) -> f64 {
+        self.points.last().zip(self.points.first()).map_or(0.0, |(last, first)| last.0 - first.0)
+    }
+
+    /// What it shows at a place, between its neighbours; `None` where it has not been.
+    fn value_at(&self, place: f64) -> Option<f64> {
+        let next = self.points.partition_point(|point| point.0 < place);
+        let (x1, y1) = *self.points.get(next)?;
+        if x1 <= place {
+            return Some(y1);
+        }
+        let (x0, y0) = self.points[next.checked_sub(1)?];
+        Some(y0 + (place - x0) / (x1 - x0) * (y1 - y0))
+    }
 }
 
 /// A correlation as a deviate of the normal law: Fisher's transformation, of as many independent
@@ -111,25 +134,47 @@ fn along_travel(problem: &Problem, white: &[f64], rows: Range<usize>) -> Option<
     (one_way && COMMON_SAMPLES <= points.len()).then_some(Way { forward, points })
 }
 
-/// Correlation over the common travel, and its standard deviation in independent noise.
-fn correlation(a: &[(f64, f64)], b: &[(f64, f64)]) -> Option<(f64, f64)> {
-    let (mut first, mut second) = (Vec::new(), Vec::new());
-    let mut next = 0;
-    for &(place, value) in a {
-        while next < b.len() && b[next].0 < place {
-            next += 1;
+/// Means of every other way and of the rest, place by place.
+#[derive(Debug)]
+struct Halves {
+    means: [Vec<f64>; 2],
+    /// Mean square of a row of one way.
+    square: f64,
+}
+
+/// The halves of some ways at the places of the longest that both have been to; `None` where these
+/// are few.
+fn halves(ways: &[&Way]) -> Option<Halves> {
+    let longest = ways.iter().max_by(|a, b| a.span().total_cmp(&b.span()))?;
+    let mut means = [Vec::new(), Vec::new()];
+    for &(place, _) in &longest.points {
+        let mean = |half: usize| {
+            let values = ways.iter().skip(half).step_by(2).filter_map(|way| way.value_at(place));
+            let (sum, number) = values.fold((0.0, 0.0), |(sum, n), value| (sum + value, n + 1.0));
+            (0.0 < number).then(|| sum / number)
+        };
+        if let (Some(one), Some(other)) = (mean(0), mean(1)) {
+            means[0].push(one);
+            means[1].push(other);
         }
-        if next == 0 || next == b.len() {
-            continue;
-        }
-        let ((x0, y0), (x1, y1)) = (b[next - 1], b[next]);
-        let share = if x1 > x0 { (place - x0) / (x1 - x0) } else { 0.0 };
-        first.push(value);
-        second.push(y0 + share * (y1 - y0));
     }
-    if first.len() < COMMON_SAMPLES {
-        return None;
+    let values = || ways.iter().flat_map(|way| way.points.iter().map(|(_, value)| *value));
+    let square = values().map(|value| value * value).sum::<f64>() / count(values().count());
+    (COMMON_SAMPLES <= means[0].len() && 0.0 < square).then_some(Halves { means, square })
+}
+
+impl Halves {
+    /// Means of so many neighbours; `None` where these are few.
+    fn in_cells(&self, rows: usize) -> Option<[Vec<f64>; 2]> {
+        let cells = |values: &Vec<f64>| -> Vec<f64> {
+            values.chunks_exact(rows).map(|cell| cell.iter().sum::<f64>() / count(rows)).collect()
+        };
+        (COMMON_SAMPLES * rows <= self.means[0].len()).then(|| self.means.each_ref().map(cells))
     }
+}
+
+/// Covariance, correlation, and its standard deviation in independent noise.
+fn compared([mut first, mut second]: [Vec<f64>; 2]) -> Option<(f64, f64, f64)> {
     centre(&mut first);
     centre(&mut second);
     let size = (dot(&first, &first) * dot(&second, &second)).sqrt();
@@ -139,7 +184,8 @@ fn correlation(a: &[(f64, f64)], b: &[(f64, f64)]) -> Option<(f64, f64)> {
     let samples = count(first.len());
     let (left, right) = (autocorrelations(&first), autocorrelations(&second));
     let bartlett = 1.0 + 2.0 * left.iter().zip(&right).map(|(l, r)| l * r).sum::<f64>();
-    Some((dot(&first, &second) / size, (bartlett.max(0.5) / samples).sqrt()))
+    let product = dot(&first, &second);
+    Some((product / samples, product / size, (bartlett.max(0.5) / samples).sqrt()))
 }
 
 fn centre(values: &mut [f64]) {
@@ -159,15 +205,45 @@ fn autocorrelations(values: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::{Distribution, StandardNormal};
+
+    fn way(rows: u16, place: impl Fn(f64) -> f64, mut shown: impl FnMut(f64) -> f64) -> Way {
+        let places = (0..rows).map(|row| place(f64::from(row)));
+        Way { forward: true, points: places.map(|place| (place, shown(place))).collect() }
+    }
 
     #[test]
     fn a_shape_that_repeats_is_found_at_other_places_too() {
         let shape = |x: f64| libm::sin(0.3 * x * x);
-        let a: Vec<_> =
-            (0..400).map(|i| (0.05 * f64::from(i), shape(0.05 * f64::from(i)))).collect();
-        let b: Vec<_> =
-            (0..400).map(|i| 1.0 + 0.047 * f64::from(i)).map(|x| (x, shape(x))).collect();
-        let (correlation, deviation) = correlation(&a, &b).unwrap();
+        let ways = [way(400, |i| 0.05 * i, shape), way(400, |i| 1.0 + 0.047 * i, shape)];
+        let halves = halves(&ways.iter().collect::<Vec<_>>()).unwrap();
+        let (_, correlation, deviation) = compared(halves.means).unwrap();
         assert!(0.9 < correlation && deviation < 0.2, "{correlation} {deviation}");
+    }
+
+    /// Of six ways whose shape is a third of the noise in size, 300 rows each; and of six ways of noise.
+    #[test]
+    fn many_ways_tell_more_than_two() {
+        let chance = |size: f64, seed: u64, ways: usize| {
+            let mut random = ChaCha8Rng::seed_from_u64(seed);
+            let mut noisy = |x: f64| -> f64 {
+                let noise: f64 = StandardNormal.sample(&mut random);
+                size * libm::sin(0.01 * x * x) + noise
+            };
+            let ways: Vec<Way> = (0..ways).map(|_| way(300, |i| 0.2 * i, &mut noisy)).collect();
+            let mut compared = Compared::default();
+            compared.add(halves(&ways.iter().collect::<Vec<_>>()).as_ref(), 1);
+            compared.judged().unwrap().1
+        };
+        let median_of = |size: f64, ways: usize| {
+            let mut all: Vec<f64> = (0..21).map(|seed| chance(size, seed, ways)).collect();
+            crate::numerics::median(&mut all)
+        };
+        let (two, six) = (median_of(0.6, 2), median_of(0.6, 6));
+        assert!(1e-3 < two && six < 1e-4, "{two} {six}");
+        let below = (0..300).filter(|&seed| chance(0.0, seed, 6) < 0.01).count();
+        assert!(below <= 8, "{below} of 300");
     }
 }

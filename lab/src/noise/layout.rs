@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use helixlock_plant::Column;
 
-use crate::numerics::rms_about_means;
+use crate::numerics::{count, rms_about_means};
 use crate::policy::size::STRETCHES;
 
 /// Consecutive rows of one sensor in one pass; it has its own zero and its own noise history.
@@ -95,6 +95,20 @@ impl Layout {
         part.inflation = rows.iter().map(|&row| self.inflation[row]).collect();
         (part, rows)
     }
+}
+
+/// Values of rows about the mean of their pass.
+#[must_use]
+pub(crate) fn about_means(layout: &Layout, values: &[f64]) -> Vec<f64> {
+    let mut about = values.to_vec();
+    for block in &layout.blocks {
+        let part = &mut about[block.rows.clone()];
+        let mean = part.iter().sum::<f64>() / count(part.len().max(1));
+        for value in part {
+            *value -= mean;
+        }
+    }
+    about
 }
 
 /// Root mean square about the offset of each pass, all sensors together, µm.

@@ -153,3 +153,8 @@ pub(crate) const ANOTHER_MATERIAL: std::ops::RangeInclusive<f64> = 0.05..=10.0;
 /// Chosen: some eighty of twice the log likelihood a number. Doubled: `diagnose` of large tables
 /// takes longer, and nothing else moves.
 pub(crate) const SURE_ON_MEANS: f64 = 10.0;
+
+/// Share of an effect's square outside of something's shape from which on it has a shape of its own.
+///
+/// Chosen: half. Doubled: nothing has.
+pub(crate) const OWN_SHAPE: f64 = 0.5;

@@ -3,8 +3,9 @@
 //! Where structure is left, an effect may have taken a part of it: a drift of the laser a part of a
 //! curve that is another one in each pass, wear one of several humps. So every structure that
 //! columns draw is put beside the model in any size, and an effect that is not worth its price then,
-//! or counts no whole number, is not told from it. A line is no such structure: beside an effect of the
-//! same frequency it is that effect's own swelling.
+//! or counts no whole number, is not told from it. Nor is one that is smaller than such a structure and
+//! has for most part its shape: what made the larger may have made it all. A line is no such structure:
+//! beside an effect of the same frequency it is that effect's own swelling.
 
 use std::collections::BTreeSet;
 
@@ -15,6 +16,9 @@ use super::own_errors::paid;
 use super::pruning::no_counts;
 use crate::hypotheses::Structure;
 use crate::model::{Columns, Problem, State};
+use crate::noise::{about_means, rms};
+use crate::numerics::least_squares::{self, dot};
+use crate::policy::evidence::OWN_SHAPE;
 
 /// Places of the effects of a model that something left of it explains as well.
 #[must_use]
@@ -26,7 +30,9 @@ pub(crate) fn not_told(problem: &Problem, steps: &[Step], left: &[Structure]) ->
         (0..state.components.len()).map(|index| paid(problem, state, steps, index)).collect();
     let beside = |rest: &&Structure| {
         let columns = Columns::free(rest.drawn_by.iter().cloned());
-        not_told_beside(&problem.beside(&columns), state, &prices)
+        let mut places = not_told_beside(&problem.beside(&columns), state, &prices);
+        places.extend(parts(problem, state, rest));
+        places
     };
     rests.par_iter().flat_map_iter(beside).collect::<BTreeSet<usize>>().into_iter().collect()
 }
@@ -43,4 +49,19 @@ fn not_told_beside(problem: &Problem, state: &State, prices: &[f64]) -> Vec<usiz
     };
     let worthless = (0..prices.len()).filter(|index| !is_worth_it(*index));
     worthless.chain(no_counts(problem, &all).into_iter().map(|(index, _)| index)).collect()
+}
+
+/// Places of the effects that are smaller than something left and have for most part its shape.
+fn parts(problem: &Problem, state: &State, rest: &Structure) -> Vec<usize> {
+    let about = |values: &[f64]| about_means(&problem.layout, values);
+    let columns: Vec<Vec<f64>> = rest.drawn_by.iter().map(|column| about(column)).collect();
+    let views: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+    let is_part = |index: &usize| {
+        let (used, _) = state.coefficients(*index);
+        let Some(shown) = state.components[*index].shown_um(problem, used) else { return false };
+        let shown = about(&shown);
+        let left = least_squares::fit(&views, &shown).residual_square;
+        rms(&problem.layout, &shown) < rest.rms_um && left < OWN_SHAPE * dot(&shown, &shown)
+    };
+    (0..state.components.len()).filter(is_part).collect()
 }
