@@ -92,10 +92,11 @@ impl Own<'_> {
             }));
             let laws: Vec<Law> = (0..found.len()).map(|place| Law::of(&drawn, place)).collect();
             let beyond = laws.iter().zip(&found).map(|(law, one)| law.deviations(one.out));
-            if beyond.fold(f64::NEG_INFINITY, f64::max) < WORTH_DRAWING {
+            let furthest = beyond.fold(f64::NEG_INFINITY, f64::max);
+            if furthest < *WORTH_DRAWING.start() {
                 break;
             }
-            if drawn.len() as u64 == MOST_DRAWS {
+            if *WORTH_DRAWING.end() < furthest || most == MOST_DRAWS {
                 let chances = laws.iter().zip(&found).map(|(law, one)| (*one, law.chance(one.out)));
                 let (clearest, chance) = chances.min_by(|a, b| a.1.total_cmp(&b.1))?;
                 return Some((clearest, (count(found.len()) * chance).min(1.0)));
@@ -171,13 +172,16 @@ impl Pass {
         let departures = departures(values);
         let mut sizes: Vec<f64> = departures.iter().map(|value| value.abs()).collect();
         let most = OUTLIER_DEVIATIONS * deviation(&mut sizes);
-        let near = values.iter().zip(departures);
+        let kept = values.iter().zip(departures);
         let kept: Vec<f64> =
-            near.map(|(value, off)| value - off + off.clamp(-most, most)).collect();
+            kept.map(|(value, off)| value - off + off.clamp(-most, most)).collect();
         let steps: Vec<f64> = kept.windows(2).map(|two| (two[1] - two[0]).abs()).collect();
+        let mut near = Vec::with_capacity(2 * LOUDNESS_ROWS);
         let around = |row: usize| {
             let to = (row + LOUDNESS_ROWS).min(steps.len());
-            median(&mut steps[row.saturating_sub(LOUDNESS_ROWS).min(to)..to].to_vec())
+            near.clear();
+            near.extend_from_slice(&steps[row.saturating_sub(LOUDNESS_ROWS).min(to)..to]);
+            median(&mut near)
         };
         let loudness = (0..kept.len()).map(around).collect();
         let mut sum = 0.0;

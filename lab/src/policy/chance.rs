@@ -77,12 +77,12 @@ pub(crate) const MOST_DRAWS: u64 = 256;
 /// Derived: χ² with one degree exceeds 40 once in 4·10⁹. Doubled: more draws, the same answers.
 pub(crate) const BEYOND_DOUBT: f64 = 40.0;
 
-/// Standard deviations of noise, sixteen times drawn, from which on changes that stand out are held
+/// Standard deviations of noise, sixteen times drawn, between which changes that stand out are held
 /// against more of it.
 ///
-/// Derived: what is beyond [`SIGNIFICANCE`] is beyond five, known to one. Doubled: half of it is
-/// missed.
-pub(crate) const WORTH_DRAWING: f64 = 3.0;
+/// Derived: what is beyond [`SIGNIFICANCE`] is beyond six, and sixteen draws tell three from it on one
+/// side, and twelve on the other. Doubled: half of it is missed.
+pub(crate) const WORTH_DRAWING: std::ops::RangeInclusive<f64> = 3.0..=12.0;
 
 /// Changes from one stretch of a pass to the next from which on their median says what is usual.
 ///
