@@ -253,8 +253,9 @@ fn what_is_not_explained_changes_nothing() {
     assert_eq!(std::fs::read(bench.path().join("machine.toml")).unwrap(), before);
 }
 
-/// Every example with a machine file and data; those that are read from an instrument's file first
-/// with the folder of the example, the machine file, the file and its recipe.
+/// Every example with a machine file and data, every third of them in every check; those that are read
+/// from an instrument's file first with the folder of the example, the machine file, the file and its
+/// recipe.
 #[test]
 fn a_screen_shows_what_the_command_prints() {
     let names = ["hidden-gear", "recorder-and-screw", "thermal-day", "encoder-1000-1024"];
@@ -264,7 +265,8 @@ fn a_screen_shows_what_the_command_prints() {
         ["real-worm-drive", "astro-physics.toml", "logs/performance_dataset03.txt", ""],
         ["real-stage-fringes", "machine.toml", "first.txt", "fringes.toml"],
     ];
-    for bench in names.map(example).chain(read.map(imported)) {
+    let benches = names.map(example).chain(read.map(imported));
+    for bench in benches.step_by(if all() { 1 } else { 3 }) {
         let shown = json(&story("shows", &Server::over(bench.path()), &[]));
         let words = ["machine.toml", "data.csv"].map(|file| word(&bench, file).1);
         for command in ["compare", "diagnose"] {
