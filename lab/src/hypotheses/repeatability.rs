@@ -8,13 +8,10 @@ use crate::model::{Fit, Problem};
 use crate::noise::Whitener;
 use crate::numerics::count;
 use crate::numerics::least_squares::dot;
-use crate::policy::extent::COMMON_SAMPLES;
+use crate::policy::extent::{CELLS_OF_WAYS, COMMON_SAMPLES};
 
 /// Correlation of what is the same but for rounding.
 const MOST: f64 = 1.0 - 1e-9;
-
-/// Rows of a cell whose mean is compared: what is as long as several rows stands out of their noise.
-const CELLS: [usize; 3] = [1, 4, 16];
 
 /// Share of the whitened square of a way that others over the same travel show too, and the chance of
 /// as much in independent noise.
@@ -28,7 +25,7 @@ const CELLS: [usize; 3] = [1, 4, 16];
 pub(crate) fn repeatability(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
     let whitener = Whitener::new(&problem.layout, &fit.noises);
     let white = whitener.whiten(fit.left.clone());
-    let mut looked = [[Compared::default(); 2]; CELLS.len()];
+    let mut looked = [[Compared::default(); 2]; CELLS_OF_WAYS.len()];
     for sensor in 0..problem.sensors.len() {
         let blocks = problem.layout.blocks.iter().filter(|block| block.sensor == sensor);
         let ways: Vec<Way> = blocks
@@ -39,7 +36,7 @@ pub(crate) fn repeatability(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> 
         let all = halves(&ways.iter().collect::<Vec<_>>());
         let both_ways = !there.is_empty() && !back.is_empty();
         let alike = if both_ways { [halves(&there), halves(&back)] } else { [None, None] };
-        for (rows, [of_all, of_alike]) in CELLS.iter().zip(&mut looked) {
+        for (rows, [of_all, of_alike]) in CELLS_OF_WAYS.iter().zip(&mut looked) {
             of_all.add(all.as_ref(), *rows);
             for one_way in &alike {
                 of_alike.add(one_way.as_ref(), *rows);
