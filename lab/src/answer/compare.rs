@@ -6,7 +6,7 @@ use crate::doubts::{Doubt, doubts};
 use crate::hypotheses::{Structure, all_structures, no_all_clear, no_larger_than, taken_for_noise};
 use crate::model::{Problem, State};
 use crate::noise::{Noise, effective_samples, rms};
-use crate::numerics::{count, median, spread};
+use crate::numerics::{count, mean, median, spread};
 use crate::policy::chance::SIGNIFICANCE;
 use crate::policy::extent::COMPARED_ROWS;
 use crate::spectrum::{NamedLine, amplitude_spectrum, lines};
@@ -144,7 +144,7 @@ fn sensor_residual(
         .map(|block| {
             let part = &residual[block.rows.clone()];
             let samples = part.len();
-            let mean = part.iter().sum::<f64>() / count(samples);
+            let mean = mean(part);
             let square: f64 = part.iter().map(|value| (value - mean) * (value - mean)).sum();
             PassSize {
                 pass: problem.measurement.pass_names[block.pass],

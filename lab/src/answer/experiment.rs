@@ -10,7 +10,7 @@ use crate::hypotheses::{as_it_stands, try_candidate};
 use crate::measurement::Measurement;
 use crate::model::{Columns, Component, Problem, Stage, State};
 use crate::noise::{Noise, rms};
-use crate::numerics::{count, spread};
+use crate::numerics::{count, mean, spread};
 use crate::policy::evidence::MARGIN;
 use crate::policy::size::{
     ANOTHER_LENGTH, ANOTHER_SPEED, DWELL, EVEN, MORE_THAN_A_REPEAT, WORTHWHILE_UM,
@@ -282,7 +282,7 @@ fn distances_mm(measurement: &Measurement) -> Vec<f64> {
 
 fn is_even(measurement: &Measurement) -> bool {
     let steps = distances_mm(measurement);
-    let mean = steps.iter().sum::<f64>() / count(steps.len().max(1));
+    let mean = mean(&steps);
     0.0 < mean && spread(&steps) < EVEN * mean
 }
 
@@ -297,7 +297,7 @@ fn half_the_travel(measurement: &mut Measurement) {
 fn uneven(measurement: &mut Measurement) {
     const GOLDEN: f64 = 0.618_033_988_749_895;
     let steps = distances_mm(measurement);
-    let mean = steps.iter().sum::<f64>() / count(steps.len().max(1));
+    let mean = mean(&steps);
     let turns_a_mm = spread(&measurement.angle_rev) / spread(&measurement.position_mm);
     let Samples { position_mm, angle_rev, .. } = &mut measurement.samples;
     for (row, (place, angle)) in position_mm.iter_mut().zip(angle_rev.iter_mut()).enumerate() {

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::hypothesis::Hypothesis;
 use crate::measurement::Measurement;
 use crate::model::{Columns, Problem, Stage, noises_of};
-use crate::numerics::{count, golden_maximum};
+use crate::numerics::{count, golden_maximum, mean};
 use crate::policy::mistakes::{SHIFT_TURNS, WORSE_PASS};
 
 /// Places looked at, a turn of the spindle: each shortest wave of a screw more than four times.
@@ -49,7 +49,7 @@ fn zeros(problem: &Problem) -> Vec<Zero> {
             let rows = blocks.map(|block| block.rows.clone()).filter(of_pass);
             let (squares, number) = rows.fold((0.0, 0), |(squares, number), rows| {
                 let values = &left[rows];
-                let mean = values.iter().sum::<f64>() / count(values.len());
+                let mean = mean(values);
                 let own: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
                 (squares + own, number + values.len())
             });

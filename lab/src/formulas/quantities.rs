@@ -7,7 +7,7 @@ use helixlock_plant::Column;
 use super::dimension::Dimension;
 use super::expression::{Expression, Quantity, number};
 use crate::model::{Problem, distinct};
-use crate::numerics::{count, spread};
+use crate::numerics::{count, mean, spread};
 use crate::policy::extent::TURNS;
 
 /// Logged columns up to which every one is put together with others, for the time it takes.
@@ -161,7 +161,7 @@ pub(crate) fn about_mean(quantity: &Arc<Quantity>) -> Expression {
 
 /// What is made of a quantity, less that one's mean.
 pub(crate) fn less_mean(made: Expression, quantity: &Arc<Quantity>) -> Expression {
-    let mean = quantity.values.iter().sum::<f64>() / count(quantity.values.len().max(1));
+    let mean = mean(&quantity.values);
     less(made, quantity, rounded(mean))
 }
 

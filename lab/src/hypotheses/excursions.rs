@@ -163,7 +163,8 @@ impl Law {
 struct Pass {
     /// Sums of the values before each row.
     sums: Vec<f64>,
-    /// Per row: usual change from sample to sample in its neighbourhood.
+    /// Per row: usual change from sample to sample in its neighbourhood, and no less than a share of that
+    /// of the pass.
     loudness: Vec<f64>,
 }
 
@@ -183,7 +184,11 @@ impl Pass {
             near.extend_from_slice(&steps[row.saturating_sub(LOUDNESS_ROWS).min(to)..to]);
             median(&mut near)
         };
-        let loudness = (0..kept.len()).map(around).collect();
+        let mut loudness: Vec<f64> = (0..kept.len()).map(around).collect();
+        let least = (LEAST_LOUD * median(&mut loudness.clone())).max(f64::MIN_POSITIVE);
+        for one in &mut loudness {
+            *one = one.max(least);
+        }
         let mut sum = 0.0;
         let sums = kept.iter().map(|value| {
             sum += value;
@@ -195,12 +200,11 @@ impl Pass {
     /// Sizes of the changes of the mean from one stretch to the next, half a stretch apart, against the
     /// loudness there and the usual one; `None` where they are too few to say what is usual.
     fn changes(&self, length: usize) -> Option<Vec<f64>> {
-        let least = LEAST_LOUD * median(&mut self.loudness.clone());
         let middles = length..(self.loudness.len() + 1).saturating_sub(length);
         let of = |middle: usize| {
             let [from, to] = [middle - length, middle + length].map(|row| self.sums[row]);
             let change = (from + to - 2.0 * self.sums[middle]) / count(length);
-            change.abs() / self.loudness[middle].max(least).max(f64::MIN_POSITIVE)
+            change.abs() / self.loudness[middle]
         };
         let mut sizes: Vec<f64> = middles.step_by(length / 2).map(of).collect();
         let usual = deviation(&mut sizes).max(f64::MIN_POSITIVE);

@@ -3,7 +3,7 @@
 use super::tails::chance_beyond;
 use crate::model::{Fit, Problem};
 use crate::noise::Whitener;
-use crate::numerics::{count, deviation, median};
+use crate::numerics::{deviation, mean, median};
 use crate::policy::chance::{
     FEWEST_JUMPS, JUMP_DEVIATIONS, JUMP_KEPT, JUMP_SIDE, SAMPLES_THAT_TELL,
 };
@@ -45,7 +45,6 @@ fn usual(problem: &Problem, fit: &Fit, (sensor, white): (usize, &[f64])) -> f64 
 
 /// Size of the change before a row, if the level stays.
 fn stays(left: &[f64], row: usize) -> Option<f64> {
-    let mean = |part: &[f64]| part.iter().sum::<f64>() / count(part.len());
     let change = left[row] - left[row - 1];
     let before = mean(&left[row.saturating_sub(JUMP_SIDE)..row]);
     let behind = mean(&left[row..left.len().min(row + JUMP_SIDE)]);
@@ -55,6 +54,7 @@ fn stays(left: &[f64], row: usize) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::count;
     use crate::policy::chance::SIGNIFICANCE;
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;

@@ -86,6 +86,11 @@ pub(super) fn probes(problem: &Problem) -> f64 {
     PROBES + count(2 * columns + usize::from(problem.velocity_rpm().is_some()))
 }
 
+/// Chance of one probe with all of them counted.
+pub(super) fn of_all(problem: &Problem, chance: f64) -> f64 {
+    (probes(problem) * chance).min(1.0)
+}
+
 /// True for something beyond chance and large enough to change a figure: as much against the swift
 /// part of what a fit leaves as an effect must have to be taken, since slow noise covers no wave.
 #[must_use]
@@ -158,11 +163,11 @@ pub(super) fn probe(problem: &Problem, model: &Columns, fit: &Fit, raw: &[Column
     let before = weighed_rms(&problem.layout, &fit.left);
     let after = weighed_rms(&problem.layout, &wider.left);
     let size = (before * before - after * after).max(0.0).sqrt();
-    let mut p_value = (probes(problem) * chi_squared_tail(gain, width)).min(1.0);
+    let mut p_value = of_all(problem, chi_squared_tail(gain, width));
     if MANY_COLUMNS <= raw.len() && matters(problem, fit, size, p_value) {
         let limit = SIGNIFICANCE / probes(problem);
         let chance = calibration::chance(problem, (model, fit), raw, gain, limit);
-        p_value = (probes(problem) * chance).min(1.0);
+        p_value = of_all(problem, chance);
     }
     (size, p_value)
 }
@@ -231,7 +236,7 @@ fn smooth_in_passes(problem: &Problem, model: &Columns, fit: &Fit) -> Option<Str
 fn repeats(problem: &Problem, fit: &Fit) -> Option<Structure> {
     let (share, chance) = repeatability(problem, fit)?;
     let rms_um = rms(&problem.layout, &fit.left) * share.max(0.0).sqrt();
-    let p_value = (probes(problem) * chance).min(1.0);
+    let p_value = of_all(problem, chance);
     Some(Structure::without_place("position", "repeats from pass to pass", rms_um, p_value))
 }
 
@@ -249,7 +254,7 @@ pub(crate) fn at_targets(problem: &Problem, model: &Columns, fit: &Fit) -> Optio
 /// One pass that is bent as no other is.
 fn bent_pass(problem: &Problem, fit: &Fit) -> Option<Structure> {
     let odd = odd_pass(problem, fit)?;
-    let p_value = (probes(problem) * odd.chance).min(1.0);
+    let p_value = of_all(problem, odd.chance);
     let told = Structure::without_place("position", "curve of one pass alone", odd.rms_um, p_value);
     Some(told.drawn_by(odd.columns))
 }
@@ -260,14 +265,14 @@ fn jumping(problem: &Problem, fit: &Fit) -> Option<Structure> {
     if rms_um < LOOP_JUMP * problem.hunting_um {
         return None;
     }
-    let p_value = (probes(problem) * chance).min(1.0);
+    let p_value = of_all(problem, chance);
     Some(Structure::without_place("time", "several jumps", rms_um, p_value))
 }
 
 /// What most of the record does not show.
 fn standing_out(problem: &Problem, fit: &Fit) -> Option<Structure> {
     let found = excursions(problem, fit)?;
-    let p_value = (probes(problem) * found.p_value).min(1.0);
+    let p_value = of_all(problem, found.p_value);
     let shape = "excursions that most of the record does not show";
     Some(Structure::without_place("time", shape, found.rms_um, p_value))
 }
@@ -277,7 +282,7 @@ fn one_way_jumps(problem: &Problem, fit: &Fit) -> Option<Structure> {
     let (jump_um, chance) = one_way(problem, fit)?;
     // Root mean square of a saw tooth of that height.
     let rms_um = jump_um / f64::sqrt(12.0);
-    let p_value = (probes(problem) * chance).min(1.0);
+    let p_value = of_all(problem, chance);
     Some(Structure::without_place("time", "creeps one way and jumps back", rms_um, p_value))
 }
 
@@ -285,7 +290,7 @@ fn one_way_jumps(problem: &Problem, fit: &Fit) -> Option<Structure> {
 fn local_shapes(problem: &Problem, fit: &Fit) -> Vec<Structure> {
     let told = |along: &str, shape: &str, found: Option<Local>| {
         let Local { rms_um, p_value, at } = found?;
-        let p_value = (probes(problem) * p_value).min(1.0);
+        let p_value = of_all(problem, p_value);
         Some(Structure { at: Some(at), ..Structure::without_place(along, shape, rms_um, p_value) })
     };
     let white = Whitener::new(&problem.layout, &fit.noises).whiten(fit.left.clone());

@@ -6,8 +6,8 @@ use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::model::{Fit, Problem};
 use crate::noise::Whitener;
-use crate::numerics::count;
 use crate::numerics::least_squares::dot;
+use crate::numerics::{count, mean};
 use crate::policy::extent::{CELLS_OF_WAYS, COMMON_SAMPLES};
 
 /// Correlation of what is the same but for rounding.
@@ -59,10 +59,11 @@ struct Compared {
 impl Compared {
     /// Compares two halves in cells of some rows.
     fn add(&mut self, halves: Option<&Halves>, rows: usize) {
-        let cells = halves.and_then(|halves| halves.in_cells(rows));
+        let Some(halves) = halves else { return };
+        let cells = halves.in_cells(rows);
         let Some((covariance, correlation, deviation)) = cells.and_then(compared) else { return };
         self.score += transformed(correlation, deviation);
-        self.shares += halves.map_or(0.0, |halves| covariance / halves.square);
+        self.shares += covariance / halves.square;
         self.pairs += 1.0;
     }
 
@@ -163,9 +164,8 @@ fn halves(ways: &[&Way]) -> Option<Halves> {
 impl Halves {
     /// Means of so many neighbours; `None` where these are few.
     fn in_cells(&self, rows: usize) -> Option<[Vec<f64>; 2]> {
-        let cells = |values: &Vec<f64>| -> Vec<f64> {
-            values.chunks_exact(rows).map(|cell| cell.iter().sum::<f64>() / count(rows)).collect()
-        };
+        let cells =
+            |values: &Vec<f64>| -> Vec<f64> { values.chunks_exact(rows).map(mean).collect() };
         (COMMON_SAMPLES * rows <= self.means[0].len()).then(|| self.means.each_ref().map(cells))
     }
 }
@@ -186,7 +186,7 @@ fn compared([mut first, mut second]: [Vec<f64>; 2]) -> Option<(f64, f64, f64)> {
 }
 
 fn centre(values: &mut [f64]) {
-    let mean = values.iter().sum::<f64>() / count(values.len());
+    let mean = mean(values);
     for value in values.iter_mut() {
         *value -= mean;
     }

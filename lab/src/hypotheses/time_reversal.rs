@@ -13,7 +13,7 @@
 
 use crate::model::{Fit, Problem};
 use crate::noise::rms;
-use crate::numerics::{count, golden_maximum};
+use crate::numerics::{count, golden_maximum, mean};
 use crate::policy::extent::REVERSED_STRETCHES;
 
 /// Power that sizes are raised to: a few large jumps among many small ones of noise decide.
@@ -102,7 +102,6 @@ fn excesses(values: &[f64], stretch: usize) -> Vec<f64> {
 
 /// The largest rise and fall, by turns, of the means of neighbouring stretches.
 fn pairs(values: &[f64], stretch: usize) -> Vec<Pair> {
-    let mean = |part: &[f64]| part.iter().sum::<f64>() / count(part.len());
     let change = |both: &[f64]| mean(&both[stretch..]) - mean(&both[..stretch]);
     let mut extremes: Vec<f64> = Vec::new();
     for change in values.windows(2 * stretch).map(change).filter(|change| change.abs() > 0.0) {

@@ -1,6 +1,6 @@
 //! Waves that a fit leaves: lines, and bands of frequencies that are none.
 
-use super::probes::{Structure, matters, probes};
+use super::probes::{Structure, matters, of_all};
 use helixlock_plant::Column;
 
 use crate::model::{Columns, Fit, Problem, settle};
@@ -48,7 +48,7 @@ fn clearest_that_matters(
 fn of_line(problem: &Problem, along: &str, line: Line) -> Structure {
     let shape = format!("sinusoid of amplitude {:.3}", line.amplitude);
     let rms_um = line.amplitude / std::f64::consts::SQRT_2;
-    let p_value = (probes(problem) * line.p_value).min(1.0);
+    let p_value = of_all(problem, line.p_value);
     let told = Structure::without_place(along, &shape, rms_um, p_value);
     let (at, at_stderr) = (Some(line.frequency), Some(line.frequency_stderr));
     Structure { at, at_stderr, line: Some(line), ..told }
@@ -61,7 +61,7 @@ pub(super) fn bands(problem: &Problem, fit: &Fit) -> Vec<Structure> {
         for (along, coordinate, highest) in cyclic(problem) {
             let search = LineSearch { problem, fit, sensor, coordinate: &coordinate, highest };
             let Some(band) = search.band() else { continue };
-            let p_value = (probes(problem) * band.p_value).min(1.0);
+            let p_value = of_all(problem, band.p_value);
             let shape =
                 format!("uneven waves, or of changing length, in a band {:.3} wide", band.width);
             let told = Structure::without_place(along, &shape, band.rms, p_value);

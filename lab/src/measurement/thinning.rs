@@ -7,14 +7,13 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::Measurement;
-use crate::numerics::count;
+use crate::numerics::{count, mean};
 use crate::policy::reading::AROUND_REVERSALS;
 
 /// Mean of each group of values.
 #[must_use]
 pub(crate) fn means(values: &[f64], groups: &[Range<usize>]) -> Vec<f64> {
-    let mean = |rows: &Range<usize>| values[rows.clone()].iter().sum::<f64>() / count(rows.len());
-    groups.iter().map(mean).collect()
+    groups.iter().map(|rows| mean(&values[rows.clone()])).collect()
 }
 
 impl Measurement {
@@ -93,5 +92,5 @@ impl Measurement {
 /// Mean of the cells that are there; NaN of none.
 fn present(values: &[f64]) -> f64 {
     let there: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
-    if there.is_empty() { f64::NAN } else { there.iter().sum::<f64>() / count(there.len()) }
+    if there.is_empty() { f64::NAN } else { mean(&there) }
 }

@@ -81,7 +81,7 @@ mod tests {
 
     use crate::measurement::{Measurement, Nominal};
     use crate::model::problem::Problem;
-    use crate::numerics::count;
+    use crate::numerics::mean;
     use helixlock_plant::Model;
     use helixlock_traces::{Column, Table};
 
@@ -134,10 +134,8 @@ width = "0.8 um"
         let measurement = &whole.measurement;
         for groups in [measurement.groups(4), measurement.picks(7)] {
             let small = whole.averaged(groups.clone()).expect("all columns");
-            let expected: Vec<f64> = groups
-                .iter()
-                .map(|rows| whole.predicted[rows.clone()].iter().sum::<f64>() / count(rows.len()))
-                .collect();
+            let expected: Vec<f64> =
+                groups.iter().map(|rows| mean(&whole.predicted[rows.clone()])).collect();
             assert_eq!(*small.predicted, expected);
         }
     }

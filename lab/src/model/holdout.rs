@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::columns::Columns;
 use super::problem::Problem;
-use crate::noise::{Layout, Noise, Whitener, rms, swift_rms, weighed_rms};
+use crate::noise::{Layout, Noise, Whitener, about_means, rms, swift_rms, weighed_rms};
 use crate::numerics::{count, least_squares};
 use crate::policy::evidence::{PARTS, TOLD};
 
@@ -126,14 +126,9 @@ fn rows_where(layout: &Layout, held: impl Fn(usize, usize) -> bool) -> Vec<bool>
 /// True when the rows left carry enough of what a column varies.
 fn tells(layout: &Layout, column: &[f64], held: &[bool]) -> bool {
     let (mut kept, mut all) = (0.0, 0.0);
-    for block in &layout.blocks {
-        let part = &column[block.rows.clone()];
-        let mean = part.iter().sum::<f64>() / count(part.len().max(1));
-        for row in block.rows.clone() {
-            let square = (column[row] - mean) * (column[row] - mean);
-            all += square;
-            kept += if held[row] { 0.0 } else { square };
-        }
+    for (value, held) in about_means(layout, column).iter().zip(held) {
+        all += value * value;
+        kept += if *held { 0.0 } else { value * value };
     }
     TOLD * all <= kept
 }

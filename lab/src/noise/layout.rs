@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use helixlock_plant::Column;
 
-use crate::numerics::{count, rms_about_means};
+use crate::numerics::{mean, rms_about_means};
 use crate::policy::size::STRETCHES;
 
 /// Consecutive rows of one sensor in one pass; it has its own zero and its own noise history.
@@ -103,7 +103,7 @@ pub(crate) fn about_means(layout: &Layout, values: &[f64]) -> Vec<f64> {
     let mut about = values.to_vec();
     for block in &layout.blocks {
         let part = &mut about[block.rows.clone()];
-        let mean = part.iter().sum::<f64>() / count(part.len().max(1));
+        let mean = mean(part);
         for value in part {
             *value -= mean;
         }

@@ -16,6 +16,12 @@ pub(crate) fn spread(values: &[f64]) -> f64 {
     if low <= high { high - low } else { 0.0 }
 }
 
+/// Mean; 0 of none.
+#[must_use]
+pub(crate) fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / count(values.len().max(1))
+}
+
 /// Median; the lower one of an even number, 0 of none.
 #[must_use]
 pub(crate) fn median(values: &mut [f64]) -> f64 {
@@ -62,7 +68,7 @@ pub(crate) fn rms_about_means(
     let mut square = 0.0;
     for rows in parts {
         let part = &values[rows];
-        let mean = part.iter().sum::<f64>() / count(part.len().max(1));
+        let mean = mean(part);
         square += part.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>();
     }
     (square / count(values.len().max(1))).sqrt()

@@ -43,7 +43,7 @@ pub(crate) const NO_LAW: f64 = 2.0;
 /// Chosen: a row that weighs 4096 times another already decides alone. Doubled: 16 384 times.
 pub(crate) const MOST_TOLD: f64 = 64.0;
 
-/// Least loudness of a place against that of the record.
+/// Least loudness of a place against that of its pass.
 ///
 /// Chosen: a sensor that holds its reading has none, and any change beside it would stand out.
 /// Doubled: stretches half as loud as the rest hide what stands out of them.

@@ -24,6 +24,9 @@ use crate::policy::evidence::OWN_SHAPE;
 #[must_use]
 pub(crate) fn not_told(problem: &Problem, steps: &[Step], left: &[Structure]) -> Vec<usize> {
     let state = &steps[steps.len() - 1].state;
+    if state.components.is_empty() {
+        return Vec::new();
+    }
     let is_drawn = |one: &&Structure| one.line.is_none() && !one.drawn_by.is_empty();
     let rests: Vec<&Structure> = left.iter().filter(is_drawn).collect();
     let prices: Vec<f64> =
@@ -60,8 +63,8 @@ fn parts(problem: &Problem, state: &State, rest: &Structure) -> Vec<usize> {
         let (used, _) = state.coefficients(*index);
         let Some(shown) = state.components[*index].shown_um(problem, used) else { return false };
         let shown = about(&shown);
-        let left = least_squares::fit(&views, &shown).residual_square;
-        rms(&problem.layout, &shown) < rest.rms_um && left < OWN_SHAPE * dot(&shown, &shown)
+        let left = || least_squares::fit(&views, &shown).residual_square;
+        rms(&problem.layout, &shown) < rest.rms_um && left() < OWN_SHAPE * dot(&shown, &shown)
     };
     (0..state.components.len()).filter(is_part).collect()
 }

@@ -6,9 +6,9 @@ use helixlock_plant::prediction::gain;
 use helixlock_plant::{CATALOGUE, Entry, Role, Search, Term};
 
 use crate::model::{Component, Problem, State, pattern};
-use crate::noise::{Block, Whitener};
+use crate::noise::{Block, Whitener, about_means};
 use crate::numerics::least_squares::dot;
-use crate::numerics::{count, least_squares, median, one_in, resolves, spread};
+use crate::numerics::{count, least_squares, mean, median, one_in, resolves, spread};
 use crate::policy::evidence::{HIGH_HARMONIC_PRICE, OTHER_TARGETS, SHAPE, WAVE, WAVES_A_PASS};
 use crate::policy::extent::{FEWEST_TARGETS, ROWS_A_COLUMN, RUN_IN};
 use crate::policy::reading::REVERSAL_REACH;
@@ -136,7 +136,7 @@ pub(crate) fn turns_enough(problem: &Problem, component: &Component, used: &[f64
         return true;
     }
     let Some(shown) = component.shown_um(problem, used) else { return false };
-    let shape = about_passes(problem, shown);
+    let shape = about_means(&problem.layout, &shown);
     let beyond = |rows: Range<usize>| beyond_a_parabola(problem, &shape[rows.clone()], rows);
     let left: f64 = legs(problem).into_iter().map(beyond).sum();
     WAVE * dot(&shape, &shape) < left
@@ -159,7 +159,7 @@ pub(crate) fn has_both_sides(problem: &Problem, component: &Component, used: &[f
 /// True when whole passes lie before and behind a moment, and its effect shows in one or the other.
 fn parts_passes(problem: &Problem, component: &Component, used: &[f64], at_s: f64) -> bool {
     let Some(shown) = component.shown_um(problem, used) else { return false };
-    let shape = about_passes(problem, shown);
+    let shape = about_means(&problem.layout, &shown);
     let time = |row: usize| problem.record.time_s[problem.samples[row]];
     let passes = problem.layout.blocks.iter().map(|block| block.rows.clone());
     let behind = passes.clone().filter(|rows| at_s <= time(rows.start));
@@ -213,7 +213,7 @@ fn beyond_a_parabola(problem: &Problem, values: &[f64], rows: Range<usize>) -> f
     let (angle, time) = (&problem.record.spindle_rad, &problem.record.time_s);
     let axes = [angle, time].map(|axis| {
         let values: Vec<f64> = samples.iter().map(|&sample| axis[sample]).collect();
-        let mean = values.iter().sum::<f64>() / count(values.len());
+        let mean = mean(&values);
         values.into_iter().map(|value| value - mean).collect::<Vec<f64>>()
     });
     let squares = axes.each_ref().map(|axis| axis.iter().map(|v| v * v).collect::<Vec<f64>>());
@@ -283,7 +283,6 @@ pub(crate) fn at_one_target(problem: &Problem, component: &Component, used: &[f6
     for (value, &sample) in shown.iter().zip(&problem.samples) {
         of_targets[visited[sample]].push(*value);
     }
-    let mean = |part: &[f64]| part.iter().sum::<f64>() / count(part.len().max(1));
     let about = |part: &[f64], level: f64| -> f64 {
         part.iter().map(|value| (value - level) * (value - level)).sum()
     };
@@ -314,18 +313,6 @@ pub(crate) fn turns_once(problem: &Problem, component: &Component) -> bool {
     let step = spread(&turns) / count(turns.len().max(2) - 1);
     let part_turns = component.waves_a_turn(problem) / harmonic * (spread(&turns) + step);
     1.0 - SHAPE < part_turns
-}
-
-/// Values about the mean of each pass of each sensor.
-fn about_passes(problem: &Problem, mut values: Vec<f64>) -> Vec<f64> {
-    for block in &problem.layout.blocks {
-        let part = &mut values[block.rows.clone()];
-        let mean = part.iter().sum::<f64>() / count(part.len().max(1));
-        for value in part {
-            *value -= mean;
-        }
-    }
-    values
 }
 
 /// True when a bump lies inside the travel with both its flanks: half a bump is any curve.

@@ -1,7 +1,7 @@
 //! A spectrum to look at: the amplitude of the best sinusoid at every order.
 
 use crate::model::Problem;
-use crate::numerics::{count, fourier, spread, usual_rate};
+use crate::numerics::{count, fourier, mean, spread, usual_rate};
 use crate::policy::extent::SLOWEST_WAVES;
 
 /// Points a frequency cell: at worst the top of a line is drawn a fortieth too low.
@@ -21,7 +21,7 @@ pub fn amplitude_spectrum(problem: &Problem, left: &[f64], sensor: usize) -> Vec
     let mut turns = Vec::new();
     for block in problem.layout.blocks.iter().filter(|block| block.sensor == sensor) {
         let part = &left[block.rows.clone()];
-        let mean = part.iter().sum::<f64>() / count(part.len());
+        let mean = mean(part);
         values.extend(part.iter().map(|value| value - mean));
         let rad = |row: usize| problem.record.spindle_rad[problem.samples[row]];
         turns.extend(block.rows.clone().map(|row| rad(row) / std::f64::consts::TAU));

@@ -4,7 +4,7 @@ use super::lines::gear_orders;
 use super::order_spectrum::{Scan, chance};
 use crate::model::Problem;
 use crate::noise::{Block, Noise, SlowPart, Whitener};
-use crate::numerics::{count, deviation, spread, usual_rate};
+use crate::numerics::{count, deviation, mean, spread, usual_rate};
 use crate::policy::chance::FAST_LINE;
 use crate::policy::extent::{
     FAST_LINE_ROWS, FAST_LINES, FAST_SAMPLES, PICKED, SAMPLES_A_PERIOD, SLOWEST_WAVES,
@@ -82,7 +82,7 @@ fn fast_noise(left: &[f64]) -> Noise {
     let mut steps: Vec<f64> = left.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     let deviation = deviation(&mut steps).max(f64::MIN_POSITIVE.sqrt());
     let white = 0.5 * deviation * deviation;
-    let mean = left.iter().sum::<f64>() / count(left.len().max(1));
+    let mean = mean(left);
     let power = left.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>();
     let variance = power / count(left.len().max(1));
     Noise { white, slow: vec![SlowPart { variance, length: FAST_SAMPLES }] }
