@@ -5,7 +5,8 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use crate::support::diagnosed::diagnosed;
+use crate::support::diagnosed::{diagnosed, diagnosed_on, names};
+use crate::support::passes::white;
 
 const ROWS: u32 = 400;
 const PASSES: u32 = 3;
@@ -32,5 +33,32 @@ fn digits_that_stand_still_are_no_structure() {
                 assert!(candidate.rms_um.is_finite() && 1e-6 < candidate.p_value, "{said}");
             }
         }
+    }
+}
+
+/// A slope that the machine file knows, over positions rounded to whole millimetres: a lag of the recorder
+/// would smooth the steps that this puts into the prediction, and is none.
+#[test]
+fn a_rounded_position_is_no_lag() {
+    let machine = r#"
+spindle.speed = "120 rpm"
+lead_screw.lead = "10 mm"
+laser.wavelength = "0.632991 um"
+[[effect]]
+kind = "screw-progressive"
+linear = "60 um/m"
+"#;
+    for seed in 0..6 {
+        let (mut noise, mut uneven) = (white(seed, 0.1), white(seed + 50, 0.3));
+        let mut columns = [const { Vec::new() }; 4];
+        for (pass, row) in (0..2).flat_map(|pass| (0..400).map(move |row| (pass, row))) {
+            let mm = 1.25 * (f64::from(row) + uneven());
+            let (time_s, error_um) = (f64::from(pass) * 40.0 + mm / 20.0, -0.06 * mm + noise());
+            let values = [f64::from(pass), time_s, mm.round(), error_um];
+            columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
+        }
+        let columns = ["pass", "time_s", "position_mm", "error_um"].into_iter().zip(columns);
+        let found = diagnosed_on(machine, columns.collect());
+        assert!(names(&found).is_empty(), "{seed}: {:?}", names(&found));
     }
 }

@@ -75,6 +75,33 @@ fn a_curve_over_the_targets_is_named() {
     assert_eq!((names(&found), found.verdict), (vec!["screw-progressive"], Verdict::Explained));
 }
 
+/// A wave of the screw, 10 mm long, at 37 targets some 13 mm apart in three runs there and back; how far
+/// off an even row they lie, in parts of their distance.
+fn wave_between_targets(off: f64) -> Diagnosis {
+    let mut columns =
+        ["pass", "position_mm", "direction", "error_um"].map(|name| (name, Vec::new()));
+    let mut noise = white(5, 0.9);
+    let run = |run: i32| (0..74).map(move |visit: i32| (run, visit));
+    for (run, visit) in (0..3).flat_map(run) {
+        let (target, direction) = if visit < 37 { (visit, 1.0) } else { (73 - visit, -1.0) };
+        let to_and_fro = f64::from(target * target % 37) / 36.0 - 0.5;
+        let position_mm = 13.3 * (f64::from(target) + 2.0 * off * to_and_fro);
+        let error_um = libm::sin(TAU * position_mm / 10.0) + noise();
+        let row = [f64::from(run), position_mm, direction, error_um];
+        columns.iter_mut().zip(row).for_each(|((_, values), value)| values.push(value));
+    }
+    diagnosed(columns.into())
+}
+
+/// At targets off an even row, as ISO 230-2 asks for, a wave shorter than their distance is told from
+/// longer ones by its size alone; in an even row by nothing.
+#[test]
+fn uneven_targets_tell_a_wave_between_them() {
+    let found = wave_between_targets(0.2);
+    assert_eq!((names(&found), found.verdict), (vec!["screw-periodic"], Verdict::Explained));
+    assert_ne!(wave_between_targets(0.0).verdict, Verdict::Explained);
+}
+
 /// A reversal that grows along the travel is, at one speed and from zero in each run, as much a drift
 /// beside a reversal.
 #[test]

@@ -6,7 +6,7 @@ use helixlock_plant::{CATALOGUE, Entry, Formula, Parameter, Role, Search, Term};
 
 use super::unfolding::unfolded;
 use crate::model::{Component, Problem, Stage};
-use crate::numerics::{Looks, by_factors, count, evenly, product, resolves, spread};
+use crate::numerics::{Looks, by_factors, count, evenly, may_resolve, product, spread};
 use crate::policy::evidence::{ANOTHER_MATERIAL, HIGH_HARMONIC_PRICE, LOOSELY_KNOWN, MARGIN};
 use crate::policy::extent::{FREQUENCIES, LONGEST, NARROWEST, OVERTONES, SHORTEST, SLOWEST_WAVES};
 use crate::spectrum::{Scan, gear_orders, strongest_first};
@@ -146,8 +146,8 @@ pub(crate) fn candidate(stage: &Stage<'_>, term: Term) -> Option<Candidate> {
     Some(candidate).filter(sound)
 }
 
-/// Leaves out harmonics that the samples do not tell from a lower one; uneven places may tell some
-/// far above the others.
+/// Leaves out harmonics that the samples do not tell from a lower one, whatever their size; uneven
+/// places may tell some far above the others.
 fn keep_resolved(problem: &Problem, candidate: &mut Candidate) {
     if candidate.term.parameters.iter().all(|what| what.search != Search::Whole) {
         return;
@@ -155,7 +155,7 @@ fn keep_resolved(problem: &Problem, candidate: &mut Candidate) {
     let places = LazyCell::new(|| problem.places());
     let is_told = |point| {
         let waves = Component::new(candidate.at(point)).waves_a_turn(problem);
-        waves <= problem.highest_order || places.as_ref().is_some_and(|at| resolves(at, waves))
+        waves <= problem.highest_order || places.as_ref().is_some_and(|at| may_resolve(at, waves))
     };
     let told = (0..candidate.grid.len()).filter(|point| is_told(*point));
     candidate.grid = told.map(|point| candidate.grid[point].clone()).collect();

@@ -9,6 +9,7 @@
 //! largest stand out is held against noise drawn from the fit.
 
 use std::iter::successors;
+use std::ops::Range;
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -22,7 +23,7 @@ use crate::noise::{Layout, Noise, departures, rms};
 use crate::numerics::{count, deviation, median};
 use crate::policy::chance::{DRAWS, FEWEST_CHANGES, MOST_DRAWS, WORTH_DRAWING};
 use crate::policy::extent::{LONGEST_STRETCH, LOUDNESS_ROWS, SHORTEST_STRETCH};
-use crate::policy::reading::{LEAST_LOUD, OUTLIER_DEVIATIONS};
+use crate::policy::reading::{HARDLY_CHANGES, LEAST_LOUD, OUTLIER_DEVIATIONS};
 
 /// Power that the changes are raised to, for the few large ones to decide.
 ///
@@ -58,9 +59,8 @@ pub(super) fn excursions(problem: &Problem, fit: &Fit) -> Option<Excursions> {
     let of_sensor = |sensor| {
         let (mut layout, rows) = problem.layout.of_sensor(sensor);
         layout.inflation = vec![1.0; layout.len()].into();
-        let own =
-            Own { layout, noise: &fit.noises[sensor], finest: problem.least_variance[sensor] };
-        own.clearest(&fit.left[rows])
+        let noise = &fit.noises[sensor];
+        Own { layout, noise, finest: problem.least_variance[sensor] }.clearest(&fit.left[rows])
     };
     let found: Vec<(Standing, f64)> = sensors.filter_map(of_sensor).collect();
     let (standing, chance) = found.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
@@ -81,14 +81,18 @@ impl Own<'_> {
     fn clearest(&self, left: &[f64]) -> Option<(Standing, f64)> {
         // Readings on a lattice have many changes of exactly none.
         let mut dither = ChaCha8Rng::seed_from_u64(u64::MAX);
-        let found = self.standing(left, &mut dither);
+        let left = self.dithered(left, &mut dither);
+        let blocks = self.layout.blocks.iter().map(|block| block.rows.clone());
+        let passes: Vec<Range<usize>> =
+            blocks.filter(|rows| are_readings(&left[rows.clone()])).collect();
+        let found = standing(&passes, &left);
         let mut drawn: Vec<Vec<Standing>> = Vec::new();
         for most in [DRAWS, MOST_DRAWS] {
             let seeds = (drawn.len() as u64..most).into_par_iter();
             drawn.par_extend(seeds.map(|seed| {
                 let mut chance = ChaCha8Rng::seed_from_u64(seed);
                 let noise = draw(&self.layout, std::slice::from_ref(self.noise), &mut chance);
-                self.standing(&noise, &mut chance)
+                standing(&passes, &self.dithered(&noise, &mut chance))
             }));
             let laws: Vec<Law> = (0..found.len()).map(|place| Law::of(&drawn, place)).collect();
             let beyond = laws.iter().zip(&found).map(|(law, one)| law.deviations(one.out));
@@ -105,22 +109,38 @@ impl Own<'_> {
         found.first().map(|one| (*one, 1.0))
     }
 
-    /// How far changes stand out, for each length of stretches that there are enough of.
-    fn standing(&self, values: &[f64], dither: &mut ChaCha8Rng) -> Vec<Standing> {
+    /// Values with as much noise more as their lattice hides.
+    fn dithered(&self, values: &[f64], dither: &mut ChaCha8Rng) -> Vec<f64> {
         let finest = self.finest.sqrt();
         let mut fine = |value: &f64| -> f64 {
             let normal: f64 = StandardNormal.sample(dither);
             value + finest * normal
         };
-        let fine: Vec<f64> = values.iter().map(&mut fine).collect();
-        let blocks = self.layout.blocks.iter();
-        let passes: Vec<Pass> = blocks.map(|block| Pass::of(&fine[block.rows.clone()])).collect();
-        let lengths = successors(Some(SHORTEST_STRETCH), |length| Some(2 * length));
-        let sizes = lengths.take_while(|&length| length <= LONGEST_STRETCH).map(|length| {
-            passes.iter().filter_map(|pass| pass.changes(length)).flatten().collect::<Vec<_>>()
-        });
-        sizes.take_while(|sizes| !sizes.is_empty()).map(|sizes| Standing::of(&sizes)).collect()
+        values.iter().map(&mut fine).collect()
     }
+}
+
+/// True unless a quarter of the rows of a pass change, or change their change, by next to nothing: they
+/// repeat the reading before, or lie on a line between two, and say nothing of how loud the noise is.
+pub(super) fn are_readings(values: &[f64]) -> bool {
+    let changes: Vec<f64> = values.windows(2).map(|two| two[1] - two[0]).collect();
+    let turns: Vec<f64> = changes.windows(2).map(|two| two[1] - two[0]).collect();
+    [changes, turns].into_iter().all(|all| {
+        let mut sizes: Vec<f64> = all.iter().map(|value| value.abs()).collect();
+        sizes.sort_unstable_by(f64::total_cmp);
+        let [small, large] = [sizes.get(sizes.len() / 4), sizes.get(9 * sizes.len() / 10)];
+        small.zip(large).is_none_or(|(small, large)| HARDLY_CHANGES * large < *small)
+    })
+}
+
+/// How far changes stand out, for each length of stretches that there are enough of.
+fn standing(passes: &[Range<usize>], values: &[f64]) -> Vec<Standing> {
+    let passes: Vec<Pass> = passes.iter().map(|rows| Pass::of(&values[rows.clone()])).collect();
+    let lengths = successors(Some(SHORTEST_STRETCH), |length| Some(2 * length));
+    let sizes = lengths.take_while(|&length| length <= LONGEST_STRETCH).map(|length| {
+        passes.iter().filter_map(|pass| pass.changes(length)).flatten().collect::<Vec<_>>()
+    });
+    sizes.take_while(|sizes| !sizes.is_empty()).map(|sizes| Standing::of(&sizes)).collect()
 }
 
 /// The law of Pearson's third type that has the mean, variance and skewness of what was drawn: a
@@ -230,8 +250,9 @@ mod tests {
     use crate::noise::{Block, fit_noise};
     use rand_distr::{Exp1, StudentT};
 
-    /// Chance of what two passes of 350 rows show, under the noise that is fitted to them.
-    fn chance_of(values: &[f64]) -> f64 {
+    /// Chance of what two passes of 350 rows, read in steps, show under the noise that is fitted to
+    /// them.
+    fn chance_of(values: &[f64], step: f64) -> f64 {
         let block = |pass: usize| Block { sensor: 0, pass, rows: 350 * pass..350 * (pass + 1) };
         let layout = Layout {
             blocks: vec![block(0), block(1)],
@@ -239,16 +260,18 @@ mod tests {
             inflation: vec![1.0; values.len()].into(),
         };
         let noise = fit_noise(&layout, values, None).noise;
-        Own { layout, noise: &noise, finest: 1.0 / 12.0 }.clearest(values).unwrap().1
+        Own { layout, noise: &noise, finest: step * step / 12.0 }
+            .clearest(values)
+            .map_or(1.0, |found| found.1)
     }
 
     /// Of 100 records of a noise hardly more fall below a chance than should: of a thousand skewed ones
     /// two fall below 1e-6.
-    fn is_calibrated(what: &str, mut noise: impl FnMut(&mut ChaCha8Rng, usize) -> f64) {
+    fn is_calibrated(what: &str, step: f64, mut noise: impl FnMut(&mut ChaCha8Rng, usize) -> f64) {
         let mut of_seed = |seed| {
             let mut random = ChaCha8Rng::seed_from_u64(seed);
             let values: Vec<f64> = (0..700).map(|row| noise(&mut random, row)).collect();
-            chance_of(&values)
+            chance_of(&values, step)
         };
         let chances: Vec<f64> = (0..100).map(&mut of_seed).collect();
         for (limit, most) in [(0.01, 6), (1e-3, 4), (1e-7, 0)] {
@@ -263,22 +286,37 @@ mod tests {
 
     #[test]
     fn noise_has_none() {
-        is_calibrated("white", |random, _| normal(random));
-        is_calibrated("skewed", |random, _| Exp1.sample(random));
-        is_calibrated("tails", |random, _| StudentT::new(3.0).unwrap().sample(random));
-        is_calibrated("rounded", |random, _| normal(random).round());
+        is_calibrated("white", 1.0, |random, _| normal(random));
+        is_calibrated("skewed", 1.0, |random, _| Exp1.sample(random));
+        is_calibrated("tails", 1.0, |random, _| StudentT::new(3.0).unwrap().sample(random));
+        is_calibrated("rounded", 1.0, |random, _| normal(random).round());
         let louder = |row: usize| if (200..300).contains(&row) { 4.0 } else { 1.0 };
-        is_calibrated("louder in places", |random, row| louder(row) * normal(random));
+        is_calibrated("louder in places", 1.0, |random, row| louder(row) * normal(random));
+    }
+
+    #[test]
+    fn held_and_interpolated_readings_have_none() {
+        let mut last = [0.0; 2];
+        is_calibrated("every fourth", 0.01, |random, row| {
+            last[0] = if row % 4 == 0 { normal(random) } else { last[0] };
+            last[0]
+        });
+        is_calibrated("between every fifth", 0.01, |random, row| {
+            last = if row % 5 == 0 { [last[1], normal(random)] } else { last };
+            last[0] + (last[1] - last[0]) * count(row % 5) / 5.0
+        });
+        let rounded = |value: f64, row| if row < 350 { 2.0 * (value / 2.0).round() } else { value };
+        is_calibrated("one pass rounded", 0.01, |random, row| rounded(normal(random), row));
     }
 
     #[test]
     fn slow_noise_has_none() {
         let mut last = [0.0; 3];
-        is_calibrated("slow", |random, _| {
+        is_calibrated("slow", 1.0, |random, _| {
             last[0] = 0.95 * last[0] + 0.3 * normal(random);
             last[0] + normal(random)
         });
-        is_calibrated("of many lengths", |random, _| {
+        is_calibrated("of many lengths", 1.0, |random, _| {
             for (value, kept) in last.iter_mut().zip([0.5, 0.9, 0.99]) {
                 *value = kept * *value + (1.0_f64 - kept * kept).sqrt() * normal(random);
             }
@@ -293,10 +331,10 @@ mod tests {
             let mut random = ChaCha8Rng::seed_from_u64(seed);
             let gust = |row: usize| 6.0 * libm::exp(-count(row % 90) / 8.0);
             let gusts: Vec<f64> = (0..700).map(|row| gust(row) + normal(&mut random)).collect();
-            assert!(chance_of(&gusts) < 1e-3, "{seed}");
+            assert!(chance_of(&gusts, 1.0) < 1e-3, "{seed}");
             let level = |row: usize| if row % 130 < 40 { 5.0 } else { 0.0 };
             let levels: Vec<f64> = (0..700).map(|row| level(row) + normal(&mut random)).collect();
-            assert!(chance_of(&levels) < 1e-6, "{seed}");
+            assert!(chance_of(&levels, 1.0) < 1e-6, "{seed}");
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Jumps in a residual: changes from sample to sample that no slow noise makes.
 
+use super::excursions::are_readings;
 use super::tails::chance_beyond;
 use crate::model::{Fit, Problem};
 use crate::noise::Whitener;
@@ -33,9 +34,10 @@ pub(crate) fn jumps(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
     Some((median(&mut sizes), p_value))
 }
 
-/// What most whitened samples of a pass are, against what its noise says; no finer than its sensor.
+/// What most whitened samples of a pass are, against what its noise says, if they are readings of their
+/// own; no finer than its sensor.
 fn usual(problem: &Problem, fit: &Fit, (sensor, white): (usize, &[f64])) -> f64 {
-    if white.len() < SAMPLES_THAT_TELL {
+    if white.len() < SAMPLES_THAT_TELL || !are_readings(white) {
         return 1.0;
     }
     let mut sizes: Vec<f64> = white.iter().map(|value| value.abs()).collect();

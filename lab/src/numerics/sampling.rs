@@ -2,7 +2,7 @@
 
 use super::fourier;
 use super::summary::{count, median, spread};
-use crate::policy::extent::{ALIKE_WINDOW, HIGHEST_AGAINST_RATE, WINDOW_FROM};
+use crate::policy::extent::{ALIKE_WINDOW, HIGHEST_AGAINST_RATE, SAME_WINDOW, WINDOW_FROM};
 
 /// Most frequencies at which the window is worked out.
 const MOST_POINTS: f64 = 65_536.0;
@@ -25,26 +25,37 @@ pub(crate) fn usual_rate(coordinate: &[f64]) -> f64 {
 pub(crate) fn highest_frequency(coordinate: &[f64]) -> f64 {
     let rate = usual_rate(coordinate);
     let end = 2.0 * HIGHEST_AGAINST_RATE * rate;
-    let (returns, looked_at) = first_return(coordinate, rate, end);
+    let (returns, looked_at) = first_return(coordinate, (rate, end), ALIKE_WINDOW);
     returns.unwrap_or(looked_at).max(rate) * 0.5
 }
 
 /// True when the places tell a wave of so many cycles a unit from every slower one, however far it
-/// lies above those that are searched.
+/// lies above those that are searched, and whatever its size.
 #[must_use]
 pub(crate) fn resolves(coordinate: &[f64], frequency: f64) -> bool {
+    is_told_below(coordinate, frequency, ALIKE_WINDOW)
+}
+
+/// The same for a wave that is large enough.
+#[must_use]
+pub(crate) fn may_resolve(coordinate: &[f64], frequency: f64) -> bool {
+    is_told_below(coordinate, frequency, SAME_WINDOW)
+}
+
+/// True when the spectral window does not come back to `alike` where a slower wave would be an alias.
+fn is_told_below(coordinate: &[f64], frequency: f64, alike: f64) -> bool {
     let rate = usual_rate(coordinate);
     if frequency < 0.5 * rate {
         return true;
     }
-    let (returns, looked_at) = first_return(coordinate, rate, 2.0 * frequency);
+    let (returns, looked_at) = first_return(coordinate, (rate, 2.0 * frequency), alike);
     // As far as was asked for, but for rounding.
     returns.is_none() && 1.999 * frequency <= looked_at
 }
 
 /// First frequency up to `end` at which the spectral window of places that come at a usual rate
-/// comes back, and how far was looked: at nothing where there are hardly any places.
-fn first_return(coordinate: &[f64], rate: f64, end: f64) -> (Option<f64>, f64) {
+/// comes back to `alike`, and how far was looked: at nothing where there are hardly any places.
+fn first_return(coordinate: &[f64], (rate, end): (f64, f64), alike: f64) -> (Option<f64>, f64) {
     let range = spread(coordinate);
     if range <= 0.0 || coordinate.len() < 3 {
         return (None, 0.0);
@@ -62,7 +73,7 @@ fn first_return(coordinate: &[f64], rate: f64, end: f64) -> (Option<f64>, f64) {
         .iter()
         .enumerate()
         .map(|(index, size)| (step * count(index), size / count(coordinate.len())))
-        .find(|(frequency, size)| from < *frequency && ALIKE_WINDOW < *size);
+        .find(|(frequency, size)| from < *frequency && alike < *size);
     (returns.map(|(frequency, _)| frequency), step * points)
 }
 
@@ -94,6 +105,16 @@ mod tests {
         let highest = highest_frequency(&places);
         assert!((highest - 4.0 * usual_rate(&places)).abs() < 1e-9, "{highest}");
         assert!(resolves(&places, 1.5 * highest));
+    }
+
+    /// Targets of ISO 230-2, a fifth of their distance off an even row.
+    #[test]
+    fn targets_off_an_even_row_may_resolve_a_wave_between_them() {
+        let off = |i: u32| 0.4 * (f64::from(i * i % 37) / 36.0 - 0.5);
+        let places: Vec<f64> = (0..37_u32).map(|i| f64::from(i) + off(i)).collect();
+        assert!(!resolves(&places, 1.3) && may_resolve(&places, 1.3));
+        let even: Vec<f64> = (0..37).map(f64::from).collect();
+        assert!(!may_resolve(&even, 1.3));
     }
 
     #[test]

@@ -93,6 +93,12 @@ pub(crate) const HIGHEST_AGAINST_RATE: f64 = 4.0;
 /// Chosen: half the power. Doubled: there would be no such limit.
 pub(crate) const ALIKE_WINDOW: f64 = 0.7;
 
+/// Spectral window beyond which no size of a wave tells it from another.
+///
+/// Derived: the other keeps nine tenths of its evidence then, so that ten standard errors are ten ahead.
+/// Not to be doubled; of even places it is 1.
+pub(crate) const SAME_WINDOW: f64 = 0.95;
+
 /// Part of the usual rate from which on the window is looked at; below it is its own peak.
 ///
 /// Chosen, above half the rate, which even samples resolve. Doubled: the first return of samples

@@ -14,7 +14,7 @@ use crate::numerics::{chi_squared_tail, count};
 use crate::policy::chance::{
     FEW_SAMPLES, NAMED, NAMED_IN_OTHER_NOISE, NO_ALL_CLEAR, STANDARD_ERRORS,
 };
-use crate::policy::evidence::{MOST_OF_A_NAME, MOST_WHOLE_WAVES, TIME_LOCK};
+use crate::policy::evidence::{MARGIN, MOST_OF_A_NAME, MOST_WHOLE_WAVES, TIME_LOCK};
 use crate::policy::size::SHARE_OF_NOISE;
 
 /// Step from the end of a range to a value inside, against the range.
@@ -37,7 +37,7 @@ pub(crate) fn refusal(problem: &Problem, now: &State, judged: &Judged) -> Option
         .or_else(|| (!likeness::has_both_sides(problem, component, used)).then_some(Refusal::Edge))
         .or_else(|| (!likeness::by_the_clock(problem, component)).then_some(Refusal::Clock))
         .or_else(|| (!likeness::has_its_time(problem, component)).then_some(Refusal::Untimed))
-        .or_else(|| (!likeness::resolved(problem, component)).then_some(Refusal::Targets))
+        .or_else(|| not_told_by_targets(problem, now, judged))
         .or_else(|| likeness::at_one_target(problem, component, used).then_some(Refusal::OneTarget))
         .or_else(|| (!likeness::lets_motion_through(problem, component)).then_some(Refusal::Play))
         .or_else(|| at_an_end(problem, now, judged))
@@ -80,14 +80,30 @@ fn turns_as_well(problem: &Problem, now: &State, judged: &Judged) -> Option<Refu
     if !judged.component.term.parameters.iter().any(Parameter::is_frequency) {
         return None;
     }
+    let (order, ahead) = ahead_of_orders(problem, now, judged)?;
+    (ahead <= TIME_LOCK).then_some(Refusal::Angle { order, ahead })
+}
+
+/// Refused when a wave at few targets is explained as well by a longer one, though uneven targets tell
+/// it from all others if it is large enough.
+fn not_told_by_targets(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
+    if likeness::resolved(problem, &judged.component) {
+        return None;
+    }
+    let is_told = ahead_of_orders(problem, now, judged).is_some_and(|(_, ahead)| MARGIN < ahead);
+    (!is_told).then_some(Refusal::Targets)
+}
+
+/// The order of the spindle, of those that the samples resolve, that explains most in the place of an
+/// effect, and by how much the effect is ahead of it.
+fn ahead_of_orders(problem: &Problem, now: &State, judged: &Judged) -> Option<(f64, f64)> {
     let stage = Stage::new(problem, &now.columns, &judged.fit.noises);
     let own = gain_at(&stage, &judged.component).map_or(0.0, |gain| gain.gain);
     let turns: Vec<f64> = problem.record.turns().collect();
     let of_row: Vec<f64> = problem.samples.iter().map(|&sample| turns[sample]).collect();
     let scan = turn_scan(&stage, &of_row);
     let line = scan.strongest_anywhere(&stage.target[..of_row.len()])?;
-    let told = line.gain + TIME_LOCK < own;
-    (!told).then_some(Refusal::Angle { order: line.frequency, ahead: own - line.gain })
+    Some((line.frequency, own - line.gain))
 }
 
 /// Refused when one sample alone speaks for an effect, which the tails of the noise explain too.

@@ -158,10 +158,24 @@ pub(super) fn no_counts(problem: &Problem, state: &State) -> Vec<(usize, String)
     (0..state.components.len()).filter_map(of).collect()
 }
 
-/// Why an effect is not needed when each of its coefficients may be zero by its standard error.
+/// Why an effect is not needed when each of its coefficients may be zero by its standard error, or
+/// a time or a way that it has in place of coefficients nearly so.
+///
+/// Such a time has no sign, and does nothing at all at zero: what gains much by one that is hardly
+/// known gains it otherwise, as a lag that smooths the steps of a rounded position.
 fn useless(state: &State, covariance: &JointCovariance, index: usize) -> Option<String> {
     let component = &state.components[index];
     let (used, from) = state.coefficients(index);
+    if component.kept.is_empty() {
+        let mut values = component.term.nonlinear().into_iter().zip(&covariance.nonlinear[index]);
+        let is_open = |(value, stderr): (f64, &Option<f64>)| {
+            stderr.is_some_and(|stderr| value.abs() < EXACT_STANDARD_ERRORS * stderr)
+        };
+        return values.any(is_open).then(|| {
+            "useless: what it has in place of a size is not four standard errors from zero"
+                .to_owned()
+        });
+    }
     if used.is_empty() {
         return None;
     }
