@@ -4,6 +4,8 @@
 mod agreement;
 mod calibration;
 mod candidates;
+mod common_curve;
+mod drawn;
 mod excursions;
 mod flaws;
 mod grid;
@@ -30,6 +32,6 @@ pub(crate) use likelihood::Likelihood;
 pub use probes::Structure;
 pub(crate) use probes::{all_structures, at_targets, is_left, matters, no_larger_than, structures};
 pub(crate) use setting_trial::setting_trials;
-pub(crate) use slow_noise::{no_all_clear, samples_a_pass, taken_for_noise};
+pub(crate) use slow_noise::{no_all_clear, samples_a_pass, slow_without, taken_for_noise};
 pub(crate) use tails::chance_with_tails;
 pub(crate) use trial::{Trial, gain_at, try_candidate};

@@ -6,7 +6,7 @@
 //! changes of its mean from one stretch to the next follow a normal law, of which the median says
 //! what the largest may be. Each change is measured by how loud its neighbourhood is from sample to
 //! sample, for a louder stretch is louder at every length, and outliers are cut off. How far the
-//! largest stand out is held against noise drawn from the fit.
+//! largest stand out is held against noise drawn from the fit: a mean of cubes is skewed.
 
 use std::iter::successors;
 use std::ops::Range;
@@ -14,14 +14,13 @@ use std::ops::Range;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
-use rayon::prelude::*;
-use statrs::distribution::{ContinuousCDF, Gamma};
 
 use super::calibration::draw;
+use super::drawn::clearest;
 use crate::model::{Fit, Problem};
 use crate::noise::{Layout, Noise, departures, rms};
 use crate::numerics::{count, deviation, median};
-use crate::policy::chance::{DRAWS, FEWEST_CHANGES, MOST_DRAWS, WORTH_DRAWING};
+use crate::policy::chance::FEWEST_CHANGES;
 use crate::policy::extent::{LONGEST_STRETCH, LOUDNESS_ROWS, SHORTEST_STRETCH};
 use crate::policy::reading::{HARDLY_CHANGES, LEAST_LOUD, OUTLIER_DEVIATIONS};
 
@@ -85,28 +84,15 @@ impl Own<'_> {
         let blocks = self.layout.blocks.iter().map(|block| block.rows.clone());
         let passes: Vec<Range<usize>> =
             blocks.filter(|rows| are_readings(&left[rows.clone()])).collect();
+        let out_of = |found: &[Standing]| found.iter().map(|one| one.out).collect::<Vec<_>>();
+        let drawn = |seed| {
+            let mut chance = ChaCha8Rng::seed_from_u64(seed);
+            let noise = draw(&self.layout, std::slice::from_ref(self.noise), &mut chance);
+            out_of(&standing(&passes, &self.dithered(&noise, &mut chance)))
+        };
         let found = standing(&passes, &left);
-        let mut drawn: Vec<Vec<Standing>> = Vec::new();
-        for most in [DRAWS, MOST_DRAWS] {
-            let seeds = (drawn.len() as u64..most).into_par_iter();
-            drawn.par_extend(seeds.map(|seed| {
-                let mut chance = ChaCha8Rng::seed_from_u64(seed);
-                let noise = draw(&self.layout, std::slice::from_ref(self.noise), &mut chance);
-                standing(&passes, &self.dithered(&noise, &mut chance))
-            }));
-            let laws: Vec<Law> = (0..found.len()).map(|place| Law::of(&drawn, place)).collect();
-            let beyond = laws.iter().zip(&found).map(|(law, one)| law.deviations(one.out));
-            let furthest = beyond.fold(f64::NEG_INFINITY, f64::max);
-            if furthest < *WORTH_DRAWING.start() {
-                break;
-            }
-            if *WORTH_DRAWING.end() < furthest || most == MOST_DRAWS {
-                let chances = laws.iter().zip(&found).map(|(law, one)| (*one, law.chance(one.out)));
-                let (clearest, chance) = chances.min_by(|a, b| a.1.total_cmp(&b.1))?;
-                return Some((clearest, (count(found.len()) * chance).min(1.0)));
-            }
-        }
-        found.first().map(|one| (*one, 1.0))
+        let (place, chance) = clearest(&out_of(&found), drawn)?;
+        Some((found[place], chance))
     }
 
     /// Values with as much noise more as their lattice hides.
@@ -141,42 +127,6 @@ fn standing(passes: &[Range<usize>], values: &[f64]) -> Vec<Standing> {
         passes.iter().filter_map(|pass| pass.changes(length)).flatten().collect::<Vec<_>>()
     });
     sizes.take_while(|sizes| !sizes.is_empty()).map(|sizes| Standing::of(&sizes)).collect()
-}
-
-/// The law of Pearson's third type that has the mean, variance and skewness of what was drawn: a
-/// mean of cubes is skewed, and by a normal law its tail would be too short thirtyfold.
-struct Law {
-    mean: f64,
-    deviation: f64,
-    skewness: f64,
-}
-
-/// Least skewness of it; below, it is the normal law.
-const LEAST_SKEWNESS: f64 = 0.1;
-
-impl Law {
-    fn of(drawn: &[Vec<Standing>], place: usize) -> Self {
-        let number = count(drawn.len());
-        let mean_of = |of: &dyn Fn(f64) -> f64| {
-            drawn.iter().map(|one| of(one[place].out)).sum::<f64>() / number
-        };
-        let mean = mean_of(&|out| out);
-        let deviation = mean_of(&|out| (out - mean).powi(2)).sqrt().max(f64::MIN_POSITIVE);
-        let skewness = mean_of(&|out| ((out - mean) / deviation).powi(3)).max(LEAST_SKEWNESS);
-        Self { mean, deviation, skewness }
-    }
-
-    /// Standard deviations above the mean.
-    fn deviations(&self, value: f64) -> f64 {
-        (value - self.mean) / self.deviation
-    }
-
-    /// Chance of as much or more.
-    fn chance(&self, value: f64) -> f64 {
-        let shape = 4.0 / (self.skewness * self.skewness);
-        let place = (shape + self.deviations(value) * shape.sqrt()).max(0.0);
-        Gamma::new(shape, 1.0).map_or(1.0, |law| law.sf(place))
-    }
 }
 
 /// One pass without its outliers.

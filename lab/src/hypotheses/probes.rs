@@ -4,6 +4,7 @@
 //! noise fitted anew on both sides, says whether something is left, and its shape says what.
 
 use super::calibration;
+use super::common_curve::common_curve;
 use super::excursions::excursions;
 use super::flaws::above_flaws;
 use super::jumps::jumps;
@@ -123,6 +124,7 @@ pub(crate) fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> V
     let mut all = smooth(problem, model, fit);
     all.extend(cyclic_shapes(problem, model, fit));
     all.extend(repeats(problem, fit));
+    all.extend(in_common(problem, fit));
     all.extend(at_targets(problem, model, fit));
     all.extend(bent_pass(problem, fit));
     all.extend(standing_out(problem, fit));
@@ -238,6 +240,14 @@ fn repeats(problem: &Problem, fit: &Fit) -> Option<Structure> {
     let rms_um = rms(&problem.layout, &fit.left) * share.max(0.0).sqrt();
     let p_value = of_all(problem, chance);
     Some(Structure::without_place("position", "repeats from pass to pass", rms_um, p_value))
+}
+
+/// A curve of all passes, in another size in each.
+fn in_common(problem: &Problem, fit: &Fit) -> Option<Structure> {
+    let (rms_um, chance) = common_curve(problem, fit)?;
+    let p_value = of_all(problem, chance);
+    let shape = "curve that passes have in common, each in its own size";
+    Some(Structure::without_place("position", shape, rms_um, p_value))
 }
 
 /// What targets show at every visit, whatever the shape from one to the next.

@@ -109,7 +109,7 @@ fn transformed(correlation: f64, deviation: f64) -> f64 {
 }
 
 /// The rows of a pass from one reversal to the next.
-fn from_turn_to_turn(problem: &Problem, rows: Range<usize>) -> Vec<Range<usize>> {
+pub(super) fn from_turn_to_turn(problem: &Problem, rows: Range<usize>) -> Vec<Range<usize>> {
     let direction = |row: usize| problem.record.direction[problem.samples[row]];
     let turns = rows.clone().skip(1).filter(|&row| direction(row) * direction(row - 1) < 0.0);
     let ends: Vec<usize> = turns.chain([rows.end]).collect();

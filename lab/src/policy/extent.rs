@@ -223,6 +223,27 @@ pub(crate) const HARMONICS: u8 = 4;
 /// them, five by single rows. Doubled: shapes of a few rows are averaged away in the second.
 pub(crate) const CELLS_OF_WAYS: [usize; 3] = [1, 4, 16];
 
+/// Parts of a way whose means make the curve that is held against those of other ways.
+///
+/// Chosen: eight waves a way are seen. Doubled: shapes of a sixteenth, and noise of half as many rows in
+/// each.
+pub(crate) const CELLS_OF_A_CURVE: usize = 16;
+
+/// Rows of each part, at least.
+///
+/// Chosen. Doubled: ways of less than a hundred rows are not held against one another.
+pub(crate) const ROWS_A_PART: usize = 3;
+
+/// Ways that a curve is common to, at least.
+///
+/// Derived: two slow curves are alike by chance too often. Doubled: five passes are not asked.
+pub(crate) const FEWEST_WAYS: usize = 3;
+
+/// Share of the longest way that another must cover to be held against it.
+///
+/// Chosen: its parts then lie within a tenth of a way of the other's. Not to be doubled.
+pub(crate) const WHOLE_WAY: f64 = 0.9;
+
 /// Fewest common samples of two passes that are compared.
 ///
 /// Chosen: a correlation of 0.97 is then beyond chance, of two runs over ten targets. Doubled: runs over
