@@ -9,7 +9,7 @@ use super::experiment::{self, Advice};
 use crate::doubts::{Doubt, doubts};
 use crate::hypotheses::{
     Likelihood, Structure, at_targets, disagreements, is_left, no_all_clear, no_larger_than,
-    samples_a_pass, structures,
+    samples_a_pass, slow_without, structures,
 };
 use crate::model::{
     Component, JointCovariance, Judged, Problem, State, covariance_of_all_values, holdout_rms,
@@ -199,6 +199,9 @@ fn searched(problem: &Problem) -> Diagnosis {
     let mut residual = structures(&small, &last.columns, &last.fit);
     let heard = hear(&small, last, &found);
     residual.extend(nobodys(&small, &steps));
+    if let (true, Some(step)) = (residual.is_empty(), steps.iter().rfind(|s| !s.tried.is_empty())) {
+        residual.extend(slow_without(&small, &step.state.fit, &step.tried));
+    }
     residual.extend(disagreements(&small, last));
     confuse(&mut found, heard.witnesses);
     let problems = (&problem, &small);

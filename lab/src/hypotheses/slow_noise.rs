@@ -4,10 +4,11 @@
 //! beyond chance against it. It has then been told from nothing, and nothing from it.
 
 use super::probes::Structure;
-use crate::model::{Fit, Problem, State};
-use crate::noise::{effective_samples, weighed_rms};
+use crate::model::{Fit, Judged, Problem, State};
+use crate::noise::{effective_samples, rms, weighed_rms};
 use crate::numerics::count;
-use crate::policy::size::{SMOOTH_SHARE, WORTH_A_PASS, WORTH_AN_ALL_CLEAR};
+use crate::policy::chance::NO_CHANCE;
+use crate::policy::size::{SMOOTH_SHARE, SWIFT_WITH_IT, WORTH_A_PASS, WORTH_AN_ALL_CLEAR};
 
 /// The smooth curve that a noise as slow as the pass has taken for its own, if it is most of what
 /// is left; `all` is all that was looked for.
@@ -28,24 +29,42 @@ pub(crate) fn taken_for_noise(
     Some(Structure { shape, ..curve.clone() })
 }
 
-/// What a model without any effect leaves, where nothing is `left` but noise, which is so slow that it
-/// may be a cause.
+/// What a model leaves, where nothing is `left` but noise, which is so slow that it may be a cause.
 ///
-/// Where effects explain the rest such noise is the smaller part; an all-clear rests on it alone.
+/// Where effects explain more than that such noise is the smaller part; else the answer rests on it.
 #[must_use]
 pub(crate) fn no_all_clear(
     problem: &Problem,
     state: &State,
     left: &[Structure],
 ) -> Option<Structure> {
-    if !state.components.is_empty() || !left.is_empty() {
+    let [before, now] =
+        [&problem.residual(), &state.fit.left].map(|left| rms(&problem.layout, left));
+    let is_smaller = !state.components.is_empty() && 2.0 * now * now < before * before;
+    if is_smaller || !left.is_empty() {
         return None;
     }
-    let fit = &state.fit;
+    let worth = samples_a_pass(problem, &state.fit);
+    (worth < WORTH_AN_ALL_CLEAR).then(|| slow(problem, &state.fit, "a slow cause"))
+}
+
+/// What a model leaves, where that is slow only without one of the effects that were `tried` beside it:
+/// not sure enough to be named, each of these is as good an account of it as slow noise.
+#[must_use]
+pub(crate) fn slow_without(problem: &Problem, fit: &Fit, tried: &[Judged]) -> Option<Structure> {
+    let least = SWIFT_WITH_IT * samples_a_pass(problem, fit);
+    let doubted = tried.iter().filter(|judged| judged.p_value < NO_CHANCE);
+    let mut with = doubted.map(|judged| (judged, samples_a_pass(problem, &judged.fit)));
+    let (judged, worth) = with.find(|(_, worth)| least < *worth)?;
+    let name = &judged.component.term.name;
+    Some(slow(problem, fit, &format!("{name}, beside which it is worth {worth:.0}")))
+}
+
+/// Noise that is slow, or something else.
+fn slow(problem: &Problem, fit: &Fit, cause: &str) -> Structure {
     let worth = samples_a_pass(problem, fit);
-    let shape = format!("noise so slow that a pass is worth {worth:.1} samples, or a slow cause");
-    let rms_um = weighed_rms(&problem.layout, &fit.left);
-    (worth < WORTH_AN_ALL_CLEAR).then(|| Structure::without_place("time", &shape, rms_um, 1.0))
+    let shape = format!("noise so slow that a pass is worth {worth:.1} samples, or {cause}");
+    Structure::without_place("time", &shape, weighed_rms(&problem.layout, &fit.left), 1.0)
 }
 
 /// Independent samples that a pass is worth about its mean, of the sensor that has the fewest.

@@ -28,6 +28,12 @@ pub(crate) const NAMED_IN_OTHER_NOISE: f64 = 1e-3;
 /// where noise has no name to lose. Doubled: a curve needs a gain of 27.6 instead of 29.0.
 pub(crate) const NO_ALL_CLEAR: f64 = 1e-6;
 
+/// Chance in noise from which on an effect is no doubt of an all-clear, though without it the noise is slow
+/// and with it is not.
+///
+/// Chosen: one in twenty, for both must come together. Doubled: one in ten.
+pub(crate) const NO_CHANCE: f64 = 0.05;
+
 /// Chance below which a line is listed for a reader. No verdict rests on a list, so it may be ten
 /// times as open as [`SIGNIFICANCE`].
 ///

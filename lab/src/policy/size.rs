@@ -22,6 +22,12 @@ pub(crate) const STRETCHES: usize = 10;
 /// every µm are left alone.
 pub(crate) const SHARE_OF_ERROR: f64 = 1e-3;
 
+/// Share of an effect's size that must be its own beside the others of a model.
+///
+/// Chosen: a slope, a bow or the sag of a bed are true to a few per cent of themselves. Doubled: two that
+/// share 99.6 % of their squares are one.
+pub(crate) const TRUE_TO: f64 = 0.03;
+
 /// Samples that a pass must be worth for its noise to be told from a smooth curve.
 ///
 /// Derived: noise alone whose correlation is as long as the pass is worth 1 + ½. Doubled: noise of
@@ -30,11 +36,18 @@ pub(crate) const WORTH_A_PASS: f64 = 1.5;
 
 /// Samples that a pass must be worth for its noise to be nothing else.
 ///
-/// Measured: of 250 records with nothing hidden, by two generators made apart from the program, with
-/// random walks and 1/f noise among them, none is worth less than 3.5; of 59 that got an all-clear
-/// though they hide a cause of twelve standard errors and more, 24 are. Doubled: eight of those 250
+/// Measured: of 490 records with nothing hidden, by three generators made apart from the program, with
+/// random walks and 1/f noise among them, none is worth less; of 59 that got an all-clear though they hide
+/// a cause of twelve standard errors and more, 24 are worth less than three. Doubled: eleven of those 490
 /// get no all-clear.
-pub(crate) const WORTH_AN_ALL_CLEAR: f64 = 3.0;
+pub(crate) const WORTH_AN_ALL_CLEAR: f64 = 3.25;
+
+/// How many times as many samples a pass must be worth beside an effect for its noise to be slow only
+/// without it.
+///
+/// Chosen: noise that is slow of itself stays so beside any one curve. Doubled: where a pass is worth ten
+/// samples, a cause that makes them hundred is noise.
+pub(crate) const SWIFT_WITH_IT: f64 = 8.0;
 
 /// Share of what is left from which on a smooth curve under such noise is reported.
 ///

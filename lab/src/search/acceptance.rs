@@ -8,14 +8,14 @@ use crate::hypotheses::{
     chance_in_noise, chance_with_tails, gain_at, least_above_hunting, turn_scan,
 };
 use crate::model::{Columns, Component, Judged, Problem, Stage, State, helps_unseen, holdout_rms};
-use crate::noise::{effective_samples, swift_rms};
+use crate::noise::{effective_samples, rms, swift_rms};
 use crate::numerics::least_squares::covariance_rows;
 use crate::numerics::{chi_squared_tail, count};
 use crate::policy::chance::{
     FEW_SAMPLES, NAMED, NAMED_IN_OTHER_NOISE, NO_ALL_CLEAR, STANDARD_ERRORS,
 };
 use crate::policy::evidence::{MARGIN, MOST_OF_A_NAME, MOST_WHOLE_WAVES, TIME_LOCK};
-use crate::policy::size::SHARE_OF_NOISE;
+use crate::policy::size::{SHARE_OF_NOISE, TRUE_TO};
 
 /// Step from the end of a range to a value inside, against the range.
 const STEP_INSIDE: f64 = 0.01;
@@ -30,6 +30,7 @@ pub(crate) fn refusal(problem: &Problem, now: &State, judged: &Judged) -> Option
     let component = &judged.component;
     let (used, _) = judged.coefficients();
     too_small(problem, judged, component.size_um(problem, used))
+        .or_else(|| undone(problem, now, judged))
         .or_else(|| no_better_unseen(problem, now, judged))
         .or_else(|| implausible(problem, judged))
         .or_else(|| (!likeness::turns_once(problem, component)).then_some(Refusal::Turn))
@@ -60,6 +61,16 @@ fn too_small(problem: &Problem, judged: &Judged, size_um: f64) -> Option<Refusal
         return Some(Refusal::Small { size_um, least_um });
     }
     (size_um < hunting_um).then_some(Refusal::Hunting { size_um, least_um: hunting_um })
+}
+
+/// Refused when the effects of the model have grown to undo nearly all of an effect: what it explains
+/// then is what no formula is true to.
+fn undone(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
+    let size_um = judged.component.size_um(problem, judged.coefficients().0);
+    let before = now.fit.left.iter().zip(&judged.fit.left);
+    let explained: Vec<f64> = before.map(|(before, left)| before - left).collect();
+    let own_um = rms(&problem.layout, &explained);
+    (own_um < TRUE_TO * size_um).then_some(Refusal::Undone { size_um, own_um })
 }
 
 /// Refused when the model with an effect does no better on unseen data than without it.

@@ -13,6 +13,8 @@ pub(crate) enum Refusal {
     Small { size_um: f64, least_um: f64 },
     /// The swing of the closed loop may show as much; in µm.
     Hunting { size_um: f64, least_um: f64 },
+    /// Others in the model undo nearly all of it: its size and what is left of that, µm (arcsec).
+    Undone { size_um: f64, own_um: f64 },
     /// Held-out data are followed no better with it; root mean squares with and without, µm (arcsec).
     Unseen { with_um: f64, without_um: f64 },
     /// A value farther than two standard errors outside its plausible range.
@@ -60,7 +62,8 @@ impl Refusal {
     pub(crate) fn is_of_the_name(&self) -> bool {
         matches!(
             self,
-            Self::Unseen { .. }
+            Self::Undone { .. }
+                | Self::Unseen { .. }
                 | Self::Range { .. }
                 | Self::NegativeSquare { .. }
                 | Self::End { .. }
@@ -94,6 +97,12 @@ impl fmt::Display for Refusal {
             }
             Self::Hunting { size_um, least_um } => {
                 write!(f, "within the swing of the loop: {size_um:.4}, at least {least_um:.4}")
+            }
+            Self::Undone { size_um, own_um } => {
+                write!(
+                    f,
+                    "undone by the effects beside it: {own_um:.4} of {size_um:.4} are its own"
+                )
             }
             Self::Unseen { with_um, without_um } => write!(
                 f,
