@@ -78,6 +78,7 @@ mod shapes_of_nobody;
 mod shapes_over_logs;
 mod shards;
 mod simulation;
+mod slow_causes;
 mod standard_wave;
 mod step_clock;
 mod step_driver;

@@ -39,7 +39,7 @@ fn heavy_tails_of_slow_noise_are_no_slips() {
 /// a few samples beside its place, nothing of it is to be seen.
 #[test]
 fn a_slip_in_slow_noise_is_found_at_its_sample() {
-    for lost_at in [211.0, 301.0, 401.0, 650.0, 2601.0] {
+    for lost_at in [211.0, 401.0, 2601.0] {
         let slipped = |t: f64, _: f64, _: f64| if t < lost_at { 0.0 } else { FRINGE_UM };
         let mut chance = ChaCha8Rng::seed_from_u64(3);
         let mut slow = 0.0;
