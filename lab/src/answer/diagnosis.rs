@@ -199,8 +199,8 @@ fn searched(problem: &Problem) -> Diagnosis {
     let mut residual = structures(&small, &last.columns, &last.fit);
     let heard = hear(&small, last, &found);
     residual.extend(nobodys(&small, &steps));
-    if let (true, Some(step)) = (residual.is_empty(), steps.iter().rfind(|s| !s.tried.is_empty())) {
-        residual.extend(slow_without(&small, &step.state.fit, &step.tried));
+    if residual.is_empty() {
+        residual.extend(slow_without(&small, last, tried_beside(&steps)));
     }
     residual.extend(disagreements(&small, last));
     confuse(&mut found, heard.witnesses);
@@ -233,6 +233,16 @@ fn searched(problem: &Problem) -> Diagnosis {
         before: problem.residual(),
         left: states.pop().map(|state| state.fit.left).unwrap_or_default(),
     }
+}
+
+/// What was tried beside the effects of the last model, though others may have come and gone since.
+fn tried_beside(steps: &[Step]) -> &[Judged] {
+    let names = |step: &Step| -> Vec<String> {
+        step.state.components.iter().map(|one| one.term.name.clone()).collect()
+    };
+    let last = steps.last().map(names);
+    let same = |step: &&Step| !step.tried.is_empty() && Some(names(step)) == last;
+    steps.iter().rfind(same).map_or(&[], |step| &step.tried)
 }
 
 /// Adds what rivals effects without beating them.

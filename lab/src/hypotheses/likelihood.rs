@@ -75,12 +75,17 @@ impl<'a> Likelihood<'a> {
         Some(high)
     }
 
-    /// Standard deviation of a nonlinear value about its best, each value as probable as it makes
-    /// the data.
+    /// Standard deviation of a nonlinear value about its best, each value of its range as probable as it
+    /// makes the data: a play of less than nothing would be as good as its mirror image.
     #[must_use]
     pub(crate) fn deviation(&self, place: usize) -> Option<f64> {
         let step = self.size(place)? / IN_A_SIZE;
-        let moves = (-PLACES..=PLACES).map(|number| f64::from(number) * step);
+        let term = &self.component.term;
+        let range = &term.parameters[*term.nonlinear_indices().get(place)?].range;
+        let value = term.nonlinear()[place];
+        let is_free = range.end() <= range.start();
+        let is_open = |by: &f64| is_free || range.contains(&(value + by)) || *by == 0.0;
+        let moves = (-PLACES..=PLACES).map(|number| f64::from(number) * step).filter(is_open);
         let (all, square) = moves.fold((0.0, 0.0), |(all, square), by| {
             let weight = libm::exp(-0.5 * self.loss(&[(place, by)]));
             (all + weight, square + weight * by * by)

@@ -8,7 +8,9 @@ use crate::model::{Fit, Judged, Problem, State};
 use crate::noise::{effective_samples, rms, weighed_rms};
 use crate::numerics::count;
 use crate::policy::chance::NO_CHANCE;
-use crate::policy::size::{SMOOTH_SHARE, SWIFT_WITH_IT, WORTH_A_PASS, WORTH_AN_ALL_CLEAR};
+use crate::policy::size::{
+    BESIDE_EFFECTS, SMOOTH_SHARE, SWIFT_WITH_IT, WORTH_A_PASS, WORTH_AN_ALL_CLEAR,
+};
 
 /// The smooth curve that a noise as slow as the pass has taken for its own, if it is most of what
 /// is left; `all` is all that was looked for.
@@ -31,7 +33,7 @@ pub(crate) fn taken_for_noise(
 
 /// What a model leaves, where nothing is `left` but noise, which is so slow that it may be a cause.
 ///
-/// Where effects explain more than that such noise is the smaller part; else the answer rests on it.
+/// Where effects explain half as much such noise is believed; else the answer rests on it.
 #[must_use]
 pub(crate) fn no_all_clear(
     problem: &Problem,
@@ -40,8 +42,8 @@ pub(crate) fn no_all_clear(
 ) -> Option<Structure> {
     let [before, now] =
         [&problem.residual(), &state.fit.left].map(|left| rms(&problem.layout, left));
-    let is_smaller = !state.components.is_empty() && 2.0 * now * now < before * before;
-    if is_smaller || !left.is_empty() {
+    let is_beside = !state.components.is_empty() && now * now < BESIDE_EFFECTS * before * before;
+    if is_beside || !left.is_empty() {
         return None;
     }
     let worth = samples_a_pass(problem, &state.fit);
@@ -49,12 +51,22 @@ pub(crate) fn no_all_clear(
 }
 
 /// What a model leaves, where that is slow only without one of the effects that were `tried` beside it:
-/// not sure enough to be named, each of these is as good an account of it as slow noise.
+/// not sure enough to be named, each of these is as good an account of it as slow noise. One more of a kind
+/// that the model has is none, for a sum of such curves follows anything.
 #[must_use]
-pub(crate) fn slow_without(problem: &Problem, fit: &Fit, tried: &[Judged]) -> Option<Structure> {
+pub(crate) fn slow_without(
+    problem: &Problem,
+    state: &State,
+    tried: &[Judged],
+) -> Option<Structure> {
+    let fit = &state.fit;
     let least = SWIFT_WITH_IT * samples_a_pass(problem, fit);
-    let doubted = tried.iter().filter(|judged| judged.p_value < NO_CHANCE);
-    let mut with = doubted.map(|judged| (judged, samples_a_pass(problem, &judged.fit)));
+    let is_new = |judged: &&Judged| {
+        let name = &judged.component.term.name;
+        judged.p_value < NO_CHANCE && state.components.iter().all(|one| one.term.name != *name)
+    };
+    let mut with =
+        tried.iter().filter(is_new).map(|judged| (judged, samples_a_pass(problem, &judged.fit)));
     let (judged, worth) = with.find(|(_, worth)| least < *worth)?;
     let name = &judged.component.term.name;
     Some(slow(problem, fit, &format!("{name}, beside which it is worth {worth:.0}")))
