@@ -7,7 +7,7 @@ use super::probes::Structure;
 use crate::model::{Fit, Judged, Problem, State};
 use crate::noise::{effective_samples, rms, weighed_rms};
 use crate::numerics::count;
-use crate::policy::chance::NO_CHANCE;
+use crate::policy::chance::{NO_CHANCE, NO_CHANCE_BESIDE};
 use crate::policy::size::{
     BESIDE_EFFECTS, SMOOTH_SHARE, SWIFT_WITH_IT, WORTH_A_PASS, WORTH_AN_ALL_CLEAR,
 };
@@ -61,9 +61,10 @@ pub(crate) fn slow_without(
 ) -> Option<Structure> {
     let fit = &state.fit;
     let least = SWIFT_WITH_IT * samples_a_pass(problem, fit);
+    let limit = if state.components.is_empty() { NO_CHANCE } else { NO_CHANCE_BESIDE };
     let is_new = |judged: &&Judged| {
         let name = &judged.component.term.name;
-        judged.p_value < NO_CHANCE && state.components.iter().all(|one| one.term.name != *name)
+        judged.p_value < limit && state.components.iter().all(|one| one.term.name != *name)
     };
     let mut with =
         tried.iter().filter(is_new).map(|judged| (judged, samples_a_pass(problem, &judged.fit)));
