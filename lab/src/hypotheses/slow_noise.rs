@@ -33,7 +33,7 @@ pub(crate) fn taken_for_noise(
 
 /// What a model leaves, where nothing is `left` but noise, which is so slow that it may be a cause.
 ///
-/// Where effects explain half as much such noise is believed; else the answer rests on it.
+/// Where effects explain a third as much such noise is believed; else the answer rests on it.
 #[must_use]
 pub(crate) fn no_all_clear(
     problem: &Problem,
