@@ -117,11 +117,12 @@ impl<'a> Alike<'a> {
     fn share_of(&self, values: &[f64]) -> f64 {
         let curves = curves(self.course, values);
         let (mut shared, mut all) = (0.0, 0.0);
-        for (one, curve) in curves.iter().enumerate() {
-            for other in 0..one {
-                let square = dot(curve, curve) * dot(&curves[other], &curves[other]);
-                let weight = self.squares[one] * self.squares[other];
-                let common = dot(curve, &curves[other]);
+        let ways: Vec<(&Vec<f64>, &f64)> = curves.iter().zip(&self.squares).collect();
+        for (place, (one, shown)) in ways.iter().enumerate() {
+            for (other, of_other) in &ways[..place] {
+                let square = dot(one, one) * dot(other, other);
+                let weight = *shown * *of_other;
+                let common = dot(one, other);
                 all += weight;
                 shared += if 0.0 < square { weight * common * common / square } else { 0.0 };
             }
