@@ -20,7 +20,8 @@ use crate::numerics::{count, mean, spread};
 use crate::policy::extent::{CELLS_OF_A_CURVE, FEWEST_WAYS, ROWS_A_PART, WHOLE_WAY};
 
 /// Root mean square of what passes have in common, µm (arcsec), and the chance of as much in noise;
-/// `None` where they are few, or short, or go over different parts of the travel.
+/// `None` where they are few, or short, or go over different parts of the travel, and for what rounding
+/// may show: the same curve is rounded alike in every pass.
 #[must_use]
 pub(super) fn common_curve(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
     let of_sensor = |sensor: usize| {
@@ -37,13 +38,13 @@ pub(super) fn common_curve(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
         };
         let surprises: Vec<f64> = found.iter().map(|share| surprise(*share)).collect();
         let (place, chance) = clearest(&surprises, drawn)?;
-        Some((found[place], chance))
+        let rms_um = rms(&layout, left) * found[place].sqrt();
+        (problem.least_variance[sensor] < rms_um * rms_um).then_some((rms_um, chance))
     };
     let sensors = 0..problem.sensors.len();
     let found: Vec<(f64, f64)> = sensors.filter_map(of_sensor).collect();
-    let (share, chance) = found.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
-    let rms_um = rms(&problem.layout, &fit.left) * share.sqrt();
-    Some((rms_um, (count(found.len()) * chance).min(1.0)))
+    let (rms_um, chance) = found.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some((*rms_um, (count(found.len()) * chance).min(1.0)))
 }
 
 /// Shares of two curves of chance leave `1 − share` a power law: its logarithm has a tail like that of
