@@ -83,7 +83,7 @@ impl Own<'_> {
         let left = self.dithered(left, &mut dither);
         let blocks = self.layout.blocks.iter().map(|block| block.rows.clone());
         let passes: Vec<Range<usize>> =
-            blocks.filter(|rows| are_readings(&left[rows.clone()])).collect();
+            blocks.filter(|rows| are_readings(&left[rows.clone()], self.finest.sqrt())).collect();
         let out_of = |found: &[Standing]| found.iter().map(|one| one.out).collect::<Vec<_>>();
         let drawn = |seed| {
             let mut chance = ChaCha8Rng::seed_from_u64(seed);
@@ -106,16 +106,19 @@ impl Own<'_> {
     }
 }
 
-/// True unless a quarter of the rows of a pass change, or change their change, by next to nothing: they
-/// repeat the reading before, or lie on a line between two, and say nothing of how loud the noise is.
-pub(super) fn are_readings(values: &[f64]) -> bool {
+/// True unless a quarter of the rows of a pass change, or change their change, by no more than rounding
+/// does, which is next to nothing: they repeat the reading before, or lie on a line between two, and say
+/// nothing of how loud the noise is.
+pub(super) fn are_readings(values: &[f64], rounding: f64) -> bool {
     let changes: Vec<f64> = values.windows(2).map(|two| two[1] - two[0]).collect();
     let turns: Vec<f64> = changes.windows(2).map(|two| two[1] - two[0]).collect();
     [changes, turns].into_iter().all(|all| {
         let mut sizes: Vec<f64> = all.iter().map(|value| value.abs()).collect();
         sizes.sort_unstable_by(f64::total_cmp);
         let [small, large] = [sizes.get(sizes.len() / 4), sizes.get(9 * sizes.len() / 10)];
-        small.zip(large).is_none_or(|(small, large)| HARDLY_CHANGES * large < *small)
+        small
+            .zip(large)
+            .is_none_or(|(small, large)| rounding < *small || HARDLY_CHANGES * large < *small)
     })
 }
 

@@ -37,11 +37,11 @@ pub(crate) fn jumps(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
 /// What most whitened samples of a pass are, against what its noise says, if they are readings of their
 /// own; no finer than its sensor.
 fn usual(problem: &Problem, fit: &Fit, (sensor, white): (usize, &[f64])) -> f64 {
-    if white.len() < SAMPLES_THAT_TELL || !are_readings(white) {
+    let least = (problem.least_variance[sensor] / fit.noises[sensor].white).sqrt();
+    if white.len() < SAMPLES_THAT_TELL || !are_readings(white, least) {
         return 1.0;
     }
     let mut sizes: Vec<f64> = white.iter().map(|value| value.abs()).collect();
-    let least = (problem.least_variance[sensor] / fit.noises[sensor].white).sqrt();
     deviation(&mut sizes).clamp(least.min(1.0), 1.0)
 }
 
