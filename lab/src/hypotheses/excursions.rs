@@ -22,7 +22,7 @@ use crate::noise::{Layout, Noise, departures, rms};
 use crate::numerics::{count, deviation, median};
 use crate::policy::chance::FEWEST_CHANGES;
 use crate::policy::extent::{LONGEST_STRETCH, LOUDNESS_ROWS, SHORTEST_STRETCH};
-use crate::policy::reading::{HARDLY_CHANGES, LEAST_LOUD, OUTLIER_DEVIATIONS};
+use crate::policy::reading::{HARDLY_CHANGES, LEAST_LOUD, MOST_OF_ROUNDING, OUTLIER_DEVIATIONS};
 
 /// Power that the changes are raised to, for the few large ones to decide.
 ///
@@ -116,9 +116,9 @@ pub(super) fn are_readings(values: &[f64], rounding: f64) -> bool {
         let mut sizes: Vec<f64> = all.iter().map(|value| value.abs()).collect();
         sizes.sort_unstable_by(f64::total_cmp);
         let [small, large] = [sizes.get(sizes.len() / 4), sizes.get(9 * sizes.len() / 10)];
-        small
-            .zip(large)
-            .is_none_or(|(small, large)| rounding < *small || HARDLY_CHANGES * large < *small)
+        small.zip(large).is_none_or(|(small, large)| {
+            MOST_OF_ROUNDING * rounding < *small || HARDLY_CHANGES * large < *small
+        })
     })
 }
 

@@ -55,6 +55,12 @@ pub(crate) const LEAST_LOUD: f64 = 0.25;
 /// Derived: a normal law has 0.19, one of three degrees of freedom 0.12. Doubled: no noise is any.
 pub(crate) const HARDLY_CHANGES: f64 = 0.1;
 
+/// The same against the deviation of rounding, beyond which rows are readings all the same.
+///
+/// Derived: rows on a line that are rounded, with as much noise again, change their change by 1.4. Doubled:
+/// levels that switch under noise of less than two and a half digits are told by their steps alone.
+pub(crate) const MOST_OF_ROUNDING: f64 = 2.0;
+
 /// Neighbours on each side that a sample is judged by.
 ///
 /// Chosen: seven samples hold a step on one side. Doubled: a wave of thirteen samples is all
