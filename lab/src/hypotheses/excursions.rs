@@ -6,7 +6,7 @@
 //! changes of its mean from one stretch to the next follow a normal law, of which the median says
 //! what the largest may be. Each change is measured by how loud its neighbourhood is from sample to
 //! sample, for a louder stretch is louder at every length, and outliers are cut off. How far the
-//! largest stand out is held against noise drawn from the fit: a mean of cubes is skewed.
+//! largest stand out is held against noise drawn from the fit.
 
 use std::iter::successors;
 use std::ops::Range;

@@ -38,7 +38,7 @@ pub(crate) const WORTH_A_PASS: f64 = 1.5;
 ///
 /// Measured: of 490 records with nothing hidden, by three generators made apart from the program, with
 /// random walks and 1/f noise among them, none is worth less; of 59 that got an all-clear though they hide
-/// a cause of twelve standard errors and more, 24 are worth less than three. Doubled: eleven of those 490
+/// a cause of twelve standard errors and more, 24 are worth less than three. Doubled: sixteen of those 490
 /// get no all-clear.
 pub(crate) const WORTH_AN_ALL_CLEAR: f64 = 3.25;
 
