@@ -108,7 +108,7 @@ pub(crate) fn series(opened: &Opened) -> Answered {
         unit: problem.measurement.unit(),
         rotary: problem.measurement.rotary,
         rows: problem.samples.len(),
-        highest_order: problem.highest_order,
+        highest_order: problem.highest_order(),
         notes: problem.measurement.notes.clone(),
         blocks: blocks(problem),
     })

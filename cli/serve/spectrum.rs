@@ -42,7 +42,7 @@ pub(crate) fn faster(problem: &Problem) -> Answered {
         let mesh = gear.mesh_order().map(|order| (format!("mesh of {}", gear.name), order));
         std::iter::once((gear.name.clone(), gear.order)).chain(mesh)
     });
-    let highest_order = problem.highest_order;
+    let highest_order = problem.highest_order();
     json(&FastJson {
         highest_order,
         faster: shafts.filter(|(_, order)| highest_order < *order).collect(),
@@ -54,7 +54,7 @@ pub(crate) fn spectrum(opened: &Opened, sensor: usize) -> Answered {
     let Opened { problem, residual, .. } = opened;
     let points: Vec<[f64; 2]> = amplitude_spectrum(problem, residual, sensor)
         .into_iter()
-        .filter(|[order, _]| *order <= problem.highest_order)
+        .filter(|[order, _]| *order <= problem.highest_order())
         .collect();
     let peaks = peaks(problem, sensor, &points);
     json(&SpectrumJson { points, peaks })

@@ -126,7 +126,7 @@ impl Quantities {
             shafts.push(("machine screw angle".to_owned(), order));
         }
         shafts.retain(|(_, order)| {
-            *order < problem.highest_order && TURNS < order * spread(&self.turns.values)
+            *order < problem.highest_order() && TURNS < order * spread(&self.turns.values)
         });
         shafts
     }

@@ -56,7 +56,7 @@ pub(super) fn each_way(all: &Quantities, shaft: &str, order: f64) -> Option<Shap
 pub(super) fn waves(all: &Quantities, problem: &Problem) -> Vec<Shape> {
     let mut shapes = Vec::new();
     let over = &all.turns;
-    let highest = problem.highest_order.min(0.5 * usual_rate(&over.values));
+    let highest = problem.highest_order().min(0.5 * usual_rate(&over.values));
     let lowest = SLOWEST_WAVES / spread(&over.values).max(f64::MIN_POSITIVE);
     if let Some(band) = Band::new(over.values.clone(), [lowest, highest]) {
         let physics = "a shaft, wheel or belt that the machine file does not list";
@@ -67,7 +67,7 @@ pub(super) fn waves(all: &Quantities, problem: &Problem) -> Vec<Shape> {
         shapes.push(wave);
     }
     let over = &all.time;
-    let highest = problem.highest_hz.min(0.5 * usual_rate(&over.values));
+    let highest = problem.highest_hz().min(0.5 * usual_rate(&over.values));
     let lowest = SLOWEST_WAVES / spread(&over.values).max(f64::MIN_POSITIVE);
     let band = Band::new(over.values.clone(), [lowest, highest]).filter(|_| all.timed);
     if let Some(band) = band {
@@ -86,7 +86,7 @@ fn orders(all: &Quantities, problem: &Problem) -> Vec<f64> {
     let mut orders = gear_orders(&problem.model);
     orders.push(1.0);
     orders.retain(|order| {
-        *order < problem.highest_order && TURNS < order * spread(&all.turns.values)
+        *order < problem.highest_order() && TURNS < order * spread(&all.turns.values)
     });
     orders.sort_by(f64::total_cmp);
     orders.dedup();

@@ -155,7 +155,7 @@ fn keep_resolved(problem: &Problem, candidate: &mut Candidate) {
     let places = LazyCell::new(|| problem.places());
     let is_told = |point| {
         let waves = Component::new(candidate.at(point)).waves_a_turn(problem);
-        waves <= problem.highest_order || places.as_ref().is_some_and(|at| may_resolve(at, waves))
+        waves <= problem.highest_order() || places.as_ref().is_some_and(|at| may_resolve(at, waves))
     };
     let told = (0..candidate.grid.len()).filter(|point| is_told(*point));
     candidate.grid = told.map(|point| candidate.grid[point].clone()).collect();
@@ -347,7 +347,7 @@ fn time_scan<'a>(stage: &'a Stage<'_>, times: &'a [f64], low: f64, high: f64) ->
         turns: times,
         whitener: &stage.whitener,
         lowest: low.max(SLOWEST_WAVES / spread(times).max(f64::MIN_POSITIVE)),
-        highest: high.min(stage.problem.highest_hz),
+        highest: high.min(stage.problem.highest_hz()),
     }
 }
 
@@ -360,7 +360,7 @@ pub(crate) fn turn_scan<'a>(stage: &'a Stage<'_>, turns: &'a [f64]) -> Scan<'a> 
         turns,
         whitener: &stage.whitener,
         lowest: 1.5 / spread(turns).max(f64::MIN_POSITIVE),
-        highest: stage.problem.highest_order,
+        highest: stage.problem.highest_order(),
     }
 }
 

@@ -73,9 +73,10 @@ pub(super) fn bands(problem: &Problem, fit: &Fit) -> Vec<Structure> {
 
 /// Name, values and highest frequency of every coordinate that lines are looked for in.
 fn cyclic(problem: &Problem) -> Vec<(&'static str, Column, f64)> {
-    let mut axes = vec![("spindle order", problem.record.turns().collect(), problem.highest_order)];
+    let mut axes =
+        vec![("spindle order", problem.record.turns().collect(), problem.highest_order())];
     if 1 < problem.record.passes().len() && problem.measurement.timed {
-        axes.push(("frequency in time", problem.record.time_s.clone(), problem.highest_hz));
+        axes.push(("frequency in time", problem.record.time_s.clone(), problem.highest_hz()));
     }
     axes
 }

@@ -42,10 +42,8 @@ pub struct Problem {
     pub(crate) predicted: Column,
     /// Effects of the user's own to be tried beside the catalogue.
     pub extra: Vec<Term>,
-    /// Highest order of the spindle that the samples resolve.
-    pub highest_order: f64,
-    /// Highest frequency in time that the samples resolve, Hz.
-    pub(crate) highest_hz: f64,
+    /// See [`Self::highest_order`]; most problems are laid out to be compared, and never ask.
+    pub(crate) highest: OnceLock<Highest>,
     /// Columns of effects on these samples; they depend on the machine and the record alone.
     pub(crate) designs: Designs,
     /// See [`Self::velocity_rpm`], which asks the record once.
@@ -56,6 +54,13 @@ pub struct Problem {
     pub(crate) free: Columns,
 }
 
+/// What the samples resolve.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Highest {
+    order: f64,
+    hertz: f64,
+}
+
 impl Problem {
     /// Lays a measurement out for a machine.
     ///
@@ -64,6 +69,27 @@ impl Problem {
     /// [`EffectError`] when an effect of the machine needs a column the measurement lacks.
     pub fn new(model: &Model, measurement: &Measurement) -> Result<Self, EffectError> {
         Self::laid_out(model, measurement, None)
+    }
+
+    /// Highest order of the spindle that the samples resolve.
+    #[must_use]
+    pub fn highest_order(&self) -> f64 {
+        self.highest().order
+    }
+
+    /// Highest frequency in time that the samples resolve, Hz.
+    #[must_use]
+    pub(crate) fn highest_hz(&self) -> f64 {
+        self.highest().hertz
+    }
+
+    fn highest(&self) -> &Highest {
+        // One after the other: a thread that waits for its half might be given a task that asks for
+        // this as well, and wait for itself.
+        self.highest.get_or_init(|| Highest {
+            order: highest_frequency(&self.record.turns().collect::<Vec<_>>()),
+            hertz: highest_frequency(&self.record.time_s),
+        })
     }
 
     /// Turns of the spindle a minute at every sample, negative backwards; `None` where time was not
@@ -126,17 +152,12 @@ impl Problem {
             least_variance: Vec::new(),
             predicted: Column::default(),
             extra: Vec::new(),
-            highest_order: 0.0,
-            highest_hz: 0.0,
+            highest: OnceLock::new(),
             designs: Designs::default(),
             velocity_rpm: OnceLock::new(),
             hunting_um: 0.0,
             free: Columns::default(),
         };
-        (problem.highest_order, problem.highest_hz) = rayon::join(
-            || highest_frequency(&problem.record.turns().collect::<Vec<_>>()),
-            || highest_frequency(&problem.record.time_s),
-        );
         problem.stack_rows();
         problem.least_variance =
             (0..problem.sensors.len()).map(|sensor| problem.finest(sensor)).collect();

@@ -122,7 +122,7 @@ pub(crate) fn lines(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<NamedL
                 fit: &now,
                 sensor,
                 coordinate: &turns,
-                highest: problem.highest_order,
+                highest: problem.highest_order(),
             };
             let Some(line) = search.strongest() else { break };
             if LISTED_LINE < line.p_value {

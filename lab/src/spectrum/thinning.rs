@@ -63,7 +63,7 @@ impl Problem {
             turns: &turns,
             whitener: &whitener,
             lowest: SLOWEST_WAVES / spread(&turns).max(f64::MIN_POSITIVE),
-            highest: self.highest_order,
+            highest: self.highest_order(),
         };
         let orders = gear_orders(&self.model);
         let looks = count(orders.len());
