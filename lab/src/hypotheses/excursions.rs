@@ -122,6 +122,34 @@ pub(super) fn are_readings(values: &[f64], rounding: f64) -> bool {
     })
 }
 
+/// Values of a pass, none farther from its neighbours than so many of their usual distances.
+pub(super) fn without_outliers(values: &[f64], deviations: f64) -> Vec<f64> {
+    let departures = departures(values);
+    let mut sizes: Vec<f64> = departures.iter().map(|value| value.abs()).collect();
+    let most = deviations * deviation(&mut sizes);
+    let kept = values.iter().zip(departures);
+    kept.map(|(value, off)| value - off + off.clamp(-most, most)).collect()
+}
+
+/// Per value the usual change from one to the next in its neighbourhood, and no less than a share of that
+/// of the pass.
+pub(super) fn loudness(values: &[f64]) -> Vec<f64> {
+    let steps: Vec<f64> = values.windows(2).map(|two| (two[1] - two[0]).abs()).collect();
+    let mut near = Vec::with_capacity(2 * LOUDNESS_ROWS);
+    let around = |row: usize| {
+        let to = (row + LOUDNESS_ROWS).min(steps.len());
+        near.clear();
+        near.extend_from_slice(&steps[row.saturating_sub(LOUDNESS_ROWS).min(to)..to]);
+        median(&mut near)
+    };
+    let mut loudness: Vec<f64> = (0..values.len()).map(around).collect();
+    let least = (LEAST_LOUD * median(&mut loudness.clone())).max(f64::MIN_POSITIVE);
+    for one in &mut loudness {
+        *one = one.max(least);
+    }
+    loudness
+}
+
 /// How far changes stand out, for each length of stretches that there are enough of.
 fn standing(passes: &[Range<usize>], values: &[f64]) -> Vec<Standing> {
     let passes: Vec<Pass> = passes.iter().map(|rows| Pass::of(&values[rows.clone()])).collect();
@@ -136,32 +164,14 @@ fn standing(passes: &[Range<usize>], values: &[f64]) -> Vec<Standing> {
 struct Pass {
     /// Sums of the values before each row.
     sums: Vec<f64>,
-    /// Per row: usual change from sample to sample in its neighbourhood, and no less than a share of that
-    /// of the pass.
+    /// Of each row, see [`loudness()`].
     loudness: Vec<f64>,
 }
 
 impl Pass {
     fn of(values: &[f64]) -> Self {
-        let departures = departures(values);
-        let mut sizes: Vec<f64> = departures.iter().map(|value| value.abs()).collect();
-        let most = OUTLIER_DEVIATIONS * deviation(&mut sizes);
-        let kept = values.iter().zip(departures);
-        let kept: Vec<f64> =
-            kept.map(|(value, off)| value - off + off.clamp(-most, most)).collect();
-        let steps: Vec<f64> = kept.windows(2).map(|two| (two[1] - two[0]).abs()).collect();
-        let mut near = Vec::with_capacity(2 * LOUDNESS_ROWS);
-        let around = |row: usize| {
-            let to = (row + LOUDNESS_ROWS).min(steps.len());
-            near.clear();
-            near.extend_from_slice(&steps[row.saturating_sub(LOUDNESS_ROWS).min(to)..to]);
-            median(&mut near)
-        };
-        let mut loudness: Vec<f64> = (0..kept.len()).map(around).collect();
-        let least = (LEAST_LOUD * median(&mut loudness.clone())).max(f64::MIN_POSITIVE);
-        for one in &mut loudness {
-            *one = one.max(least);
-        }
+        let kept = without_outliers(values, OUTLIER_DEVIATIONS);
+        let loudness = loudness(&kept);
         let mut sum = 0.0;
         let sums = kept.iter().map(|value| {
             sum += value;

@@ -9,7 +9,9 @@ use super::excursions::excursions;
 use super::flaws::above_flaws;
 use super::jumps::jumps;
 use super::local::{self, Local};
+use super::nonlinearity::nonlinearity;
 use super::odd_pass::odd_pass;
+use super::outliers::{Company, outliers};
 use super::repeatability::repeatability;
 use super::slow_noise::taken_for_noise;
 use super::tails::chance_with_tails;
@@ -128,6 +130,8 @@ pub(crate) fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> V
     all.extend(at_targets(problem, model, fit));
     all.extend(bent_pass(problem, fit));
     all.extend(standing_out(problem, fit));
+    all.extend(predicted(problem, fit));
+    all.extend(standing_apart(problem, fit));
     all.extend(jumping(problem, fit));
     all.extend(one_way_jumps(problem, fit));
     all.extend(local_shapes(problem, fit));
@@ -287,6 +291,33 @@ fn standing_out(problem: &Problem, fit: &Fit) -> Option<Structure> {
     Some(Structure::without_place("time", shape, found.rms_um, p_value))
 }
 
+/// What goes on as noise does not.
+fn predicted(problem: &Problem, fit: &Fit) -> Option<Structure> {
+    let (rms_um, chance) = nonlinearity(problem, fit)?;
+    let p_value = of_all(problem, chance);
+    let shape = "humps, levels or teeth, more regular than noise";
+    Some(Structure::without_place("time", shape, rms_um, p_value))
+}
+
+/// Outliers that do not come by chance.
+fn standing_apart(problem: &Problem, fit: &Fit) -> Option<Structure> {
+    let axes = turning_axes(problem);
+    let turns: Vec<Vec<f64>> = axes
+        .iter()
+        .map(|(_, order)| problem.record.turns().map(|turn| order * turn).collect())
+        .collect();
+    let found = outliers(problem, fit, &turns)?;
+    let (along, shape) = match found.company {
+        Company::Rows => ("time", "samples far from their neighbours, several together"),
+        Company::Angle(axis) => (axes[axis].0, "samples far from their neighbours, at one angle"),
+        Company::Place => {
+            ("position", "samples far from their neighbours, where the last pass has one")
+        }
+    };
+    let p_value = of_all(problem, found.p_value);
+    Some(Structure::without_place(along, shape, found.rms_um, p_value))
+}
+
 /// Creep one way and jumps back, as stick and slip leave them.
 fn one_way_jumps(problem: &Problem, fit: &Fit) -> Option<Structure> {
     let (jump_um, chance) = one_way(problem, fit)?;
@@ -311,15 +342,21 @@ fn local_shapes(problem: &Problem, fit: &Fit) -> Vec<Structure> {
     everywhere.into_iter().chain(several.then(once).flatten()).collect()
 }
 
-/// A shape that comes back with every turn of the spindle or of the machine's screw.
-fn cyclic_shapes(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
-    let turns: Vec<f64> = problem.record.turns().collect();
+/// Spindle and machine screw, and their turns for one of the spindle.
+fn turning_axes(problem: &Problem) -> Vec<(&'static str, f64)> {
     let mut axes = vec![("spindle angle", 1.0)];
     if let Some(screw) = problem.model.lead_screw.as_ref().filter(|_| !problem.model.rotary) {
         axes.push(("machine screw angle", problem.model.workpiece.lead.mm() / screw.mm()));
     }
+    axes
+}
+
+/// A shape that comes back with every turn of the spindle or of the machine's screw.
+fn cyclic_shapes(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
+    let turns: Vec<f64> = problem.record.turns().collect();
     let enough = |order: &f64| TURNS < order * spread(&turns);
-    axes.into_iter()
+    turning_axes(problem)
+        .into_iter()
         .filter(|(_, order)| enough(order))
         .map(|(along, order)| {
             let raw = stacked(problem, &turning(&turns, order));

@@ -302,3 +302,20 @@ pub(crate) const LOUDNESS_ROWS: usize = 16;
 /// Chosen: the longest averages a quarter of the noise away, and slower jumps are smooth curves.
 /// One more: every chance is a fifth larger, and a creep over 64 rows and more shows better.
 pub(crate) const REVERSED_STRETCHES: [usize; 5] = [1, 2, 4, 8, 16];
+
+/// Last values that a sample is predicted by.
+///
+/// Measured on 131 all-clears of two generators by others, 15 to 250 standard errors: at the limit 26 are
+/// told with eight, 23 with six or twelve. Doubled: passes of fewer than thirty rows say nothing.
+pub(crate) const PREDICTED_BY: usize = 8;
+
+/// Rows that each of them needs.
+///
+/// Chosen. Doubled: a record of 150 rows says nothing.
+pub(crate) const ROWS_A_LAG: usize = 10;
+
+/// Rows within which one outlier follows another.
+///
+/// Chosen: as many as neighbours on each side that a sample is judged by. Doubled: two outliers a pass are
+/// in company oftener by chance, and a burst tells less.
+pub(crate) const IN_COMPANY: usize = 3;

@@ -1,0 +1,231 @@
+//! Whether bad readings come by chance.
+//!
+//! An outlier weighs as little in a fit as it stands far out, so that whatever makes a few samples
+//! stand out is the better hidden the larger it is: a scratch of the grating, a burst of swing, a bump of
+//! two samples. Bad readings of an instrument come at any moment and at any place. Those that come
+//! together, at one angle of a turn, or where another pass has one, have a cause.
+
+use std::ops::Range;
+
+use statrs::distribution::{Binomial, DiscreteCDF, Poisson};
+
+use super::excursions::are_readings;
+use crate::model::{Fit, Problem};
+use crate::noise::departures;
+use crate::numerics::{count, deviation, median};
+use crate::policy::chance::FEWEST_OUTLIERS;
+use crate::policy::extent::{IN_COMPANY, LOUDNESS_ROWS};
+use crate::policy::reading::{FAR_OUT, MOST_LOUD};
+
+/// What outliers have in common.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Company {
+    /// They follow each other.
+    Rows,
+    /// They stand at one angle of a turn of this axis, by its place among those that were asked for.
+    Angle(usize),
+    /// They stand where another pass has one.
+    Place,
+}
+
+/// Outliers of a cause.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Outliers {
+    pub(super) company: Company,
+    /// Root mean square of them over the whole record, µm (arcsec).
+    pub(super) rms_um: f64,
+    /// Chance of as much company.
+    pub(super) p_value: f64,
+}
+
+/// The clearest company of the outliers of a fit; `turns` count the turns of each axis at every
+/// sample. `None` where there are too few.
+#[must_use]
+pub(super) fn outliers(problem: &Problem, fit: &Fit, turns: &[Vec<f64>]) -> Option<Outliers> {
+    let passes: Vec<Pass> = passes(problem, fit);
+    let far: Vec<usize> = passes.iter().flat_map(|pass| pass.far.iter().copied()).collect();
+    if far.len() < FEWEST_OUTLIERS {
+        return None;
+    }
+    let rows: Vec<usize> = passes.iter().flat_map(|pass| pass.rows.clone()).collect();
+    let angles = turns.iter().enumerate().map(|(axis, turns)| {
+        let of = |rows: &[usize]| {
+            rows.iter().map(|row| turns[problem.samples[*row]]).collect::<Vec<_>>()
+        };
+        (Company::Angle(axis), at_one_angle(&of(&far), &of(&rows)))
+    });
+    let others = [(Company::Rows, in_rows(&passes)), (Company::Place, at_places(problem, &passes))];
+    let all: Vec<(Company, f64)> = others.into_iter().chain(angles).collect();
+    let (company, chance) = all.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let square: f64 = passes.iter().map(|pass| pass.square).sum();
+    Some(Outliers {
+        company,
+        rms_um: (square / count(problem.samples.len())).sqrt(),
+        p_value: (count(all.len()) * chance).min(1.0),
+    })
+}
+
+/// A pass of one sensor.
+struct Pass {
+    rows: Range<usize>,
+    sensor: usize,
+    /// Rows that stand far out.
+    far: Vec<usize>,
+    /// Sum of the squares of how far they do, µm² (arcsec²).
+    square: f64,
+}
+
+/// Passes that were read row by row.
+fn passes(problem: &Problem, fit: &Fit) -> Vec<Pass> {
+    let finest = |sensor: usize| problem.least_variance[sensor].sqrt();
+    let blocks = problem.layout.blocks.iter();
+    let read =
+        blocks.filter(|block| are_readings(&fit.left[block.rows.clone()], finest(block.sensor)));
+    read.map(|block| Pass::of(block.rows.clone(), block.sensor, &fit.left, finest(block.sensor)))
+        .collect()
+}
+
+impl Pass {
+    fn of(rows: Range<usize>, sensor: usize, left: &[f64], finest: f64) -> Self {
+        let departures = departures(&left[rows.clone()]);
+        let sizes: Vec<f64> = departures.iter().map(|value| value.abs()).collect();
+        let usual = deviation(&mut sizes.clone()).max(finest);
+        let far: Vec<usize> = (0..sizes.len()).filter(|&row| is_far(&sizes, row, usual)).collect();
+        let square = far.iter().map(|&row| sizes[row] * sizes[row]).sum();
+        let far = far.into_iter().map(|row| rows.start + row).collect();
+        Self { rows, sensor, far, square }
+    }
+
+    /// Share of its rows that stand far out.
+    fn share(&self) -> f64 {
+        count(self.far.len()) / count(self.rows.len().max(1))
+    }
+}
+
+/// Far beyond what is usual in the pass, and in the neighbourhood where that is louder.
+fn is_far(sizes: &[f64], row: usize, usual: f64) -> bool {
+    if sizes[row] <= FAR_OUT * usual {
+        return false;
+    }
+    let near = row.saturating_sub(LOUDNESS_ROWS)..(row + LOUDNESS_ROWS + 1).min(sizes.len());
+    let here = deviation(&mut sizes[near].to_vec()).clamp(usual, MOST_LOUD * usual);
+    FAR_OUT * here < sizes[row]
+}
+
+/// Chance that so many follow another within a few rows: gaps between chance events are geometric.
+fn in_rows(passes: &[Pass]) -> f64 {
+    let followers = passes.iter().map(|pass| {
+        let close = pass.far.windows(2).filter(|two| two[1] - two[0] <= IN_COMPANY).count();
+        let gaps = pass.far.len().saturating_sub(1);
+        let company = 1.0 - libm::pow(1.0 - pass.share(), count(IN_COMPANY));
+        (close, count(gaps) * company, gaps)
+    });
+    let (close, expected, gaps) =
+        followers.fold((0, 0.0, 0), |sum, one| (sum.0 + one.0, sum.1 + one.1, sum.2 + one.2));
+    let law = Binomial::new((expected / count(gaps.max(1))).min(1.0), gaps as u64);
+    law.map_or(1.0, |law| at_least(&law, close))
+}
+
+/// Chance of so many or more.
+fn at_least(law: &impl DiscreteCDF<u64, f64>, number: usize) -> f64 {
+    number.checked_sub(1).map_or(1.0, |less| law.sf(less as u64))
+}
+
+/// Chance that turns of so much of a circle point one way, against those of all rows (Rayleigh's
+/// test, about the mean of all).
+fn at_one_angle(far: &[f64], all: &[f64]) -> f64 {
+    let sums = |turns: &[f64]| {
+        let of = |part: fn(f64) -> f64| {
+            turns.iter().map(|turn| part(std::f64::consts::TAU * turn)).sum()
+        };
+        let (cosines, sines): (f64, f64) = (of(libm::cos), of(libm::sin));
+        [cosines / count(turns.len()), sines / count(turns.len())]
+    };
+    let ([far_x, far_y], [x, y]) = (sums(far), sums(all));
+    let scatter = 1.0 - x * x - y * y;
+    if scatter < LEAST_SCATTER {
+        return 1.0;
+    }
+    libm::exp(-count(far.len()) * ((far_x - x).powi(2) + (far_y - y).powi(2)) / scatter)
+}
+
+/// Rows that always meet one angle, or nearly, tell none.
+const LEAST_SCATTER: f64 = 0.1;
+
+/// Chance that so many stand where the pass before has one.
+fn at_places(problem: &Problem, passes: &[Pass]) -> f64 {
+    let place = |row: usize| problem.record.position_mm[problem.samples[row]];
+    let (mut met, mut expected) = (0, 0.0);
+    for two in passes.windows(2).filter(|two| two[0].sensor == two[1].sensor) {
+        let steps = two[0].rows.clone().zip(two[0].rows.clone().skip(1));
+        let mut steps: Vec<f64> = steps.map(|(a, b)| (place(b) - place(a)).abs()).collect();
+        let near = median(&mut steps);
+        for at in two[1].far.iter().map(|row| place(*row)) {
+            let is_near = |row: &usize| (place(*row) - at).abs() <= near;
+            met += usize::from(two[0].far.iter().any(is_near));
+            let rows = two[0].rows.clone().filter(is_near).count();
+            expected += 1.0 - libm::pow(1.0 - two[0].share(), count(rows));
+        }
+    }
+    Poisson::new(expected).map_or(1.0, |law| at_least(&law, met))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::{Distribution, StandardNormal, StudentT};
+
+    /// Rows of a pass.
+    const ROWS: usize = 400;
+
+    fn normal(random: &mut ChaCha8Rng) -> f64 {
+        StandardNormal.sample(random)
+    }
+
+    /// Two passes with some noise.
+    fn passes(seed: u64, noise: impl Fn(&mut ChaCha8Rng, usize) -> f64) -> Vec<Pass> {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let left: Vec<f64> = (0..2 * ROWS).map(|row| noise(&mut random, row)).collect();
+        [0..ROWS, ROWS..2 * ROWS].map(|rows| Pass::of(rows, 0, &left, 0.01)).into()
+    }
+
+    /// Of 300 records hardly more fall below a chance than should.
+    fn come_alone(what: &str, noise: impl Fn(&mut ChaCha8Rng, usize) -> f64) {
+        let chances: Vec<f64> = (0..300).map(|seed| in_rows(&passes(seed, &noise))).collect();
+        for (limit, most) in [(0.01, 10), (1e-3, 4), (1e-5, 0)] {
+            let below = chances.iter().filter(|chance| **chance < limit).count();
+            assert!(below <= most, "{what}: {below} of 300 below {limit}");
+        }
+    }
+
+    #[test]
+    fn bad_readings_come_alone() {
+        let knock =
+            |random: &mut ChaCha8Rng| if random.random::<f64>() < 0.03 { 40.0 } else { 0.0 };
+        come_alone("knocks", |random, _| knock(random) + normal(random));
+        come_alone("tails", |random, _| StudentT::new(2.0).unwrap().sample(random));
+        let louder = |row: usize| if (200..300).contains(&row) { 4.0 } else { 1.0 };
+        come_alone("louder in places", |random, row| louder(row) * normal(random));
+    }
+
+    #[test]
+    fn a_burst_comes_together() {
+        let burst = |row: usize| if (200..220).contains(&(row % ROWS)) { 40.0 } else { 1.0 };
+        for seed in 0..6 {
+            let chance = in_rows(&passes(seed, |random, row| burst(row) * normal(random)));
+            assert!(chance < 1e-6, "{seed}: {chance}");
+        }
+    }
+
+    #[test]
+    fn one_angle_is_told_from_many_and_from_the_only_one() {
+        let spread: Vec<f64> = (0..200_u32).map(|row| 0.237 * f64::from(row)).collect();
+        let (some, alike): (Vec<f64>, Vec<f64>) =
+            (spread.iter().step_by(9).copied().collect(), (0..20_u32).map(f64::from).collect());
+        assert!(0.1 < at_one_angle(&some, &spread));
+        assert!(at_one_angle(&alike, &spread) < 1e-6);
+        assert!(1.0 <= at_one_angle(&alike, &alike));
+    }
+}
