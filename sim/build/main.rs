@@ -22,7 +22,7 @@ const RANDOM_BITS: u64 = 4;
 /// Designs that wait for pulses, besides.
 const RANDOM_WAITING: u64 = 8;
 
-/// How many of the first run in lanes too, which take longest to compile.
+/// How many of the first, and of the first that wait, run in lanes too, which take longest to compile.
 const RANDOM_LANES: u64 = 6;
 
 #[expect(clippy::print_stdout, reason = "a build script speaks to Cargo so")]
@@ -47,7 +47,8 @@ fn flat(card: &BlockCard) -> Result<Netlist, Box<dyn Error>> {
 /// Kernels of random designs and of every block, and a list of each.
 fn samples() -> Result<String, Box<dyn Error>> {
     let mut source = String::new();
-    let [mut random, mut bits, mut waiting, mut lanes, mut blocks] = [const { String::new() }; 5];
+    let [mut random, mut bits, mut waiting, mut blocks] = [const { String::new() }; 4];
+    let [mut lanes, mut waiting_lanes] = [const { String::new() }; 2];
     for seed in 0..RANDOM_DESIGNS {
         let (name, design) = (format!("Random{seed}"), random_design(&mut Dice(seed)));
         source += &rust_source::generate(&design, &name);
@@ -66,21 +67,22 @@ fn samples() -> Result<String, Box<dyn Error>> {
         let (name, design) = (format!("Waiting{seed}"), random_waiting(&mut Dice(seed)));
         source += &rust_source::generate(&design, &name);
         write!(waiting, "check::<{name}>, ")?;
+        if seed < RANDOM_LANES {
+            source += &rust_source::generate_lanes(&design, &name);
+            write!(waiting_lanes, "check_lanes::<{name}>, ")?;
+        }
     }
     for (index, card) in BLOCKS.iter().chain(APART).enumerate() {
         let name = format!("Block{index}");
         source += &rust_source::generate(&flat(card)?, &name);
         write!(blocks, "check::<{name}>, ")?;
     }
-    let lists = [
-        ("RANDOM", random),
-        ("BITS", bits),
-        ("WAITING", waiting),
-        ("LANES", lanes),
-        ("BLOCKS", blocks),
-    ];
-    for (list, checks) in lists {
+    let engines = [("RANDOM", random), ("BITS", bits), ("WAITING", waiting), ("BLOCKS", blocks)];
+    for (list, checks) in engines {
         writeln!(source, "pub(super) const {list}: &[Check] = &[{checks}];")?;
+    }
+    for (list, checks) in [("LANES", lanes), ("WAITING_LANES", waiting_lanes)] {
+        writeln!(source, "pub(super) const {list}: &[LaneCheck] = &[{checks}];")?;
     }
     Ok(source)
 }

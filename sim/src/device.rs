@@ -82,37 +82,16 @@ fn elaborated() -> Netlist {
 
 #[cfg(test)]
 mod tests {
-    use helixlock_netlist::{SignalId, mask};
+    use helixlock_netlist::SignalId;
 
     use super::*;
-    use crate::engine::{Dice, Engine, Interpreter, LANE_WORDS, LANES, compare};
+    use crate::engine::{Dice, Engine, Interpreter, LANE_WORDS, compare, compare_lanes};
 
-    /// Each lane gets inputs of its own; a few of them are held to the reference engine.
+    /// Inputs of their own, flips and fills included.
     #[test]
     fn every_lane_is_a_device_of_its_own() {
-        let netlist = device().netlist();
-        let mut dice = Dice(42);
-        let mut lanes = device_lanes();
-        let mut singles: Vec<_> =
-            [0, 63, 64, 300, 511].map(|lane| (lane, Interpreter::new(netlist))).into();
-        for _ in 0..400 {
-            for input in &netlist.inputs {
-                for lane in 0..LANES {
-                    if dice.below(4) == 0 {
-                        let value = dice.roll() & mask(netlist.signal(*input).width);
-                        lanes.set_input_of(lane, *input, value);
-                        let single = singles.iter_mut().find(|(number, _)| *number == lane);
-                        if let Some((_, engine)) = single {
-                            engine.set_input(*input, value);
-                        }
-                    }
-                }
-            }
-            lanes.step();
-            for (lane, engine) in &mut singles {
-                engine.step();
-                assert_eq!(lanes.flip_flops(*lane), engine.flip_flops(), "lane {lane}");
-            }
+        for seed in 0..4 {
+            compare_lanes::<DeviceKernel>(device(), &Dice(seed));
         }
     }
 

@@ -28,7 +28,10 @@ mod dense;
 mod gather;
 mod interpreted_pieces;
 mod interpreter;
+#[cfg(test)]
+mod lane_agreement;
 #[allow(unsafe_code, reason = "vector instructions, after asking the processor for them")]
+#[allow(clippy::inline_always, reason = "compiled once a kind of vector")]
 mod lanes;
 mod leap;
 #[allow(clippy::inline_always, reason = "compiled once a way of gathering")]
@@ -60,6 +63,8 @@ pub use dense::{Coast, DenseKernel, Edge, Known};
 pub use gather::Gather;
 pub use interpreted_pieces::InterpretedPieces;
 pub use interpreter::Interpreter;
+#[cfg(test)]
+pub(crate) use lane_agreement::compare_lanes;
 pub use lanes::{LANE_WORDS, LANES, Lane, LaneKernel, Lanes};
 pub use leap::Leap;
 pub use leaping::Leaping;

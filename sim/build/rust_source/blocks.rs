@@ -91,6 +91,14 @@ impl Blocks {
         self.outside.push(register);
     }
 
+    /// Puts registers from outside into a block of their own, under no condition; gives its number.
+    pub(super) fn set_apart(&mut self, registers: Vec<usize>) -> usize {
+        self.outside.retain(|register| !registers.contains(register));
+        let (conditions, active) = (vec![], Operand::Constant(1));
+        self.blocks.push(Block { conditions, active, parent: None, registers });
+        self.blocks.len() - 1
+    }
+
     /// A block that has nothing left but blocks inside, each of which has its own condition.
     pub(super) fn hollow(&self) -> Site {
         self.blocks.iter().position(|block| block.registers.is_empty())
@@ -120,6 +128,11 @@ impl Blocks {
     /// Whose block a register is in.
     pub(super) fn of_register(&self, register: usize) -> Site {
         self.blocks.iter().position(|block| block.registers.contains(&register))
+    }
+
+    /// False for a register that keeps its first value.
+    pub(super) fn may_change(&self, register: usize) -> bool {
+        self.outside.contains(&register) || self.of_register(register).is_some()
     }
 
     /// The blocks around both.

@@ -1,330 +1,279 @@
-//! The kernel of many copies: one bit a lane, so that a word operation serves 64 copies at once.
+//! The kernel of many copies: one bit a lane, so that a gate serves 512 copies at once.
 //!
-//! Every signal is taken apart into bits and every operator into and, or, exclusive or; constants
-//! fold and equal gates are made once. The code is straight-line and generic in the vector it
-//! computes with, so that it is compiled for every kind the processor may have.
+//! ```text
+//! if block is active in any lane { blocks inside; its registers } …
+//! if registers that follow inputs have not settled { these registers } …
+//! registers outside all blocks
+//! if blocks were active { gates kept that depend on them } …
+//! ```
+//!
+//! Registers are updated in place. The code is generic in the vector it computes with, so that it is
+//! compiled for every kind the processor may have.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
-use helixlock_netlist::drivers::{Driver, Drivers};
-use helixlock_netlist::{Expression, Netlist, Node, SignalId};
+use helixlock_netlist::Netlist;
 
+use super::blocks::Site;
 use super::dense::indented;
+use super::digits::Digits;
+use super::following::following;
+use super::gates::{Bit, Gate};
+use super::lane_circuit::{LaneCircuit, number};
+use super::plan::Plan;
 
 /// `impl LaneKernel for name`.
 pub(super) fn source(netlist: &Netlist, name: &str) -> String {
-    let mut gates = Gates::new(netlist);
-    let next: Vec<Bit> =
-        netlist.registers.iter().flat_map(|register| gates.signal(register.input)).collect();
-    let mut lines = gates.lines;
-    for (index, bit) in next.iter().enumerate() {
-        lines.push(format!("{}.store(&mut next[{index}]);", bit.text()));
+    let Digits { netlist, next } = &Digits::new(netlist);
+    let mut plan = Plan::undecided(netlist);
+    for (digit, next) in next {
+        plan.next[*digit] = plan.words.value(next);
     }
-    let width = |signal: &SignalId| netlist.signal(*signal).width as usize;
-    let inputs: usize = netlist.inputs.iter().map(width).sum();
-    let body = indented(&lines);
+    let following = following(&plan);
+    for group in &following {
+        plan.blocks.set_apart(group.registers.clone());
+    }
+    let circuit = LaneCircuit::new(netlist, &plan, following);
+    let step = indented(&step(&circuit));
+    let keep = indented(&keep(&circuit));
     let mut source = String::new();
     // Writing into a string does not fail.
     let _ = write!(
         source,
         "impl LaneKernel for {name} {{
-    type Inputs = [Lane; {inputs}];
-    type State = [Lane; {state}];
-    const INPUTS: Self::Inputs = [[0; LANE_WORDS]; {inputs}];
-    const STATE: Self::State = [[0; LANE_WORDS]; {state}];
+{constants}
+    #[inline(always)]
+    fn step<V: Vector>(inputs: &Self::Inputs, state: &mut Self::State, kept: &mut Self::Kept, settling: &mut Self::Settling) {{
+{step}    }}
 
     #[inline(always)]
-    fn step<V: Vector>(inputs: &Self::Inputs, now: &Self::State, next: &mut Self::State) {{
-{body}    }}
+    fn keep<V: Vector>(inputs: &Self::Inputs, state: &Self::State, kept: &mut Self::Kept) {{
+{keep}    }}
 }}
 
 ",
-        state = next.len(),
+        constants = constants(&circuit),
     );
     source
 }
 
-/// One bit in all lanes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Bit {
-    Constant(bool),
-    Gate(usize),
+/// Types and constants of a kernel.
+fn constants(circuit: &LaneCircuit) -> String {
+    let followed_by = circuit.inputs.iter().map(|input| {
+        let groups = circuit.following.iter().enumerate();
+        let groups = groups.filter(|(_, group)| group.inputs.contains(input));
+        format!("&{:?}", groups.map(|(place, _)| place).collect::<Vec<_>>())
+    });
+    let read = circuit.cone(circuit.kept.keys().copied(), |_| false);
+    let tells = (0..circuit.inputs.len())
+        .map(|place| read.iter().any(|gate| circuit.gates[*gate] == Gate::Input(place)));
+    let settling = circuit.following.iter().map(|group| group.edges);
+    format!(
+        "    type Inputs = [Lane; {inputs}];
+    type State = [Lane; {state}];
+    type Kept = [Lane; {kept}];
+    type Settling = [usize; {following}];
+    const INPUTS: Self::Inputs = [[0; LANE_WORDS]; {inputs}];
+    const STATE: Self::State = [[0; LANE_WORDS]; {state}];
+    const KEPT: Self::Kept = [[0; LANE_WORDS]; {kept}];
+    const SETTLING: Self::Settling = {settling:?};
+    const TELLS: &'static [bool] = &{tells:?};
+    const FOLLOWED_BY: &'static [&'static [usize]] = &[{followed_by}];
+",
+        inputs = circuit.inputs.len(),
+        state = circuit.next.len(),
+        kept = circuit.kept.len(),
+        following = circuit.following.len(),
+        settling = settling.collect::<Vec<_>>(),
+        tells = tells.collect::<Vec<_>>(),
+        followed_by = followed_by.collect::<Vec<_>>().join(", "),
+    )
 }
 
-const ZERO: Bit = Bit::Constant(false);
-const ONE: Bit = Bit::Constant(true);
+/// Statements that take an edge.
+fn step(circuit: &LaneCircuit) -> Vec<String> {
+    let [defined, written, saved] = [const { BTreeSet::new() }; 3];
+    let mut code = Code { circuit, defined, written, saved, lines: vec![] };
+    code.site(None);
+    let words = circuit.plan.blocks.blocks.len().div_ceil(64);
+    let mut lines = vec![format!("let mut moved = [0_u64; {words}];")];
+    let save = |place: &usize| format!("let s{place} = V::load(&state[{place}]);");
+    lines.extend(code.saved.iter().map(save));
+    lines.extend(code.lines);
+    for ((_, blocks), kept) in circuit.groups().into_iter().filter(|((count, _), _)| 0 < *count) {
+        lines.push(format!("if {} {{", any_moved(&blocks)));
+        lines.extend(keep_group(circuit, &kept));
+        lines.push("}".to_owned());
+    }
+    lines
+}
 
-impl Bit {
-    fn text(self) -> String {
-        match self {
-            Self::Constant(value) => format!("V::of({value})"),
-            Self::Gate(index) => format!("g{index}"),
-        }
+/// Statements that compute all that is kept.
+fn keep(circuit: &LaneCircuit) -> Vec<String> {
+    let mut lines = vec![];
+    for kept in circuit.groups().into_values() {
+        lines.push("{".to_owned());
+        lines.extend(keep_group(circuit, &kept));
+        lines.push("}".to_owned());
+    }
+    lines
+}
+
+/// Statements that compute some of the gates kept.
+fn keep_group(circuit: &LaneCircuit, group: &[usize]) -> Vec<String> {
+    let is_kept = |gate: usize| circuit.kept.contains_key(&gate) && !group.contains(&gate);
+    let is_there = |gate: usize| circuit.gates[gate].is_read() || is_kept(gate);
+    let cone = circuit.cone(group.iter().copied(), is_there);
+    let name = |gate: usize| match circuit.kept.get(&gate) {
+        Some(place) if is_kept(gate) => format!("V::load(&kept[{place}])"),
+        _ => read(circuit, gate).unwrap_or_else(|| format!("g{gate}")),
+    };
+    let line = |gate: usize| {
+        let names = circuit.gates[gate].operands().into_iter().map(name);
+        definition(gate, circuit.gates[gate], &names.collect::<Vec<_>>())
+    };
+    let mut lines: Vec<String> = cone.into_iter().map(line).collect();
+    let place = |gate: &usize| format!("g{gate}.store(&mut kept[{}]);", circuit.kept[gate]);
+    lines.extend(group.iter().map(place));
+    lines
+}
+
+/// Where a bit that no gate computes is read from.
+fn read(circuit: &LaneCircuit, gate: usize) -> Option<String> {
+    match circuit.gates[gate] {
+        Gate::Input(place) => Some(format!("V::load(&inputs[{place}])")),
+        Gate::State(place) => Some(format!("V::load(&state[{place}])")),
+        _ => None,
     }
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Gate {
-    Input(usize),
-    State(usize),
-    Not(usize),
-    And(usize, usize),
-    Or(usize, usize),
-    Xor(usize, usize),
-    /// Condition, then, otherwise.
-    Choose(usize, usize, usize),
+/// True when one of some blocks was active.
+fn any_moved(blocks: &[usize]) -> String {
+    let mut masks: BTreeMap<usize, u64> = BTreeMap::new();
+    for block in blocks {
+        *masks.entry(block / 64).or_default() |= 1 << (block % 64);
+    }
+    let words = masks.iter().map(|(word, mask)| format!("(moved[{word}] & {mask:#x})"));
+    format!("{} != 0", words.collect::<Vec<_>>().join(" | "))
 }
 
-struct Gates<'a> {
-    drivers: Drivers<'a>,
-    netlist: &'a Netlist,
-    /// Place of the lowest bit of each input and register.
-    low: BTreeMap<SignalId, usize>,
-    signals: BTreeMap<SignalId, Vec<Bit>>,
-    known: BTreeMap<Gate, usize>,
-    made: Vec<Gate>,
+/// The statement that computes a gate from what others are called.
+fn definition(index: usize, gate: Gate, names: &[String]) -> String {
+    let (operator, others) = match gate {
+        Gate::Input(_) | Gate::State(_) => unreachable!("what is read is not computed"),
+        Gate::Not(_) => ("not", String::new()),
+        Gate::And(..) => ("and", names[1].clone()),
+        Gate::Or(..) => ("or", names[1].clone()),
+        Gate::Xor(..) => ("xor", names[1].clone()),
+        Gate::Choose(..) => ("choose", names[1..].join(", ")),
+    };
+    format!("let g{index} = {}.{operator}({others});", names[0])
+}
+
+/// The body of a step in the making. Registers are written in place.
+struct Code<'a> {
+    circuit: &'a LaneCircuit<'a>,
+    /// Gates computed so far.
+    defined: BTreeSet<usize>,
+    /// Places of registers that may have been written.
+    written: BTreeSet<usize>,
+    /// Places of those that are read after that: their old values are to be saved before.
+    saved: BTreeSet<usize>,
     lines: Vec<String>,
 }
 
-impl<'a> Gates<'a> {
-    fn new(netlist: &'a Netlist) -> Self {
-        let mut low = BTreeMap::new();
-        let outputs = netlist.registers.iter().map(|register| register.output);
-        for signals in [netlist.inputs.clone(), outputs.collect()] {
-            let mut next = 0;
-            for signal in signals {
-                low.insert(signal, next);
-                next += netlist.signal(signal).width as usize;
-            }
+impl Code<'_> {
+    /// What is computed in a site: blocks inside, which read its registers, before these are written.
+    fn site(&mut self, site: Site) {
+        let circuit = self.circuit;
+        let blocks = &circuit.plan.blocks;
+        for inside in (0..blocks.blocks.len()).filter(|block| blocks.blocks[*block].parent == site)
+        {
+            self.block(inside, site);
         }
-        Self {
-            drivers: Drivers::new(netlist),
-            netlist,
-            low,
-            signals: BTreeMap::new(),
-            known: BTreeMap::new(),
-            made: Vec::new(),
-            lines: Vec::new(),
-        }
-    }
-
-    /// Lowest bit first.
-    fn signal(&mut self, signal: SignalId) -> Vec<Bit> {
-        if let Some(bits) = self.signals.get(&signal) {
-            return bits.clone();
-        }
-        let width = self.netlist.signal(signal).width as usize;
-        let bits = match self.drivers.of(signal) {
-            Driver::Input(_) => self.places(signal, width, Gate::Input),
-            Driver::Register(_) => self.places(signal, width, Gate::State),
-            Driver::Assignment(index) => self.value(&self.netlist.assignments[index].value),
-            Driver::Nothing => vec![ZERO; width],
+        let registers = match site {
+            None => &blocks.outside,
+            Some(block) => &blocks.blocks[block].registers,
         };
-        self.signals.insert(signal, bits.clone());
-        bits
-    }
-
-    fn places(&mut self, signal: SignalId, width: usize, gate: fn(usize) -> Gate) -> Vec<Bit> {
-        let low = self.low[&signal];
-        (low..low + width).map(|place| self.gate(gate(place))).collect()
-    }
-
-    fn value(&mut self, expression: &Expression) -> Vec<Bit> {
-        let width = expression.width as usize;
-        match &expression.node {
-            Node::Constant(value) => constant(*value, width),
-            Node::Signal(id) => self.signal(*id),
-            Node::Extend(a) => extended(self.value(a), width),
-            Node::Slice { of, low } => self.value(of)[*low as usize..][..width].to_vec(),
-            Node::Not(a) => self.value(a).into_iter().map(|bit| self.not(bit)).collect(),
-            Node::And(a, b) => self.bitwise(a, b, Self::and),
-            Node::Or(a, b) => self.bitwise(a, b, Self::or),
-            Node::Xor(a, b) => self.bitwise(a, b, Self::xor),
-            Node::Add(a, b) => self.sum(a, b, false).0,
-            Node::Subtract(a, b) => self.sum(a, b, true).0,
-            Node::ShiftUp(a, b) => self.shifted(a, b, true),
-            Node::ShiftDown(a, b) => self.shifted(a, b, false),
-            Node::Equal(a, b) => vec![self.equal(a, b)],
-            // Left is below right when right does not fit into it: no carry out of left − right.
-            Node::Less(a, b) => {
-                let carry = self.sum(a, b, true).1;
-                vec![self.not(carry)]
-            }
-            Node::LessOrEqual(a, b) => vec![self.sum(b, a, true).1],
-            Node::All(a) => self.folded(a, ONE, Self::and),
-            Node::Any(a) => self.folded(a, ZERO, Self::or),
-            Node::Parity(a) => self.folded(a, ZERO, Self::xor),
-            Node::Select { condition, then, otherwise } => {
-                let condition = self.value(condition)[0];
-                let (then, otherwise) = (self.value(then), self.value(otherwise));
-                let pairs = then.into_iter().zip(otherwise);
-                pairs.map(|(then, otherwise)| self.choose(condition, then, otherwise)).collect()
-            }
+        let places = || registers.iter().flat_map(|register| circuit.registers[*register].clone());
+        for place in places() {
+            self.define(circuit.next[place], site);
+            let next = self.name(circuit.next[place]);
+            self.lines.push(format!("let n{place} = {next};"));
         }
+        self.lines.extend(places().map(|place| format!("n{place}.store(&mut state[{place}]);")));
+        self.written.extend(places());
     }
 
-    fn bitwise(
-        &mut self,
-        a: &Expression,
-        b: &Expression,
-        gate: fn(&mut Self, Bit, Bit) -> Bit,
-    ) -> Vec<Bit> {
-        let (a, b) = (self.value(a), self.value(b));
-        a.into_iter().zip(b).map(|(a, b)| gate(self, a, b)).collect()
-    }
-
-    fn folded(
-        &mut self,
-        a: &Expression,
-        start: Bit,
-        gate: fn(&mut Self, Bit, Bit) -> Bit,
-    ) -> Vec<Bit> {
-        let bits = self.value(a);
-        vec![bits.into_iter().fold(start, |all, bit| gate(self, all, bit))]
-    }
-
-    fn equal(&mut self, a: &Expression, b: &Expression) -> Bit {
-        let (a, b) = (self.value(a), self.value(b));
-        let mut equal = ONE;
-        for (a, b) in a.into_iter().zip(b) {
-            let differs = self.xor(a, b);
-            let alike = self.not(differs);
-            equal = self.and(equal, alike);
+    /// A block inside a site. Each gate stands right before the first that reads it, so that few wait
+    /// in the processor's registers.
+    fn block(&mut self, block: usize, site: Site) {
+        let active = self.circuit.active.get(block).copied();
+        if let Some(active) = active {
+            self.define(active, site);
         }
-        equal
-    }
-
-    /// Sum, or difference as `a + !b + 1`, with the carry out of it.
-    fn sum(&mut self, a: &Expression, b: &Expression, subtract: bool) -> (Vec<Bit>, Bit) {
-        let (a, b) = (self.value(a), self.value(b));
-        let mut carry = Bit::Constant(subtract);
-        let mut sum = Vec::new();
-        for (a, b) in a.into_iter().zip(b) {
-            let b = if subtract { self.not(b) } else { b };
-            let half = self.xor(a, b);
-            sum.push(self.xor(half, carry));
-            // Where the operands differ the carry goes on, where not they make it.
-            carry = self.choose(half, carry, a);
+        for gate in self.fed(block, site) {
+            self.define(Bit::Gate(gate), site);
         }
-        (sum, carry)
-    }
-
-    /// A barrel shifter, one stage a bit of the distance.
-    fn shifted(&mut self, a: &Expression, b: &Expression, up: bool) -> Vec<Bit> {
-        let mut value = self.value(a);
-        for (stage, bit) in self.value(b).into_iter().enumerate() {
-            let width = value.len();
-            let by = if stage < 32 { (1 << stage).min(width) } else { width };
-            let zeros = vec![ZERO; by];
-            let moved = if up {
-                [&zeros[..], &value[..width - by]].concat()
-            } else {
-                [&value[by..], &zeros[..]].concat()
-            };
-            let pairs = moved.into_iter().zip(value);
-            value = pairs.map(|(moved, kept)| self.choose(bit, moved, kept)).collect();
-        }
-        value
-    }
-
-    fn not(&mut self, bit: Bit) -> Bit {
-        match bit {
-            Bit::Constant(value) => Bit::Constant(!value),
-            Bit::Gate(index) => match self.made[index] {
-                Gate::Not(of) => Bit::Gate(of),
-                _ => self.gate(Gate::Not(index)),
-            },
-        }
-    }
-
-    fn and(&mut self, a: Bit, b: Bit) -> Bit {
-        match (a.min(b), a.max(b)) {
-            (ZERO, _) => ZERO,
-            (ONE, other) => other,
-            (a, b) if a == b => a,
-            (Bit::Gate(a), Bit::Gate(b)) if self.opposite(a, b) => ZERO,
-            (Bit::Gate(a), Bit::Gate(b)) => self.gate(Gate::And(a, b)),
-            (a, _) => a,
-        }
-    }
-
-    fn or(&mut self, a: Bit, b: Bit) -> Bit {
-        match (a.min(b), a.max(b)) {
-            (ZERO, other) => other,
-            (ONE, _) => ONE,
-            (a, b) if a == b => a,
-            (Bit::Gate(a), Bit::Gate(b)) if self.opposite(a, b) => ONE,
-            (Bit::Gate(a), Bit::Gate(b)) => self.gate(Gate::Or(a, b)),
-            (a, _) => a,
-        }
-    }
-
-    fn xor(&mut self, a: Bit, b: Bit) -> Bit {
-        match (a.min(b), a.max(b)) {
-            (ZERO, other) => other,
-            (ONE, other) => self.not(other),
-            (a, b) if a == b => ZERO,
-            (Bit::Gate(a), Bit::Gate(b)) if self.opposite(a, b) => ONE,
-            (Bit::Gate(a), Bit::Gate(b)) => self.gate(Gate::Xor(a, b)),
-            (a, _) => a,
-        }
-    }
-
-    fn choose(&mut self, condition: Bit, then: Bit, otherwise: Bit) -> Bit {
-        match (condition, then, otherwise) {
-            (ONE, then, _) => then,
-            (ZERO, _, otherwise) => otherwise,
-            (_, then, otherwise) if then == otherwise => then,
-            (condition, then, otherwise) if then == condition => self.or(condition, otherwise),
-            (condition, then, otherwise) if otherwise == condition => self.and(condition, then),
-            (condition, ONE, otherwise) => self.or(condition, otherwise),
-            (condition, then, ZERO) => self.and(condition, then),
-            (condition, ZERO, otherwise) => {
-                let clear = self.not(condition);
-                self.and(clear, otherwise)
-            }
-            (condition, then, ONE) => {
-                let clear = self.not(condition);
-                self.or(clear, then)
-            }
-            (Bit::Gate(condition), Bit::Gate(then), Bit::Gate(otherwise)) => {
-                self.gate(Gate::Choose(condition, then, otherwise))
-            }
-        }
-    }
-
-    fn opposite(&self, a: usize, b: usize) -> bool {
-        self.made[a] == Gate::Not(b) || self.made[b] == Gate::Not(a)
-    }
-
-    /// A gate, new unless there is one like it.
-    fn gate(&mut self, gate: Gate) -> Bit {
-        if let Some(index) = self.known.get(&gate) {
-            return Bit::Gate(*index);
-        }
-        let index = self.made.len();
-        let logic = match gate {
-            Gate::Input(place) => format!("V::load(&inputs[{place}])"),
-            Gate::State(place) => format!("V::load(&now[{place}])"),
-            Gate::Not(a) => format!("g{a}.not()"),
-            Gate::And(a, b) => format!("g{a}.and(g{b})"),
-            Gate::Or(a, b) => format!("g{a}.or(g{b})"),
-            Gate::Xor(a, b) => format!("g{a}.xor(g{b})"),
-            Gate::Choose(a, b, c) => format!("g{a}.choose(g{b}, g{c})"),
+        let condition = match active {
+            Some(active) => format!("{}.any()", self.name(active)),
+            None => format!("settling[{}] != 0", block - self.circuit.active.len()),
         };
-        self.lines.push(format!("let g{index} = {logic};"));
-        self.made.push(gate);
-        self.known.insert(gate, index);
-        Bit::Gate(index)
+        self.lines.push(format!("if {condition} {{"));
+        self.lines.push(format!("moved[{}] |= {:#x};", block / 64, 1_u64 << (block % 64)));
+        if active.is_none() {
+            self.lines.push(format!("settling[{}] -= 1;", block - self.circuit.active.len()));
+        }
+        self.site(Some(block));
+        self.lines.push("}".to_owned());
     }
-}
 
-fn constant(value: u64, width: usize) -> Vec<Bit> {
-    (0..width).map(|place| Bit::Constant(value >> place & 1 == 1)).collect()
-}
+    /// Gates of a site that a block and those inside it read.
+    fn fed(&self, block: usize, site: Site) -> BTreeSet<usize> {
+        let circuit = self.circuit;
+        let blocks = &circuit.plan.blocks;
+        let within = |site: Site| blocks.common(site, Some(block)) == Some(block);
+        let inside = circuit.sites.iter().filter(|(_, site)| within(**site));
+        let computed = inside.filter(|(gate, _)| !circuit.kept.contains_key(gate));
+        let read = computed.flat_map(|(gate, _)| circuit.gates[*gate].operands());
+        let needs = circuit.needs().into_iter().filter(|(_, site)| within(*site));
+        let needs = needs.filter_map(|(bit, _)| number(bit));
+        read.chain(needs).filter(|gate| circuit.sites[gate] == site).collect()
+    }
 
-fn extended(mut bits: Vec<Bit>, width: usize) -> Vec<Bit> {
-    bits.resize(width, ZERO);
-    bits
+    /// Computes a gate of a site with all it reads, unless that is done.
+    fn define(&mut self, bit: Bit, site: Site) {
+        let circuit = self.circuit;
+        let Some(gate) = number(bit) else { return };
+        let is_read = circuit.gates[gate].is_read() || circuit.kept.contains_key(&gate);
+        if is_read || circuit.sites[&gate] != site || !self.defined.insert(gate) {
+            return;
+        }
+        for operand in circuit.gates[gate].operands() {
+            self.define(Bit::Gate(operand), site);
+        }
+        let operands = circuit.gates[gate].operands();
+        let names = operands.into_iter().map(|operand| self.name(Bit::Gate(operand)));
+        let line = definition(gate, circuit.gates[gate], &names.collect::<Vec<_>>());
+        self.lines.push(line);
+    }
+
+    /// What a bit is called.
+    fn name(&mut self, bit: Bit) -> String {
+        let gate = match bit {
+            Bit::Constant(value) => return format!("V::of({value})"),
+            Bit::Gate(gate) => gate,
+        };
+        if let Some(place) = self.circuit.kept.get(&gate) {
+            return format!("V::load(&kept[{place}])");
+        }
+        match self.circuit.gates[gate] {
+            Gate::State(place) if self.written.contains(&place) => {
+                self.saved.insert(place);
+                format!("s{place}")
+            }
+            _ => read(self.circuit, gate).unwrap_or_else(|| format!("g{gate}")),
+        }
+    }
 }

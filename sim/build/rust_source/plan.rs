@@ -76,7 +76,8 @@ pub(super) struct Plan<'a> {
 }
 
 impl<'a> Plan<'a> {
-    pub(super) fn new(netlist: &'a Netlist) -> Self {
+    /// What follows from the design, before anything is decided.
+    pub(super) fn undecided(netlist: &'a Netlist) -> Self {
         let mut words = Words::new(netlist);
         let leaves = leaves(&mut words, netlist);
         let registers = netlist.registers.iter();
@@ -88,19 +89,12 @@ impl<'a> Plan<'a> {
         let coasting = coasting(&mut words, netlist);
         let (places, kept, set) = (BTreeMap::new(), vec![], vec![]);
         let inputs = netlist.inputs.len();
-        let mut plan = Self {
-            words,
-            blocks,
-            next,
-            places,
-            kept,
-            set,
-            outputs,
-            coasting,
-            leaves,
-            widths,
-            inputs,
-        };
+        Self { words, blocks, next, places, kept, set, outputs, coasting, leaves, widths, inputs }
+    }
+
+    /// Decided for one copy, of which each word costs an operation and each bit may be looked up.
+    pub(super) fn new(netlist: &'a Netlist) -> Self {
+        let mut plan = Self::undecided(netlist);
         plan.places = plan.placed();
         while let Some(register) = plan.looked_up() {
             plan.blocks.take_out(register);
@@ -146,6 +140,17 @@ impl<'a> Plan<'a> {
     /// True for a word that is read from an input or a register.
     pub(super) fn is_read(&self, word: usize) -> bool {
         self.leaves.contains_key(&word)
+    }
+
+    /// What a word is read from as it is.
+    pub(super) fn leaf(&self, word: usize) -> Option<Leaf> {
+        self.leaves.get(&word).copied()
+    }
+
+    /// The inputs and registers that a value is computed from.
+    pub(super) fn leaves_of(&self, value: Operand) -> impl Iterator<Item = Leaf> {
+        let cone = self.cone_up_to(number(value), &BTreeSet::new());
+        cone.into_iter().filter_map(|word| self.leaf(word))
     }
 
     /// The input that a word reads as it is.

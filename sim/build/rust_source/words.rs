@@ -146,10 +146,15 @@ impl<'a> Words<'a> {
         (0..self.computed.len()).map(|index| self.line(index)).collect()
     }
 
+    /// The operator that computes a word, on words, which it calls signals.
+    pub(super) fn rule(&self, index: usize) -> &Expression {
+        let rule = self.computed[index].rule.as_ref();
+        rule.expect("only a word that is computed has a rule")
+    }
+
     /// What a word is when all that it is computed from have the given values, one a word.
     pub(super) fn evaluate(&self, index: usize, values: &[u64]) -> u64 {
-        let rule = self.computed[index].rule.as_ref();
-        rule.expect("only a word that is computed is evaluated").evaluate(values)
+        self.rule(index).evaluate(values)
     }
 
     fn gate(&mut self, text: String, node: Node) -> Operand {

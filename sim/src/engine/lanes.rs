@@ -1,8 +1,9 @@
 //! Many copies of a design at once, one bit a copy.
 //!
 //! Bit `n % 64` of word `n / 64` of every flip-flop belongs to copy (lane) n. All lanes take each
-//! clock together; their inputs and flip-flops may differ. Where nothing rests and many copies are
-//! wanted this is the fastest engine per copy; where most clocks are idle, [`crate::Leap`] is.
+//! clock together; their inputs and flip-flops may differ. What rests in all lanes is passed over.
+//! Where many copies are wanted this is the fastest engine per copy; where most clocks are idle,
+//! [`crate::Leap`] is.
 
 use helixlock_netlist::{Netlist, SignalId};
 
@@ -21,19 +22,39 @@ pub const LANES: usize = 64 * LANE_WORDS;
 /// One bit in all lanes.
 pub type Lane = [u64; LANE_WORDS];
 
-/// Straight-line code for all lanes of a design.
+/// Code for all lanes of a design, which passes over what rests in all of them.
 pub trait LaneKernel {
     /// Bits of the inputs, in port order, lowest first.
     type Inputs: AsRef<[Lane]> + AsMut<[Lane]> + Clone + std::fmt::Debug;
     /// Flip-flops, in the order of [`FlipFlops`].
     type State: AsRef<[Lane]> + AsMut<[Lane]> + Clone + std::fmt::Debug;
+    /// Gates that are computed anew only when what they read may have changed.
+    type Kept: AsRef<[Lane]> + Clone + std::fmt::Debug;
+    /// Edges until each group of registers that follow inputs has settled.
+    type Settling: AsRef<[usize]> + AsMut<[usize]> + Clone + std::fmt::Debug;
     /// All low.
     const INPUTS: Self::Inputs;
     /// All clear.
     const STATE: Self::State;
+    /// Not computed yet.
+    const KEPT: Self::Kept;
+    /// Edges until an input that has changed shows everywhere in each of those groups.
+    const SETTLING: Self::Settling;
+    /// By the place of an input's bit: something kept is computed from it.
+    const TELLS: &'static [bool];
+    /// By the place of an input's bit: the groups that follow it.
+    const FOLLOWED_BY: &'static [&'static [usize]];
 
     /// Takes one rising edge in all lanes.
-    fn step<V: Vector>(inputs: &Self::Inputs, now: &Self::State, next: &mut Self::State);
+    fn step<V: Vector>(
+        inputs: &Self::Inputs,
+        state: &mut Self::State,
+        kept: &mut Self::Kept,
+        settling: &mut Self::Settling,
+    );
+
+    /// Computes what is kept.
+    fn keep<V: Vector>(inputs: &Self::Inputs, state: &Self::State, kept: &mut Self::Kept);
 }
 
 /// 512 copies of a design.
@@ -41,15 +62,47 @@ pub trait LaneKernel {
 pub struct Lanes<'a, K: LaneKernel> {
     circuit: &'a Circuit,
     clock: u64,
-    inputs: Box<K::Inputs>,
-    now: Box<K::State>,
-    next: Box<K::State>,
+    held: Box<Held<K>>,
     vectors: Vectors,
+    /// What is kept is to be computed.
+    stale: bool,
+    /// The last edge changed nothing, and neither will the next.
+    resting: bool,
+    /// The flip-flop that is looked at to see whether anything changes.
+    watched: usize,
+    /// How many edges the flip-flops looked at have stood still, one an edge.
+    still: usize,
 }
 
-/// The widest vectors the processor has.
+/// Lanes of which each is a line of the cache: one that lies across two takes twice as long.
+#[derive(Clone, Debug)]
+#[repr(align(64))]
+struct OnLines<T>(T);
+
+/// What all lanes hold.
+#[derive(Clone, Debug)]
+struct Held<K: LaneKernel> {
+    inputs: OnLines<K::Inputs>,
+    state: OnLines<K::State>,
+    kept: OnLines<K::Kept>,
+    settling: K::Settling,
+}
+
+impl<K: LaneKernel> Held<K> {
+    /// Takes one rising edge; what is kept is `stale` when something was set from outside.
+    #[inline(always)]
+    fn step<V: Vector>(&mut self, stale: bool) {
+        let Self { inputs, state, kept, settling } = self;
+        if stale {
+            K::keep::<V>(&inputs.0, &state.0, &mut kept.0);
+        }
+        K::step::<V>(&inputs.0, &mut state.0, &mut kept.0, settling);
+    }
+}
+
+/// What lanes are computed with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Vectors {
+pub(super) enum Vectors {
     #[cfg(target_arch = "x86_64")]
     Bits512,
     #[cfg(target_arch = "x86_64")]
@@ -61,15 +114,27 @@ impl<'a, K: LaneKernel> Lanes<'a, K> {
     /// All lanes at power-up, with all inputs low; `K` must be of the same design.
     #[must_use]
     pub fn new(circuit: &'a Circuit) -> Self {
+        Self::by(circuit, Vectors::widest())
+    }
+
+    /// The same, computed with the given vectors.
+    pub(super) fn by(circuit: &'a Circuit, vectors: Vectors) -> Self {
         let registers = &circuit.netlist().registers;
         let initial = pack(circuit.netlist(), registers.iter().map(|register| register.initial));
         let mut lanes = Self {
             circuit,
             clock: 0,
-            inputs: Box::new(K::INPUTS),
-            now: Box::new(K::STATE),
-            next: Box::new(K::STATE),
-            vectors: Vectors::widest(),
+            held: Box::new(Held {
+                inputs: OnLines(K::INPUTS),
+                state: OnLines(K::STATE),
+                kept: OnLines(K::KEPT),
+                settling: K::SETTLING,
+            }),
+            vectors,
+            stale: true,
+            resting: false,
+            watched: 0,
+            still: 0,
         };
         lanes.fill(&initial);
         lanes
@@ -94,7 +159,8 @@ impl<'a, K: LaneKernel> Lanes<'a, K> {
     /// When the signal is not an input, or the value is wider than it.
     pub fn set_input(&mut self, input: SignalId, value: u64) {
         for (place, bit) in self.input_bits(input, value) {
-            self.inputs.as_mut().as_mut()[place] = [if bit { u64::MAX } else { 0 }; LANE_WORDS];
+            self.held.inputs.0.as_mut()[place] = [if bit { u64::MAX } else { 0 }; LANE_WORDS];
+            self.input_changed(place);
         }
     }
 
@@ -105,7 +171,8 @@ impl<'a, K: LaneKernel> Lanes<'a, K> {
     /// When the signal is not an input, the value is wider than it, or there is no such lane.
     pub fn set_input_of(&mut self, lane: usize, input: SignalId, value: u64) {
         for (place, bit) in self.input_bits(input, value) {
-            set_bit(&mut self.inputs.as_mut().as_mut()[place], lane, bit);
+            set_bit(&mut self.held.inputs.0.as_mut()[place], lane, bit);
+            self.input_changed(place);
         }
     }
 
@@ -115,7 +182,8 @@ impl<'a, K: LaneKernel> Lanes<'a, K> {
     ///
     /// When there is no such lane or flip-flop.
     pub fn flip(&mut self, lane: usize, flip_flop: usize) {
-        self.now.as_mut().as_mut()[flip_flop][lane / 64] ^= 1 << (lane % 64);
+        self.held.state.0.as_mut()[flip_flop][lane / 64] ^= 1 << (lane % 64);
+        self.state_changed();
     }
 
     /// Puts all lanes into one state.
@@ -124,35 +192,74 @@ impl<'a, K: LaneKernel> Lanes<'a, K> {
     ///
     /// When the design has more flip-flops.
     pub fn fill(&mut self, state: &FlipFlops) {
-        for (bit, lanes) in state.iter().zip(self.now.as_mut().as_mut()) {
+        for (bit, lanes) in state.iter().zip(self.held.state.0.as_mut()) {
             *lanes = [if *bit { u64::MAX } else { 0 }; LANE_WORDS];
         }
+        self.state_changed();
     }
 
     /// Takes rising edges up to a clock number, with the inputs held.
     pub fn run_until(&mut self, clock: u64) {
-        while self.clock < clock {
+        while self.clock < clock && !self.resting {
             self.step();
         }
+        self.clock = clock.max(self.clock);
     }
 
     /// Takes one rising edge in all lanes.
     pub fn step(&mut self) {
+        self.clock += 1;
+        if self.resting {
+            return;
+        }
+        let state = self.held.state.0.as_ref();
+        let before = state.get(self.watched).copied();
+        // Flip-flops have stood still, each when it was looked at: now all are.
+        let all_before = (state.len() <= self.still).then(|| self.held.state.clone());
+        self.take_edge();
+        let state = self.held.state.0.as_ref();
+        if let Some(before) = all_before {
+            self.resting = state == before.0.as_ref();
+            self.still = 0;
+        } else if state.get(self.watched).copied() == before {
+            self.still += 1;
+            self.watched = (self.watched + 1) % state.len().max(1);
+        } else {
+            self.still = 0;
+        }
+    }
+
+    fn take_edge(&mut self) {
+        let stale = std::mem::take(&mut self.stale);
         match self.vectors {
             #[cfg(target_arch = "x86_64")]
             Vectors::Bits512 => {
-                // SAFETY: `Vectors::widest` has found AVX-512F and AVX-512VL on this processor.
-                unsafe { step_512::<K>(&self.inputs, &self.now, &mut self.next) }
+                // SAFETY: `Vectors::all` has found AVX-512F and AVX-512VL on this processor.
+                unsafe { step_512(&mut self.held, stale) }
             }
             #[cfg(target_arch = "x86_64")]
             Vectors::Bits256 => {
-                // SAFETY: `Vectors::widest` has found AVX2 on this processor.
-                unsafe { step_256::<K>(&self.inputs, &self.now, &mut self.next) }
+                // SAFETY: `Vectors::all` has found AVX2 on this processor.
+                unsafe { step_256(&mut self.held, stale) }
             }
-            Vectors::Plain => K::step::<Lane>(&self.inputs, &self.now, &mut self.next),
+            Vectors::Plain => self.held.step::<Lane>(stale),
         }
-        std::mem::swap(&mut self.now, &mut self.next);
-        self.clock += 1;
+    }
+
+    /// Notes that a bit of an input may have another level.
+    fn input_changed(&mut self, place: usize) {
+        self.resting = false;
+        self.stale |= K::TELLS[place];
+        for group in K::FOLLOWED_BY[place] {
+            self.held.settling.as_mut()[*group] = K::SETTLING.as_ref()[*group];
+        }
+    }
+
+    /// Notes that flip-flops may have other levels.
+    fn state_changed(&mut self) {
+        self.resting = false;
+        self.stale = true;
+        self.held.settling = K::SETTLING;
     }
 
     /// The flip-flops of one lane.
@@ -162,7 +269,7 @@ impl<'a, K: LaneKernel> Lanes<'a, K> {
     /// When there is no such lane.
     #[must_use]
     pub fn flip_flops(&self, lane: usize) -> FlipFlops {
-        let bits = self.now.as_ref().as_ref().iter();
+        let bits = self.held.state.0.as_ref().iter();
         bits.map(|lanes| lanes[lane / 64] >> (lane % 64) & 1 == 1).collect()
     }
 
@@ -174,7 +281,7 @@ impl<'a, K: LaneKernel> Lanes<'a, K> {
     #[must_use]
     pub fn unlike(&self, reference: usize) -> Lane {
         let mut unlike = [0; LANE_WORDS];
-        for lanes in self.now.as_ref().as_ref() {
+        for lanes in self.held.state.0.as_ref() {
             let bit = (lanes[reference / 64] >> (reference % 64) & 1).wrapping_neg();
             for (unlike, word) in unlike.iter_mut().zip(lanes) {
                 *unlike |= word ^ bit;
@@ -200,17 +307,24 @@ impl<'a, K: LaneKernel> Lanes<'a, K> {
 }
 
 impl Vectors {
-    fn widest() -> Self {
+    /// All that this processor has, the widest first.
+    pub(super) fn all() -> Vec<Self> {
+        let mut all = vec![];
         #[cfg(target_arch = "x86_64")]
         {
             if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl") {
-                return Self::Bits512;
+                all.push(Self::Bits512);
             }
             if is_x86_feature_detected!("avx2") {
-                return Self::Bits256;
+                all.push(Self::Bits256);
             }
         }
-        Self::Plain
+        all.push(Self::Plain);
+        all
+    }
+
+    fn widest() -> Self {
+        Self::all()[0]
     }
 }
 
@@ -226,13 +340,13 @@ fn set_bit(lanes: &mut Lane, lane: usize, bit: bool) {
 /// The same code, compiled for vectors of 512 bits and three-input logic.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512vl")]
-fn step_512<K: LaneKernel>(inputs: &K::Inputs, now: &K::State, next: &mut K::State) {
-    K::step::<Bits512>(inputs, now, next);
+fn step_512<K: LaneKernel>(held: &mut Held<K>, stale: bool) {
+    held.step::<Bits512>(stale);
 }
 
 /// The same code, compiled for vectors of 256 bits.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn step_256<K: LaneKernel>(inputs: &K::Inputs, now: &K::State, next: &mut K::State) {
-    K::step::<Bits256>(inputs, now, next);
+fn step_256<K: LaneKernel>(held: &mut Held<K>, stale: bool) {
+    held.step::<Bits256>(stale);
 }

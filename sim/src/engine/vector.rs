@@ -3,8 +3,9 @@
 #[cfg(target_arch = "x86_64")]
 use std::arch::x86_64::{
     __m256i, __m512i, _mm256_and_si256, _mm256_loadu_si256, _mm256_or_si256, _mm256_set1_epi64x,
-    _mm256_storeu_si256, _mm256_xor_si256, _mm512_and_si512, _mm512_loadu_si512, _mm512_or_si512,
-    _mm512_set1_epi64, _mm512_storeu_si512, _mm512_ternarylogic_epi64, _mm512_xor_si512,
+    _mm256_storeu_si256, _mm256_testz_si256, _mm256_xor_si256, _mm512_and_si512,
+    _mm512_loadu_si512, _mm512_or_si512, _mm512_set1_epi64, _mm512_storeu_si512,
+    _mm512_ternarylogic_epi64, _mm512_test_epi64_mask, _mm512_xor_si512,
 };
 
 use super::lanes::Lane;
@@ -26,6 +27,9 @@ pub trait Vector: Copy {
     /// Set where just one is.
     #[must_use]
     fn xor(self, other: Self) -> Self;
+
+    /// True when it is set in any lane.
+    fn any(self) -> bool;
 
     /// Set where this is clear.
     #[inline(always)]
@@ -72,6 +76,11 @@ impl Vector for Lane {
     fn xor(self, other: Self) -> Self {
         std::array::from_fn(|word| self[word] ^ other[word])
     }
+
+    #[inline(always)]
+    fn any(self) -> bool {
+        self.iter().fold(0, |any, word| any | word) != 0
+    }
 }
 
 /// One AVX-512 register. Only to be used on a processor that has AVX-512F.
@@ -116,6 +125,11 @@ impl Vector for Bits512 {
     #[inline(always)]
     fn xor(self, other: Self) -> Self {
         Self(unsafe { _mm512_xor_si512(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn any(self) -> bool {
+        unsafe { _mm512_test_epi64_mask(self.0, self.0) != 0 }
     }
 
     #[inline(always)]
@@ -172,6 +186,13 @@ impl Vector for Bits256 {
         let ([a, b], [c, d]) = (self.0, other.0);
         Self(unsafe { [_mm256_xor_si256(a, c), _mm256_xor_si256(b, d)] })
     }
+
+    #[inline(always)]
+    fn any(self) -> bool {
+        let [low, high] = self.0;
+        let any = unsafe { _mm256_or_si256(low, high) };
+        unsafe { _mm256_testz_si256(any, any) == 0 }
+    }
 }
 
 #[cfg(test)]
@@ -197,6 +218,12 @@ mod tests {
         assert_eq!(bits(first.not()), a.map(|word| !word));
         assert_eq!(bits(first.choose(second, third)), a.choose(b, c));
         assert_eq!(bits(V::of(true)), [u64::MAX; 8]);
+        assert!(!V::of(false).any());
+        assert!((0..8).all(|word| {
+            let mut lane = [0; 8];
+            lane[word] = 1 << dice.below(64);
+            V::load(&lane).any()
+        }));
         assert_eq!(a.choose(b, c)[3], (a[3] & b[3]) | (!a[3] & c[3]));
     }
 
