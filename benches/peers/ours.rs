@@ -71,13 +71,21 @@ fn state_of(engine: &mut dyn Engine) -> anyhow::Result<String> {
 pub(crate) fn run_lanes(events: &[PinEvent], clocks: u64) -> anyhow::Result<Run> {
     let netlist = device().netlist();
     let mut lanes = device_lanes();
+    let mut runs = 0.0;
     let before = processor_seconds()?;
-    for event in events.iter().take_while(|event| event.clock < clocks) {
-        lanes.run_until(event.clock);
-        lanes.set_input(netlist.inputs[event.pin], event.value);
+    let mut seconds = 0.0;
+    // Repeated as above.
+    while seconds < 0.2 {
+        lanes = device_lanes();
+        for event in events.iter().take_while(|event| event.clock < clocks) {
+            lanes.run_until(event.clock);
+            lanes.set_input(netlist.inputs[event.pin], event.value);
+        }
+        lanes.run_until(clocks);
+        runs += 1.0;
+        seconds = processor_seconds()? - before;
     }
-    lanes.run_until(clocks);
-    let seconds = (processor_seconds()? - before) / LANES as f64;
+    let seconds = seconds / runs / LANES as f64;
     // Some lane in the middle; the others are alike.
     anyhow::ensure!(lanes.unlike(300) == [0; LANE_WORDS], "the lanes differ");
     let mut single = Interpreter::new(netlist);
