@@ -7,17 +7,31 @@ use crate::support::passes::{MACHINE, white};
 
 /// Six passes forward of 200 rows over 600 mm: noise of 0.2 µm and an error, µm, of pass and place, mm.
 fn six_passes(seed: u64, error_um: &dyn Fn(usize, f64) -> f64) -> Diagnosis {
+    six_passes_at(seed, &|_, row| 3.0 * row, error_um)
+}
+
+/// The same with rows at other places, mm, by pass and number.
+fn six_passes_at(
+    seed: u64,
+    place_mm: &dyn Fn(usize, f64) -> f64,
+    error_um: &dyn Fn(usize, f64) -> f64,
+) -> Diagnosis {
     let mut noise = white(seed, 0.2);
     let mut columns = [const { Vec::new() }; 4];
     for (nth, pass) in (0..6).zip([0.0, 1.0, 2.0, 3.0, 4.0, 5.0]) {
         for row in 0..200 {
-            let mm = 3.0 * f64::from(row);
+            let mm = place_mm(nth, f64::from(row));
             let cells = [pass, 40.0 * pass + mm / 20.0, mm, error_um(nth, mm) + noise()];
             columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
         }
     }
     let titles = ["pass", "time_s", "position_mm", "error_um"];
     diagnosed(titles.into_iter().zip(columns).collect())
+}
+
+/// True when something is left of which these words are said.
+fn tells(found: &Diagnosis, words: &str) -> bool {
+    found.residual.iter().any(|one| one.shape.contains(words))
 }
 
 /// A chip that lies under the table from the fourth pass on: a bump of 25 standard errors in three of
@@ -60,6 +74,58 @@ fn slow_noise_of_each_pass_has_nothing_in_common() {
         assert!(names(&found).is_empty(), "{seed}");
         let shapes: Vec<&str> = found.residual.iter().map(|one| one.shape.as_str()).collect();
         assert!(shapes.iter().all(|shape| !shape.contains("in common")), "{seed}: {shapes:?}");
+    }
+}
+
+/// Humps of five deviations and eight rows that come and go, at other places in every pass.
+#[test]
+fn humps_of_no_place_are_no_slow_noise() {
+    for seed in 0..4 {
+        let found = six_passes(seed, &|pass, mm| {
+            let nth = libm::floor(mm / 67.0);
+            let lies = 67.0 * nth
+                + 20.0
+                + 27.0 * (1.0 + libm::sin(7.0 * nth + [0.3, 1.9, 4.1, 2.2, 5.3, 0.9][pass]));
+            libm::exp(-0.5 * ((mm - lies) / 6.0) * ((mm - lies) / 6.0))
+        });
+        assert_eq!(found.verdict, Verdict::Unexplained, "{seed}");
+        let shapes: Vec<&str> = found.residual.iter().map(|one| one.shape.as_str()).collect();
+        assert!(
+            shapes.iter().any(|shape| shape.starts_with("humps, levels or teeth")),
+            "{shapes:?}"
+        );
+    }
+}
+
+/// Samples that a scratch lifts by forty deviations, one in eleven: an outlier weighs little, but these
+/// all stand at one angle. As many at any angle are bad readings.
+#[test]
+fn a_scratch_of_the_grating_is_no_bad_reading() {
+    let phase = |turns: f64| turns - libm::floor(turns);
+    let places = |pass: usize, row: f64| 1.3 * row + [0.0, 0.4, 0.9, 0.2, 0.7, 1.1][pass];
+    for seed in 0..2 {
+        let notch = |_: usize, mm: f64| if phase(mm / 6.0) < 0.09 { 8.0 } else { 0.0 };
+        let scratch = six_passes_at(seed, &places, &notch);
+        assert_eq!(scratch.verdict, Verdict::Unexplained, "{seed}");
+        assert!(tells(&scratch, "at one angle"), "{seed}");
+        let lot = |mm: f64| phase(43.7 * libm::sin(12.9 * mm));
+        let knock = |_: usize, mm: f64| if lot(mm) < 0.03 { 8.0 } else { 0.0 };
+        let bad = six_passes_at(seed, &places, &knock);
+        assert_eq!(bad.verdict, Verdict::NothingMissing, "{seed}");
+    }
+}
+
+/// A burst of swing in every pass, of forty deviations from sample to sample and nothing on the mean.
+#[test]
+fn a_burst_of_swing_is_no_bad_reading() {
+    let places = |pass: usize, row: f64| 3.0 * row + [0.0, 0.4, 0.9, 0.2, 0.7, 1.1][pass];
+    for seed in 0..2 {
+        let found = six_passes_at(seed, &places, &|pass, mm| {
+            let off = (mm - [250.0, 262.0, 241.0, 255.0, 238.0, 259.0][pass]) / 15.0;
+            8.0 * libm::sin(1.9 * mm) * libm::exp(-0.5 * off * off)
+        });
+        assert_eq!(found.verdict, Verdict::Unexplained, "{seed}");
+        assert!(tells(&found, "several together"), "{seed}");
     }
 }
 

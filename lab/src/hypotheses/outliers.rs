@@ -12,18 +12,18 @@ use statrs::distribution::{Binomial, DiscreteCDF, Poisson};
 use super::excursions::are_readings;
 use crate::model::{Fit, Problem};
 use crate::noise::departures;
-use crate::numerics::{count, deviation, median};
+use crate::numerics::{count, deviation, fourier, median, spread};
 use crate::policy::chance::FEWEST_OUTLIERS;
 use crate::policy::extent::{IN_COMPANY, LOUDNESS_ROWS};
 use crate::policy::reading::{FAR_OUT, MOST_LOUD};
 
 /// What outliers have in common.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Company {
     /// They follow each other.
     Rows,
-    /// They stand at one angle of a turn of this axis, by its place among those that were asked for.
-    Angle(usize),
+    /// They stand at one angle of a turn of whatever turns at this order of the spindle.
+    Angle(f64),
     /// They stand where another pass has one.
     Place,
 }
@@ -38,25 +38,25 @@ pub(super) struct Outliers {
     pub(super) p_value: f64,
 }
 
-/// The clearest company of the outliers of a fit; `turns` count the turns of each axis at every
-/// sample. `None` where there are too few.
+/// The clearest company of the outliers of a fit; `None` where there are too few.
 #[must_use]
-pub(super) fn outliers(problem: &Problem, fit: &Fit, turns: &[Vec<f64>]) -> Option<Outliers> {
-    let passes: Vec<Pass> = passes(problem, fit);
-    let far: Vec<usize> = passes.iter().flat_map(|pass| pass.far.iter().copied()).collect();
-    if far.len() < FEWEST_OUTLIERS {
+pub(super) fn outliers(problem: &Problem, fit: &Fit) -> Option<Outliers> {
+    let passes = passes(problem, fit);
+    if passes.iter().map(|pass| pass.far.len()).sum::<usize>() < FEWEST_OUTLIERS {
         return None;
     }
-    let rows: Vec<usize> = passes.iter().flat_map(|pass| pass.rows.clone()).collect();
-    let angles = turns.iter().enumerate().map(|(axis, turns)| {
-        let of = |rows: &[usize]| {
-            rows.iter().map(|row| turns[problem.samples[*row]]).collect::<Vec<_>>()
-        };
-        (Company::Angle(axis), at_one_angle(&of(&far), &of(&rows)))
-    });
-    let others = [(Company::Rows, in_rows(&passes)), (Company::Place, at_places(problem, &passes))];
-    let all: Vec<(Company, f64)> = others.into_iter().chain(angles).collect();
-    let (company, chance) = all.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let turns: Vec<f64> = problem.record.turns().collect();
+    let at = |row: usize| turns[problem.samples[row]];
+    let far: Vec<f64> =
+        passes.iter().flat_map(|pass| pass.far.iter().map(|row| at(*row))).collect();
+    let all: Vec<f64> = passes.iter().flat_map(|pass| pass.rows.clone().map(at)).collect();
+    let (order, at_one_angle) = at_one_angle(&far, &all, problem.highest_order());
+    let all = [
+        (Company::Rows, in_rows(&passes)),
+        (Company::Angle(order), at_one_angle),
+        (Company::Place, at_places(problem, &passes)),
+    ];
+    let (company, chance) = all.into_iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
     let square: f64 = passes.iter().map(|pass| pass.square).sum();
     Some(Outliers {
         company,
@@ -131,26 +131,32 @@ fn at_least(law: &impl DiscreteCDF<u64, f64>, number: usize) -> f64 {
     number.checked_sub(1).map_or(1.0, |less| law.sf(less as u64))
 }
 
-/// Chance that turns of so much of a circle point one way, against those of all rows (Rayleigh's
-/// test, about the mean of all).
-fn at_one_angle(far: &[f64], all: &[f64]) -> f64 {
-    let sums = |turns: &[f64]| {
-        let of = |part: fn(f64) -> f64| {
-            turns.iter().map(|turn| part(std::f64::consts::TAU * turn)).sum()
-        };
-        let (cosines, sines): (f64, f64) = (of(libm::cos), of(libm::sin));
-        [cosines / count(turns.len()), sines / count(turns.len())]
-    };
-    let ([far_x, far_y], [x, y]) = (sums(far), sums(all));
-    let scatter = 1.0 - x * x - y * y;
-    if scatter < LEAST_SCATTER {
-        return 1.0;
-    }
-    libm::exp(-count(far.len()) * ((far_x - x).powi(2) + (far_y - y).powi(2)) / scatter)
+/// The order at which some turns point one way most clearly, and the chance that any does, against all
+/// turns: each of these takes its share off (Rayleigh's test, at every order that samples resolve).
+fn at_one_angle(far: &[f64], all: &[f64], highest: f64) -> (f64, f64) {
+    let step = 1.0 / (ORDERS_A_WAVE * spread(all).max(f64::MIN_POSITIVE));
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "at most a few 10⁴"
+    )]
+    let points = (highest / step).clamp(1.0, MOST_ORDERS) as usize;
+    let turns = [far, all].concat();
+    let share = count(far.len()) / count(all.len());
+    let weights = [vec![1.0; far.len()], vec![-share; all.len()]].concat();
+    let sizes = fourier::sizes(&turns, &weights, step, points);
+    let largest = sizes.iter().enumerate().skip(1).max_by(|a, b| a.1.total_cmp(b.1));
+    largest.map_or((0.0, 1.0), |(place, size)| {
+        let one = libm::exp(-size * size / count(far.len()));
+        (step * count(place), (count(points) * one).min(1.0))
+    })
 }
 
-/// Rows that always meet one angle, or nearly, tell none.
-const LEAST_SCATTER: f64 = 0.1;
+/// Orders looked at for every one that a record tells from the next.
+const ORDERS_A_WAVE: f64 = 4.0;
+
+/// Most orders looked at.
+const MOST_ORDERS: f64 = 65_536.0;
 
 /// Chance that so many stand where the pass before has one.
 fn at_places(problem: &Problem, passes: &[Pass]) -> f64 {
@@ -219,13 +225,21 @@ mod tests {
         }
     }
 
+    /// Order 1.3 of 60 turns.
     #[test]
     fn one_angle_is_told_from_many_and_from_the_only_one() {
-        let spread: Vec<f64> = (0..200_u32).map(|row| 0.237 * f64::from(row)).collect();
-        let (some, alike): (Vec<f64>, Vec<f64>) =
-            (spread.iter().step_by(9).copied().collect(), (0..20_u32).map(f64::from).collect());
-        assert!(0.1 < at_one_angle(&some, &spread));
-        assert!(at_one_angle(&alike, &spread) < 1e-6);
-        assert!(1.0 <= at_one_angle(&alike, &alike));
+        let places: Vec<f64> = (0..250_u32).map(|row| 0.237 * f64::from(row)).collect();
+        let notch = |turn: &&f64| (1.3 * **turn).fract() < 0.12;
+        let alike: Vec<f64> = places.iter().filter(notch).copied().collect();
+        let (order, chance) = at_one_angle(&alike, &places, 2.0);
+        assert!(chance < 1e-6 && (order - 1.3).abs() < 0.01, "{order}: {chance}");
+        let mut random = ChaCha8Rng::seed_from_u64(5);
+        for _ in 0..100 {
+            let some: Vec<f64> =
+                places.iter().filter(|_| random.random::<f64>() < 0.12).copied().collect();
+            assert!(1e-4 < at_one_angle(&some, &places, 2.0).1);
+        }
+        let turns: Vec<f64> = (0..250_u32).map(f64::from).collect();
+        assert!(0.1 < at_one_angle(&turns[..20], &turns[..20], 0.0).1);
     }
 }

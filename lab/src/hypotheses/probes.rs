@@ -301,21 +301,17 @@ fn predicted(problem: &Problem, fit: &Fit) -> Option<Structure> {
 
 /// Outliers that do not come by chance.
 fn standing_apart(problem: &Problem, fit: &Fit) -> Option<Structure> {
-    let axes = turning_axes(problem);
-    let turns: Vec<Vec<f64>> = axes
-        .iter()
-        .map(|(_, order)| problem.record.turns().map(|turn| order * turn).collect())
-        .collect();
-    let found = outliers(problem, fit, &turns)?;
-    let (along, shape) = match found.company {
-        Company::Rows => ("time", "samples far from their neighbours, several together"),
-        Company::Angle(axis) => (axes[axis].0, "samples far from their neighbours, at one angle"),
-        Company::Place => {
-            ("position", "samples far from their neighbours, where the last pass has one")
-        }
+    let found = outliers(problem, fit)?;
+    let (along, how) = match found.company {
+        Company::Rows => ("time", "several together"),
+        Company::Angle(_) => ("spindle order", "at one angle"),
+        Company::Place => ("position", "where the last pass has one"),
     };
+    let shape = format!("samples far from their neighbours, {how}");
     let p_value = of_all(problem, found.p_value);
-    Some(Structure::without_place(along, shape, found.rms_um, p_value))
+    let told = Structure::without_place(along, &shape, found.rms_um, p_value);
+    let order = if let Company::Angle(order) = found.company { Some(order) } else { None };
+    Some(Structure { at: order, ..told })
 }
 
 /// Creep one way and jumps back, as stick and slip leave them.
@@ -342,21 +338,15 @@ fn local_shapes(problem: &Problem, fit: &Fit) -> Vec<Structure> {
     everywhere.into_iter().chain(several.then(once).flatten()).collect()
 }
 
-/// Spindle and machine screw, and their turns for one of the spindle.
-fn turning_axes(problem: &Problem) -> Vec<(&'static str, f64)> {
+/// A shape that comes back with every turn of the spindle or of the machine's screw.
+fn cyclic_shapes(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
+    let turns: Vec<f64> = problem.record.turns().collect();
     let mut axes = vec![("spindle angle", 1.0)];
     if let Some(screw) = problem.model.lead_screw.as_ref().filter(|_| !problem.model.rotary) {
         axes.push(("machine screw angle", problem.model.workpiece.lead.mm() / screw.mm()));
     }
-    axes
-}
-
-/// A shape that comes back with every turn of the spindle or of the machine's screw.
-fn cyclic_shapes(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
-    let turns: Vec<f64> = problem.record.turns().collect();
     let enough = |order: &f64| TURNS < order * spread(&turns);
-    turning_axes(problem)
-        .into_iter()
+    axes.into_iter()
         .filter(|(_, order)| enough(order))
         .map(|(along, order)| {
             let raw = stacked(problem, &turning(&turns, order));
