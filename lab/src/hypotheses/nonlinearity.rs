@@ -7,8 +7,12 @@
 //! tests for time series*, Biometrika 73:461). What these add to the weighted sum is held against
 //! Fisher's law.
 
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
+use super::calibration::draw;
+use super::drawn::clearest;
 use super::excursions::{are_readings, loudness, without_outliers};
 use crate::model::{Fit, Problem};
 use crate::noise::rms;
@@ -27,21 +31,54 @@ pub(super) fn nonlinearity(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
     if problem.measurement.deviations.is_some() {
         return None;
     }
-    let found = (0..problem.sensors.len()).filter_map(|sensor| {
-        let finest = problem.least_variance[sensor].sqrt();
-        let blocks = problem.layout.blocks.iter().filter(|block| block.sensor == sensor);
-        let passes: Vec<&[f64]> = blocks.map(|block| &fit.left[block.rows.clone()]).collect();
-        judged(&passes, finest)
-    });
+    let found = (0..problem.sensors.len()).filter_map(|sensor| of_sensor(problem, fit, sensor));
     let found: Vec<(f64, f64)> = found.collect();
     let (share, chance) = found.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1))?;
     let rms_um = rms(&problem.layout, &fit.left) * share.sqrt();
     Some((rms_um, (count(found.len()) * chance).min(1.0)))
 }
 
-/// Share of what the last values leave of the next ones that their powers predict, and the chance of
-/// as much, over the passes of one sensor.
-fn judged(passes: &[&[f64]], finest: f64) -> Option<(f64, f64)> {
+/// Share and chance of one sensor. Rows that come unevenly are no linear series, for how far the last
+/// values lie apart says how long ago they were: Fisher's law is held against noise drawn at the same
+/// instants.
+fn of_sensor(problem: &Problem, fit: &Fit, sensor: usize) -> Option<(f64, f64)> {
+    let (mut layout, rows) = problem.layout.of_sensor(sensor);
+    layout.inflation = vec![1.0; layout.len()].into();
+    let finest = problem.least_variance[sensor].sqrt();
+    let judged_of = |values: &[f64]| {
+        let passes = layout.blocks.iter().map(|block| &values[block.rows.clone()]);
+        judged(&passes.collect::<Vec<_>>(), finest)
+    };
+    let found = judged_of(&fit.left[rows])?;
+    let by_law = (found.share, found.chance);
+    if WORTH_NOISE < found.chance {
+        return Some(by_law);
+    }
+    let drawn = |seed| {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let noise = draw(&layout, std::slice::from_ref(&fit.noises[sensor]), &mut random);
+        vec![judged_of(&noise).map_or(0.0, |one| one.root)]
+    };
+    let (_, chance) = clearest(&[found.root], drawn)?;
+    Some((found.share, found.chance.max(chance)))
+}
+
+/// Chance below which it is held against drawn noise.
+const WORTH_NOISE: f64 = 1e-3;
+
+/// What powers add to the prediction.
+struct Added {
+    /// Share of what the last values leave of the next ones.
+    share: f64,
+    /// Cube root of Fisher's ratio, which follows a normal law nearly (Wilson and Hilferty 1931, *The
+    /// distribution of chi-square*, PNAS 17:684).
+    root: f64,
+    /// Chance of as much by his law.
+    chance: f64,
+}
+
+/// What the powers of the last values add, over the passes of one sensor.
+fn judged(passes: &[&[f64]], finest: f64) -> Option<Added> {
     let mut rows = Rows::default();
     for pass in passes.iter().filter(|pass| are_readings(pass, finest)) {
         rows.add(&scaled(&without_outliers(pass, FAR_OUT)));
@@ -57,7 +94,11 @@ fn judged(passes: &[&[f64]], finest: f64) -> Option<(f64, f64)> {
     let explained = (before.residual_square - after.residual_square).max(0.0);
     let ratio = explained / count(more) / (after.residual_square / count(freedom));
     let law = FisherSnedecor::new(count(more), count(freedom)).ok()?;
-    Some((explained / before.residual_square.max(f64::MIN_POSITIVE), law.sf(ratio)))
+    Some(Added {
+        share: explained / before.residual_square.max(f64::MIN_POSITIVE),
+        root: libm::cbrt(ratio),
+        chance: law.sf(ratio),
+    })
 }
 
 fn columns<'a>(all: impl IntoIterator<Item = &'a Vec<f64>>) -> Vec<&'a [f64]> {
@@ -119,8 +160,6 @@ fn push(columns: &mut Vec<Vec<f64>>, values: impl Iterator<Item = f64>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rand::SeedableRng;
-    use rand_chacha::ChaCha8Rng;
     use rand_distr::{Distribution, Exp1, StandardNormal, StudentT};
 
     /// Rows of a pass.
@@ -133,7 +172,7 @@ mod tests {
     /// Chance of two passes, read in steps.
     fn chance_of(values: &[f64], step: f64) -> f64 {
         let passes: Vec<&[f64]> = values.chunks(ROWS).collect();
-        judged(&passes, step / f64::sqrt(12.0)).map_or(1.0, |found| found.1)
+        judged(&passes, step / f64::sqrt(12.0)).map_or(1.0, |found| found.chance)
     }
 
     /// Of 300 records hardly more fall below a chance than should.
