@@ -40,22 +40,26 @@ pub(crate) const ENGINES: &[Ours] = &[
 
 /// Runs the stimulus on one engine.
 pub(crate) fn run(engine: &Ours, events: &[PinEvent], clocks: u64) -> anyhow::Result<Run> {
-    let mut machine: Box<dyn Engine>;
-    let mut runs = 0.0;
-    let before = processor_seconds()?;
-    let mut seconds;
-    // The system counts by ticks of some milliseconds: a short run is repeated.
-    loop {
-        machine = (engine.make)();
+    let (mut machine, seconds) = repeated(|| {
+        let mut machine = (engine.make)();
         drive(machine.as_mut(), events, clocks);
+        machine
+    })?;
+    Ok(Run { seconds, clocks, state: state_of(machine.as_mut())? })
+}
+
+/// What a run leaves, and its processor time, s. The system counts by ticks of some milliseconds: a short
+/// run is repeated.
+fn repeated<T>(run: impl Fn() -> T) -> anyhow::Result<(T, f64)> {
+    let (mut runs, before) = (0.0, processor_seconds()?);
+    loop {
+        let left = run();
         runs += 1.0;
-        seconds = processor_seconds()? - before;
+        let seconds = processor_seconds()? - before;
         if 0.2 < seconds {
-            break;
+            return Ok((left, seconds / runs));
         }
     }
-    let seconds = seconds / runs;
-    Ok(Run { seconds, clocks, state: state_of(machine.as_mut())? })
 }
 
 /// Every register, in order.
@@ -70,22 +74,16 @@ fn state_of(engine: &mut dyn Engine) -> anyhow::Result<String> {
 /// Runs the stimulus on all lanes alike; the time is that of one lane.
 pub(crate) fn run_lanes(events: &[PinEvent], clocks: u64) -> anyhow::Result<Run> {
     let netlist = device().netlist();
-    let mut lanes = device_lanes();
-    let mut runs = 0.0;
-    let before = processor_seconds()?;
-    let mut seconds = 0.0;
-    // Repeated as above.
-    while seconds < 0.2 {
-        lanes = device_lanes();
+    let (lanes, seconds) = repeated(|| {
+        let mut lanes = device_lanes();
         for event in events.iter().take_while(|event| event.clock < clocks) {
             lanes.run_until(event.clock);
             lanes.set_input(netlist.inputs[event.pin], event.value);
         }
         lanes.run_until(clocks);
-        runs += 1.0;
-        seconds = processor_seconds()? - before;
-    }
-    let seconds = seconds / runs / LANES as f64;
+        lanes
+    })?;
+    let seconds = seconds / LANES as f64;
     // Some lane in the middle; the others are alike.
     anyhow::ensure!(lanes.unlike(300) == [0; LANE_WORDS], "the lanes differ");
     let mut single = Interpreter::new(netlist);

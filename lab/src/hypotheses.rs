@@ -12,6 +12,8 @@ mod grid;
 mod jumps;
 mod likelihood;
 mod local;
+#[cfg(test)]
+mod made_noise;
 mod nonlinearity;
 mod odd_pass;
 mod outliers;

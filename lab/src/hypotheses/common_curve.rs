@@ -10,8 +10,7 @@ use std::ops::Range;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use super::calibration::draw;
-use super::drawn::clearest;
+use super::drawn::{OwnNoise, clearest, surest};
 use super::repeatability::from_turn_to_turn;
 use crate::model::{Fit, Problem};
 use crate::noise::rms;
@@ -25,26 +24,23 @@ use crate::policy::extent::{CELLS_OF_A_CURVE, FEWEST_WAYS, ROWS_A_PART, WHOLE_WA
 #[must_use]
 pub(super) fn common_curve(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
     let of_sensor = |sensor: usize| {
-        let (mut layout, rows) = problem.layout.of_sensor(sensor);
-        layout.inflation = vec![1.0; layout.len()].into();
-        let noise = std::slice::from_ref(&fit.noises[sensor]);
+        let (own, rows) = OwnNoise::of(problem, fit, sensor);
         let left = &fit.left[rows.clone()];
         let courses = courses(problem, sensor, rows.start);
         let alike: Vec<Alike> = courses.iter().map(|course| Alike::of(course, left)).collect();
         let found: Vec<f64> = alike.iter().map(|one| one.share_of(left)).collect();
         let drawn = |seed| {
-            let values = draw(&layout, noise, &mut ChaCha8Rng::seed_from_u64(seed));
+            let values = own.drawn(&mut ChaCha8Rng::seed_from_u64(seed));
             alike.iter().map(|one| surprise(one.share_of(&values))).collect()
         };
         let surprises: Vec<f64> = found.iter().map(|share| surprise(*share)).collect();
         let (place, chance) = clearest(&surprises, drawn)?;
-        let rms_um = rms(&layout, left) * found[place].sqrt();
+        let rms_um = rms(&own.layout, left) * found[place].sqrt();
         (problem.least_variance[sensor] < rms_um * rms_um).then_some((rms_um, chance))
     };
     let sensors = 0..problem.sensors.len();
     let found: Vec<(f64, f64)> = sensors.filter_map(of_sensor).collect();
-    let (rms_um, chance) = found.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
-    Some((*rms_um, (count(found.len()) * chance).min(1.0)))
+    surest(&found)
 }
 
 /// Shares of two curves of chance leave `1 − share` a power law: its logarithm has a tail like that of

@@ -1,10 +1,42 @@
 //! How far figures of a residual stand out of those of noise drawn from its fit.
 
+use std::ops::Range;
+
+use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, Gamma};
 
+use super::calibration::draw;
+use crate::model::{Fit, Problem};
+use crate::noise::{Layout, Noise};
 use crate::numerics::count;
 use crate::policy::chance::{DRAWS, MOST_DRAWS, WORTH_DRAWING};
+
+/// Rows of one sensor, all of one weight, and the noise that was fitted to them.
+pub(super) struct OwnNoise<'a> {
+    pub(super) layout: Layout,
+    pub(super) noise: &'a Noise,
+}
+
+impl<'a> OwnNoise<'a> {
+    /// That of a sensor, and the rows it has in the fit.
+    pub(super) fn of(problem: &Problem, fit: &'a Fit, sensor: usize) -> (Self, Range<usize>) {
+        let (mut layout, rows) = problem.layout.of_sensor(sensor);
+        layout.inflation = vec![1.0; layout.len()].into();
+        (Self { layout, noise: &fit.noises[sensor] }, rows)
+    }
+
+    /// Another draw of it.
+    pub(super) fn drawn(&self, random: &mut ChaCha8Rng) -> Vec<f64> {
+        draw(&self.layout, std::slice::from_ref(self.noise), random)
+    }
+}
+
+/// The surest of some findings with its chance, for which each of them was a look.
+pub(super) fn surest<T: Copy>(found: &[(T, f64)]) -> Option<(T, f64)> {
+    let (one, chance) = found.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some((one, (count(found.len()) * chance).min(1.0)))
+}
 
 /// Which figure stands out most, and the chance that any does so in noise, of which `drawn` gives the
 /// figures by its seed; `None` without any figure.

@@ -15,10 +15,9 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use super::calibration::draw;
-use super::drawn::clearest;
+use super::drawn::{OwnNoise, clearest, surest};
 use crate::model::{Fit, Problem};
-use crate::noise::{Layout, Noise, departures, rms};
+use crate::noise::{departures, rms};
 use crate::numerics::{count, deviation, median};
 use crate::policy::chance::FEWEST_CHANGES;
 use crate::policy::extent::{LONGEST_STRETCH, LOUDNESS_ROWS, SHORTEST_STRETCH};
@@ -56,21 +55,18 @@ pub(super) fn excursions(problem: &Problem, fit: &Fit) -> Option<Excursions> {
     }
     let sensors = 0..problem.sensors.len();
     let of_sensor = |sensor| {
-        let (mut layout, rows) = problem.layout.of_sensor(sensor);
-        layout.inflation = vec![1.0; layout.len()].into();
-        let noise = &fit.noises[sensor];
-        Own { layout, noise, finest: problem.least_variance[sensor] }.clearest(&fit.left[rows])
+        let (own, rows) = OwnNoise::of(problem, fit, sensor);
+        Own { own, finest: problem.least_variance[sensor] }.clearest(&fit.left[rows])
     };
     let found: Vec<(Standing, f64)> = sensors.filter_map(of_sensor).collect();
-    let (standing, chance) = found.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let (standing, p_value) = surest(&found)?;
     let rms_um = rms(&problem.layout, &fit.left) * standing.share.sqrt();
-    Some(Excursions { rms_um, p_value: (count(found.len()) * chance).min(1.0) })
+    Some(Excursions { rms_um, p_value })
 }
 
 /// One sensor.
 struct Own<'a> {
-    layout: Layout,
-    noise: &'a Noise,
+    own: OwnNoise<'a>,
     /// Variance below which its readings are all alike.
     finest: f64,
 }
@@ -81,13 +77,13 @@ impl Own<'_> {
         // Readings on a lattice have many changes of exactly none.
         let mut dither = ChaCha8Rng::seed_from_u64(u64::MAX);
         let left = self.dithered(left, &mut dither);
-        let blocks = self.layout.blocks.iter().map(|block| block.rows.clone());
+        let blocks = self.own.layout.blocks.iter().map(|block| block.rows.clone());
         let passes: Vec<Range<usize>> =
             blocks.filter(|rows| are_readings(&left[rows.clone()], self.finest.sqrt())).collect();
         let out_of = |found: &[Standing]| found.iter().map(|one| one.out).collect::<Vec<_>>();
         let drawn = |seed| {
             let mut chance = ChaCha8Rng::seed_from_u64(seed);
-            let noise = draw(&self.layout, std::slice::from_ref(self.noise), &mut chance);
+            let noise = self.own.drawn(&mut chance);
             out_of(&standing(&passes, &self.dithered(&noise, &mut chance)))
         };
         let found = standing(&passes, &left);
@@ -209,8 +205,9 @@ impl Standing {
 
 #[cfg(test)]
 mod tests {
+    use super::super::made_noise::{held, normal, of_many_lengths, slow};
     use super::*;
-    use crate::noise::{Block, fit_noise};
+    use crate::noise::{Block, Layout, fit_noise};
     use rand_distr::{Exp1, StudentT};
 
     /// Chance of what two passes of 350 rows, read in steps, show under the noise that is fitted to
@@ -223,7 +220,7 @@ mod tests {
             inflation: vec![1.0; values.len()].into(),
         };
         let noise = fit_noise(&layout, values, None).noise;
-        Own { layout, noise: &noise, finest: step * step / 12.0 }
+        Own { own: OwnNoise { layout, noise: &noise }, finest: step * step / 12.0 }
             .clearest(values)
             .map_or(1.0, |found| found.1)
     }
@@ -243,10 +240,6 @@ mod tests {
         }
     }
 
-    fn normal(random: &mut ChaCha8Rng) -> f64 {
-        StandardNormal.sample(random)
-    }
-
     #[test]
     fn noise_has_none() {
         is_calibrated("white", 1.0, |random, _| normal(random));
@@ -259,11 +252,8 @@ mod tests {
 
     #[test]
     fn held_and_interpolated_readings_have_none() {
+        is_calibrated("every fourth", 0.01, held());
         let mut last = [0.0; 2];
-        is_calibrated("every fourth", 0.01, |random, row| {
-            last[0] = if row % 4 == 0 { normal(random) } else { last[0] };
-            last[0]
-        });
         is_calibrated("between every fifth", 0.01, |random, row| {
             last = if row % 5 == 0 { [last[1], normal(random)] } else { last };
             last[0] + (last[1] - last[0]) * count(row % 5) / 5.0
@@ -274,17 +264,8 @@ mod tests {
 
     #[test]
     fn slow_noise_has_none() {
-        let mut last = [0.0; 3];
-        is_calibrated("slow", 1.0, |random, _| {
-            last[0] = 0.95 * last[0] + 0.3 * normal(random);
-            last[0] + normal(random)
-        });
-        is_calibrated("of many lengths", 1.0, |random, _| {
-            for (value, kept) in last.iter_mut().zip([0.5, 0.9, 0.99]) {
-                *value = kept * *value + (1.0_f64 - kept * kept).sqrt() * normal(random);
-            }
-            last.iter().sum()
-        });
+        is_calibrated("slow", 1.0, slow());
+        is_calibrated("of many lengths", 1.0, of_many_lengths());
     }
 
     /// Gusts of six deviations that die away, and levels that switch by five.

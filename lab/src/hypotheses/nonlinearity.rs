@@ -5,24 +5,20 @@
 //! are predicted better by squares and cubes of what was last (Keenan 1985, *A Tukey
 //! nonadditivity-type test for time series nonlinearity*, Biometrika 72:39; Tsay 1986, *Nonlinearity
 //! tests for time series*, Biometrika 73:461). What these add to the weighted sum is held against
-//! Fisher's law.
+//! Fisher's law, and against noise drawn at the same instants.
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
-use super::calibration::draw;
-use super::drawn::clearest;
+use super::drawn::{OwnNoise, clearest, surest};
 use super::excursions::{are_readings, loudness, without_outliers};
 use crate::model::{Fit, Problem};
 use crate::noise::rms;
 use crate::numerics::least_squares;
 use crate::numerics::{count, deviation, mean, median};
-use crate::policy::extent::{LOUDNESS_ROWS, PREDICTED_BY, ROWS_A_LAG};
+use crate::policy::extent::{JUST_BEFORE, LOUDNESS_ROWS, PREDICTED_BY, ROWS_A_LAG};
 use crate::policy::reading::{CLEARLY_LOUDER, FAR_OUT, MOST_DEVIATIONS};
-
-/// Values just before, of which the mean is taken as well.
-const JUST_BEFORE: usize = 4;
 
 /// Root mean square of what is predicted so, µm (arcsec), and the chance of as much in noise; `None`
 /// where a record is too short to tell, or the file says how sure each reading is.
@@ -33,30 +29,26 @@ pub(super) fn nonlinearity(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
     }
     let found = (0..problem.sensors.len()).filter_map(|sensor| of_sensor(problem, fit, sensor));
     let found: Vec<(f64, f64)> = found.collect();
-    let (share, chance) = found.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1))?;
-    let rms_um = rms(&problem.layout, &fit.left) * share.sqrt();
-    Some((rms_um, (count(found.len()) * chance).min(1.0)))
+    let (share, chance) = surest(&found)?;
+    Some((rms(&problem.layout, &fit.left) * share.sqrt(), chance))
 }
 
 /// Share and chance of one sensor. Rows that come unevenly are no linear series, for how far the last
 /// values lie apart says how long ago they were: Fisher's law is held against noise drawn at the same
 /// instants.
 fn of_sensor(problem: &Problem, fit: &Fit, sensor: usize) -> Option<(f64, f64)> {
-    let (mut layout, rows) = problem.layout.of_sensor(sensor);
-    layout.inflation = vec![1.0; layout.len()].into();
+    let (own, rows) = OwnNoise::of(problem, fit, sensor);
     let finest = problem.least_variance[sensor].sqrt();
     let judged_of = |values: &[f64]| {
-        let passes = layout.blocks.iter().map(|block| &values[block.rows.clone()]);
+        let passes = own.layout.blocks.iter().map(|block| &values[block.rows.clone()]);
         judged(&passes.collect::<Vec<_>>(), finest)
     };
     let found = judged_of(&fit.left[rows])?;
-    let by_law = (found.share, found.chance);
     if WORTH_NOISE < found.chance {
-        return Some(by_law);
+        return Some((found.share, found.chance));
     }
     let drawn = |seed| {
-        let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let noise = draw(&layout, std::slice::from_ref(&fit.noises[sensor]), &mut random);
+        let noise = own.drawn(&mut ChaCha8Rng::seed_from_u64(seed));
         vec![judged_of(&noise).map_or(0.0, |one| one.root)]
     };
     let (_, chance) = clearest(&[found.root], drawn)?;
@@ -139,7 +131,8 @@ impl Rows {
             let [near, all] =
                 [JUST_BEFORE, PREDICTED_BY].map(|n| mean(&before[PREDICTED_BY - n..]));
             let powers = [last, near, all].into_iter().flat_map(|one| [one * one, one * one * one]);
-            let weighed = |value: f64| value * weight(row);
+            let weight = weight(row);
+            let weighed = |value: f64| value * weight;
             self.next.push(weighed(*next));
             push(&mut self.linear, before.iter().copied().chain([1.0]).map(weighed));
             push(&mut self.powers, powers.chain([last * all]).map(weighed));
@@ -159,15 +152,12 @@ fn push(columns: &mut Vec<Vec<f64>>, values: impl Iterator<Item = f64>) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::made_noise::{held, normal, of_many_lengths, slow};
     use super::*;
-    use rand_distr::{Distribution, Exp1, StandardNormal, StudentT};
+    use rand_distr::{Distribution, Exp1, StudentT};
 
     /// Rows of a pass.
     const ROWS: usize = 350;
-
-    fn normal(random: &mut ChaCha8Rng) -> f64 {
-        StandardNormal.sample(random)
-    }
 
     /// Chance of two passes, read in steps.
     fn chance_of(values: &[f64], step: f64) -> f64 {
@@ -203,17 +193,8 @@ mod tests {
 
     #[test]
     fn slow_noise_has_none() {
-        let mut last = [0.0; 3];
-        is_calibrated("slow", 0.01, |random, _| {
-            last[0] = 0.95 * last[0] + 0.3 * normal(random);
-            last[0] + normal(random)
-        });
-        is_calibrated("of many lengths", 0.01, |random, _| {
-            for (value, kept) in last.iter_mut().zip([0.5, 0.9, 0.99]) {
-                *value = kept * *value + (1.0_f64 - kept * kept).sqrt() * normal(random);
-            }
-            last.iter().sum()
-        });
+        is_calibrated("slow", 0.01, slow());
+        is_calibrated("of many lengths", 0.01, of_many_lengths());
         let mut walk = 0.0;
         is_calibrated("by steps of long tails", 0.01, |random, _| {
             let step: f64 = StudentT::new(4.0).unwrap().sample(random);
@@ -224,11 +205,7 @@ mod tests {
 
     #[test]
     fn held_and_rounded_readings_have_none() {
-        let mut held = 0.0;
-        is_calibrated("every fourth", 0.01, |random, row| {
-            held = if row % 4 == 0 { normal(random) } else { held };
-            held
-        });
+        is_calibrated("every fourth", 0.01, held());
         let rounded =
             |value: f64, row| if row < ROWS { 2.0 * (value / 2.0).round() } else { value };
         is_calibrated("one pass rounded", 0.01, |random, row| rounded(normal(random), row));

@@ -9,6 +9,7 @@ use std::ops::Range;
 
 use statrs::distribution::{Binomial, DiscreteCDF, Poisson};
 
+use super::drawn::surest;
 use super::excursions::are_readings;
 use crate::model::{Fit, Problem};
 use crate::noise::departures;
@@ -56,13 +57,9 @@ pub(super) fn outliers(problem: &Problem, fit: &Fit) -> Option<Outliers> {
         (Company::Angle(order), at_one_angle),
         (Company::Place, at_places(problem, &passes)),
     ];
-    let (company, chance) = all.into_iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let (company, p_value) = surest(&all)?;
     let square: f64 = passes.iter().map(|pass| pass.square).sum();
-    Some(Outliers {
-        company,
-        rms_um: (square / count(problem.samples.len())).sqrt(),
-        p_value: (count(all.len()) * chance).min(1.0),
-    })
+    Some(Outliers { company, rms_um: (square / count(problem.samples.len())).sqrt(), p_value })
 }
 
 /// A pass of one sensor.
@@ -178,17 +175,14 @@ fn at_places(problem: &Problem, passes: &[Pass]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::made_noise::normal;
     use super::*;
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
-    use rand_distr::{Distribution, StandardNormal, StudentT};
+    use rand_distr::{Distribution, StudentT};
 
     /// Rows of a pass.
     const ROWS: usize = 400;
-
-    fn normal(random: &mut ChaCha8Rng) -> f64 {
-        StandardNormal.sample(random)
-    }
 
     /// Two passes with some noise.
     fn passes(seed: u64, noise: impl Fn(&mut ChaCha8Rng, usize) -> f64) -> Vec<Pass> {

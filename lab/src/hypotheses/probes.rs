@@ -306,16 +306,14 @@ fn predicted(problem: &Problem, model: &Columns, fit: &Fit) -> Option<Structure>
 /// Outliers that do not come by chance.
 fn standing_apart(problem: &Problem, fit: &Fit) -> Option<Structure> {
     let found = outliers(problem, fit)?;
-    let (along, how) = match found.company {
-        Company::Rows => ("time", "several together"),
-        Company::Angle(_) => ("spindle order", "at one angle"),
-        Company::Place => ("position", "where the last pass has one"),
+    let (along, how, at) = match found.company {
+        Company::Rows => ("time", "several together", None),
+        Company::Angle(order) => ("spindle order", "at one angle", Some(order)),
+        Company::Place => ("position", "where the last pass has one", None),
     };
     let shape = format!("samples far from their neighbours, {how}");
     let p_value = of_all(problem, found.p_value);
-    let told = Structure::without_place(along, &shape, found.rms_um, p_value);
-    let order = if let Company::Angle(order) = found.company { Some(order) } else { None };
-    Some(Structure { at: order, ..told })
+    Some(Structure { at, ..Structure::without_place(along, &shape, found.rms_um, p_value) })
 }
 
 /// Creep one way and jumps back, as stick and slip leave them.

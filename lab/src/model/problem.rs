@@ -43,7 +43,9 @@ pub struct Problem {
     /// Effects of the user's own to be tried beside the catalogue.
     pub extra: Vec<Term>,
     /// See [`Self::highest_order`]; most problems are laid out to be compared, and never ask.
-    pub(crate) highest: OnceLock<Highest>,
+    pub(crate) highest_order: OnceLock<f64>,
+    /// See [`Self::highest_hz`].
+    pub(crate) highest_hz: OnceLock<f64>,
     /// Columns of effects on these samples; they depend on the machine and the record alone.
     pub(crate) designs: Designs,
     /// See [`Self::velocity_rpm`], which asks the record once.
@@ -52,13 +54,6 @@ pub struct Problem {
     pub(crate) hunting_um: f64,
     /// What belongs to no effect and every model may follow: see [`Self::with_targets_free`].
     pub(crate) free: Columns,
-}
-
-/// What the samples resolve.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Highest {
-    order: f64,
-    hertz: f64,
 }
 
 impl Problem {
@@ -74,22 +69,15 @@ impl Problem {
     /// Highest order of the spindle that the samples resolve.
     #[must_use]
     pub fn highest_order(&self) -> f64 {
-        self.highest().order
+        *self
+            .highest_order
+            .get_or_init(|| highest_frequency(&self.record.turns().collect::<Vec<_>>()))
     }
 
     /// Highest frequency in time that the samples resolve, Hz.
     #[must_use]
     pub(crate) fn highest_hz(&self) -> f64 {
-        self.highest().hertz
-    }
-
-    fn highest(&self) -> &Highest {
-        // One after the other: a thread that waits for its half might be given a task that asks for
-        // this as well, and wait for itself.
-        self.highest.get_or_init(|| Highest {
-            order: highest_frequency(&self.record.turns().collect::<Vec<_>>()),
-            hertz: highest_frequency(&self.record.time_s),
-        })
+        *self.highest_hz.get_or_init(|| highest_frequency(&self.record.time_s))
     }
 
     /// Turns of the spindle a minute at every sample, negative backwards; `None` where time was not
@@ -152,7 +140,8 @@ impl Problem {
             least_variance: Vec::new(),
             predicted: Column::default(),
             extra: Vec::new(),
-            highest: OnceLock::new(),
+            highest_order: OnceLock::new(),
+            highest_hz: OnceLock::new(),
             designs: Designs::default(),
             velocity_rpm: OnceLock::new(),
             hunting_um: 0.0,

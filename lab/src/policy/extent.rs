@@ -309,7 +309,12 @@ pub(crate) const REVERSED_STRETCHES: [usize; 5] = [1, 2, 4, 8, 16];
 /// told with eight, 23 with six or twelve. Doubled: passes of fewer than thirty rows say nothing.
 pub(crate) const PREDICTED_BY: usize = 8;
 
-/// Rows that each of them needs.
+/// Of these, the last, of which the mean predicts as well.
+///
+/// Chosen: half of them. Doubled: the mean of all eight, once more.
+pub(crate) const JUST_BEFORE: usize = 4;
+
+/// Rows that each of [`PREDICTED_BY`] needs.
 ///
 /// Chosen. Doubled: a record of 150 rows says nothing.
 pub(crate) const ROWS_A_LAG: usize = 10;
