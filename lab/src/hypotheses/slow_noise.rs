@@ -5,7 +5,7 @@
 
 use super::probes::Structure;
 use crate::model::{Fit, Judged, Problem, State};
-use crate::noise::{effective_samples, rms, weighed_rms};
+use crate::noise::{Layout, Noise, effective_samples, is_surely_slow, rms, weighed_rms};
 use crate::numerics::count;
 use crate::policy::chance::{NO_CHANCE, NO_CHANCE_BESIDE};
 use crate::policy::size::{
@@ -20,7 +20,7 @@ pub(crate) fn taken_for_noise(
     fit: &Fit,
     all: &[Structure],
 ) -> Option<Structure> {
-    let worth = samples_a_pass(problem, fit);
+    let worth = samples_a_slow_pass(problem, fit);
     if WORTH_A_PASS <= worth {
         return None;
     }
@@ -46,7 +46,7 @@ pub(crate) fn no_all_clear(
     if is_beside || !left.is_empty() {
         return None;
     }
-    let worth = samples_a_pass(problem, &state.fit);
+    let worth = samples_a_slow_pass(problem, &state.fit);
     (worth < WORTH_AN_ALL_CLEAR).then(|| slow(problem, &state.fit, "a slow cause"))
 }
 
@@ -60,7 +60,7 @@ pub(crate) fn slow_without(
     tried: &[Judged],
 ) -> Option<Structure> {
     let fit = &state.fit;
-    let least = SWIFT_WITH_IT * samples_a_pass(problem, fit);
+    let least = SWIFT_WITH_IT * samples_a_slow_pass(problem, fit);
     let limit = if state.components.is_empty() { NO_CHANCE } else { NO_CHANCE_BESIDE };
     let is_new = |judged: &&Judged| {
         let name = &judged.component.term.name;
@@ -83,9 +83,22 @@ fn slow(problem: &Problem, fit: &Fit, cause: &str) -> Structure {
 /// Independent samples that a pass is worth about its mean, of the sensor that has the fewest.
 #[must_use]
 pub(crate) fn samples_a_pass(problem: &Problem, fit: &Fit) -> f64 {
+    (0..problem.sensors.len())
+        .map(|sensor| worth_of(&problem.layout.of_sensor(sensor).0, &fit.noises[sensor]))
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// The same of the sensors whose noise is slow beyond chance, infinite without one.
+fn samples_a_slow_pass(problem: &Problem, fit: &Fit) -> f64 {
     let of_sensor = |sensor: usize| {
-        let (layout, _) = problem.layout.of_sensor(sensor);
-        effective_samples(&layout, &fit.noises[sensor]) / count(layout.blocks.len().max(1))
+        let (layout, rows) = problem.layout.of_sensor(sensor);
+        let noise = &fit.noises[sensor];
+        let is_slow = is_surely_slow(&layout, &fit.left[rows], noise);
+        is_slow.then(|| worth_of(&layout, noise))
     };
-    (0..problem.sensors.len()).map(of_sensor).fold(f64::INFINITY, f64::min)
+    (0..problem.sensors.len()).filter_map(of_sensor).fold(f64::INFINITY, f64::min)
+}
+
+fn worth_of(layout: &Layout, noise: &Noise) -> f64 {
+    effective_samples(layout, noise) / count(layout.blocks.len().max(1))
 }

@@ -47,7 +47,7 @@ pub(crate) fn fit_noise(layout: &Layout, residual: &[f64], warm: Option<&Noise>)
         return adjusted(layout, residual, warm);
     }
     let white = profile(layout, residual, &Noise::white());
-    let price = libm::log(count(layout.len()).max(2.0));
+    let price = price_of_a_part(layout);
     let span = longest_block(layout).max(2.0);
     let one = one_part(layout, residual, span);
     if one.log_likelihood <= white.log_likelihood + price {
@@ -55,6 +55,19 @@ pub(crate) fn fit_noise(layout: &Layout, residual: &[f64], warm: Option<&Noise>)
     }
     let two = two_parts(layout, residual, &one.noise, span);
     if one.log_likelihood + price < two.log_likelihood { two } else { one }
+}
+
+/// True where a noise is likelier than white noise by the price of a slow part: a few samples of white noise
+/// draw a slow one as well by chance.
+#[must_use]
+pub(crate) fn is_surely_slow(layout: &Layout, residual: &[f64], noise: &Noise) -> bool {
+    let [white, slow] = [&Noise::white(), noise].map(|shape| profile(layout, residual, shape));
+    white.log_likelihood + price_of_a_part(layout) < slow.log_likelihood
+}
+
+/// What two parameters must add to the log likelihood, by the Bayesian information criterion.
+fn price_of_a_part(layout: &Layout) -> f64 {
+    libm::log(count(layout.len()).max(2.0))
 }
 
 fn adjusted(layout: &Layout, residual: &[f64], warm: &Noise) -> NoiseFit {
