@@ -79,6 +79,7 @@ mod shapes_over_logs;
 mod shards;
 mod simulation;
 mod slow_causes;
+mod small_tables;
 mod standard_wave;
 mod step_clock;
 mod step_driver;

@@ -208,9 +208,10 @@ fn counted(stage: &Stage<'_>, component: Component) -> Option<(Component, f64)> 
         held.whole[column] = Some(whole);
         let raw = Columns::of(stage.problem, std::slice::from_ref(&held)).ok()?.raw;
         let unit_um = spread(raw.get(column)?).max(1e-6);
-        // The Bayesian price of one coefficient is √n; a whole number costs its alternatives.
+        // The Bayesian price of one coefficient is √n; a whole number costs its alternatives, and no
+        // more than a coefficient that need not be whole.
         let rows = count(stage.problem.samples.len()).max(3.0);
-        choices *= (2.0 * LARGEST_STEP_UM / unit_um).max(1.0) / rows.sqrt();
+        choices *= ((2.0 * LARGEST_STEP_UM / unit_um).max(1.0) / rows.sqrt()).min(1.0);
     }
     Some((held, choices))
 }

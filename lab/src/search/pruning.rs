@@ -132,9 +132,37 @@ fn counting(problem: &Problem, state: State) -> (State, Vec<Dropped>) {
     (fewer, dropped.collect())
 }
 
-/// Places of the effects whose count is no whole number when all counts of a model are left free,
-/// and what it is.
+/// Places of the effects whose count is no whole number, and what it is.
 pub(super) fn no_counts(problem: &Problem, state: &State) -> Vec<(usize, String)> {
+    let mut counts = counts(problem, state);
+    counts.retain(|one| one.slack() < (one.found - one.whole).abs());
+    let reason = |one: &Count| format!("no whole number: {:.3} ± {:.3}", one.found, one.stderr);
+    counts.iter().map(|one| (one.index, reason(one))).collect()
+}
+
+/// How many of something an effect counts, and what is found when all counts of a model are left free.
+pub(super) struct Count {
+    /// Place of the effect.
+    pub(super) index: usize,
+    whole: f64,
+    found: f64,
+    stderr: f64,
+}
+
+impl Count {
+    /// How far from whole it may be found.
+    fn slack(&self) -> f64 {
+        EXACT_STANDARD_ERRORS * self.stderr + WHOLE
+    }
+
+    /// True where any number would pass for whole.
+    pub(super) fn is_of_any_size(&self) -> bool {
+        0.5 <= self.slack()
+    }
+}
+
+/// The counts of a model.
+pub(super) fn counts(problem: &Problem, state: &State) -> Vec<Count> {
     let is_counted = |one: &Component| one.whole.iter().any(Option::is_some);
     if !state.components.iter().any(is_counted) {
         return Vec::new();
@@ -151,9 +179,7 @@ pub(super) fn no_counts(problem: &Problem, state: &State) -> Vec<(usize, String)
         let in_use = free.components[index].kept[..column].iter().filter(|kept| **kept).count();
         let (used, from) = free.coefficients(index);
         let stderr = covariance[(from + in_use, from + in_use)].max(0.0).sqrt();
-        let (found, whole) = (*used.get(in_use)?, held[column]?);
-        (EXACT_STANDARD_ERRORS * stderr + WHOLE < (found - whole).abs())
-            .then(|| (index, format!("no whole number: {found:.3} ± {stderr:.3}")))
+        Some(Count { index, whole: held[column]?, found: *used.get(in_use)?, stderr })
     };
     (0..state.components.len()).filter_map(of).collect()
 }

@@ -3,6 +3,7 @@
 use super::acceptance::plausible;
 use super::analysis::tried;
 use super::likeness::{by_physics, far_fetched};
+use super::pruning::counts;
 use crate::model::{Columns, Component, Judged, Problem, State, pattern, settle};
 use crate::noise::Whitener;
 use crate::numerics::least_squares;
@@ -20,11 +21,15 @@ pub(crate) struct Rivals {
     pub(crate) confused: Vec<String>,
 }
 
+/// What a count cannot be told from whose whole numbers lie closer than the data tell apart.
+const JUMP: &str = "jump of any size";
+
 /// Rivals of every component of a model, given the others.
 ///
 /// `first` are the effects tried on the bare model; they save the work for a single effect.
 #[must_use]
 pub(crate) fn rivals(problem: &Problem, state: &State, first: &[Judged]) -> Vec<Rivals> {
+    let counts = counts(problem, state);
     (0..state.components.len())
         .map(|index| {
             let tried = if state.components.len() == 1 {
@@ -37,6 +42,9 @@ pub(crate) fn rivals(problem: &Problem, state: &State, first: &[Judged]) -> Vec<
                 if !confused.contains(&name) {
                     confused.push(name);
                 }
+            }
+            if counts.iter().any(|count| count.index == index && count.is_of_any_size()) {
+                confused.push(JUMP.to_owned());
             }
             Rivals { index, tried, confused }
         })

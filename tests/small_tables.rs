@@ -1,0 +1,39 @@
+//! What a table of a few targets can tell, and what it cannot.
+
+use helixlock_lab::{Diagnosis, Verdict};
+
+use crate::support::diagnosed::{diagnosed, names};
+use crate::support::passes::white;
+
+/// Runs over targets 20 mm apart, 15 s after each other; the error, µm, of a time, s.
+fn runs(count: u32, targets: u32, mut error_um: impl FnMut(f64) -> f64) -> Diagnosis {
+    let mut columns = ["pass", "time_s", "position_mm", "error_um"].map(|name| (name, Vec::new()));
+    for visit in 0..count * targets {
+        let time_s = 15.0 * f64::from(visit);
+        let place = [f64::from(visit / targets), time_s, 20.0 * f64::from(visit % targets)];
+        let row = place.into_iter().chain([error_um(time_s)]);
+        columns.iter_mut().zip(row).for_each(|((_, values), value)| values.push(value));
+    }
+    diagnosed(columns.into())
+}
+
+/// White noise draws slow noise of three samples a run one time in three; hardly any of it is beyond chance.
+#[test]
+fn white_noise_of_few_targets_is_no_slow_noise() {
+    let is_clear = |seed: &u64| {
+        let mut noise = white(*seed, 0.1);
+        runs(10, 3, |_| noise()).verdict == Verdict::NothingMissing
+    };
+    let clear = (0..24).filter(is_clear).count();
+    assert!(23 <= clear, "{clear} of 24");
+}
+
+/// Eight lines of 0.575 µm lost half way: some whole number is near any step that is known to a fifth of a line.
+#[test]
+fn a_count_that_any_step_would_fit_is_not_sure() {
+    for (noise_um, verdict) in [(0.05, Verdict::Explained), (0.4, Verdict::Ambiguous)] {
+        let mut noise = white(3, noise_um);
+        let found = runs(1, 40, |t| noise() + if t < 293.0 { 0.0 } else { 8.0 * 8000.0 / 13906.0 });
+        assert_eq!((names(&found), found.verdict), (vec!["grating-slip"], verdict), "{noise_um}");
+    }
+}
