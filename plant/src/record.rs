@@ -162,6 +162,8 @@ pub struct Record {
     pub travelled_mm: Column,
     /// Way since the last reversal inside the pass, mm; infinite before the first.
     pub since_reversal_mm: Column,
+    /// Turns over time from the sample before to the one behind, rpm; see [`Self::velocities_rpm`].
+    pub(crate) velocity_rpm: Column,
     /// What the meter would show without the effects that depend on it, µm; zeros until set.
     pub error_um: Column,
     /// Names behind the covariates.
@@ -196,7 +198,7 @@ impl Record {
             spindle_rad: self.spindle_rad[index],
             speed_rpm: self.speed_rpm[index],
             direction: self.direction[index],
-            velocity_rpm: self.velocity_rpm(index),
+            velocity_rpm: self.velocity_rpm[index],
             pass: self.pass[index],
             travelled_mm: self.travelled_mm[index],
             since_reversal_mm: self.since_reversal_mm[index],
@@ -212,7 +214,7 @@ impl Record {
         let (time_s, position_mm) = (&self.time_s[..rows], &self.position_mm[..rows]);
         let (spindle_rad, speed_rpm) = (&self.spindle_rad[..rows], &self.speed_rpm[..rows]);
         let (direction, pass) = (&self.direction[..rows], &self.pass[..rows]);
-        let travelled_mm = &self.travelled_mm[..rows];
+        let (travelled_mm, velocity_rpm) = (&self.travelled_mm[..rows], &self.velocity_rpm[..rows]);
         let since_reversal_mm = &self.since_reversal_mm[..rows];
         let error_um = &self.error_um[..rows];
         (0..rows).map(move |row| Instant {
@@ -221,7 +223,7 @@ impl Record {
             spindle_rad: spindle_rad[row],
             speed_rpm: speed_rpm[row],
             direction: direction[row],
-            velocity_rpm: self.velocity_rpm(row),
+            velocity_rpm: velocity_rpm[row],
             pass: pass[row],
             travelled_mm: travelled_mm[row],
             since_reversal_mm: since_reversal_mm[row],
@@ -231,14 +233,17 @@ impl Record {
     }
 
     /// Turns over time from the sample before to the one behind, as far as they are of its pass; 0
-    /// where no time passes between them.
-    fn velocity_rpm(&self, row: usize) -> f64 {
-        let is_own = |other: &usize| self.pass.get(*other) == Some(&self.pass[row]);
-        let before = row.checked_sub(1).filter(is_own).unwrap_or(row);
-        let behind = Some(row + 1).filter(is_own).unwrap_or(row);
-        let elapsed_s = self.time_s[behind] - self.time_s[before];
-        let turns = (self.spindle_rad[behind] - self.spindle_rad[before]) / TAU;
-        if 0.0 < elapsed_s { 60.0 * turns / elapsed_s } else { 0.0 }
+    /// where no time passes between them. Many effects ask for what few use: it is worked out once.
+    pub(crate) fn velocities_rpm(&self) -> Column {
+        let of = |row: usize| {
+            let is_own = |other: &usize| self.pass.get(*other) == Some(&self.pass[row]);
+            let before = row.checked_sub(1).filter(is_own).unwrap_or(row);
+            let behind = Some(row + 1).filter(is_own).unwrap_or(row);
+            let elapsed_s = self.time_s[behind] - self.time_s[before];
+            let turns = (self.spindle_rad[behind] - self.spindle_rad[before]) / TAU;
+            if 0.0 < elapsed_s { 60.0 * turns / elapsed_s } else { 0.0 }
+        };
+        (0..self.len()).map(of).collect()
     }
 
     /// Logged quantities of one sample.

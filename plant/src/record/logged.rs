@@ -49,6 +49,14 @@ pub struct Setting {
     pub range: RangeInclusive<f64>,
 }
 
+impl Setting {
+    /// True for a quantity whose sign is a convention: it goes as far either way.
+    #[must_use]
+    pub fn has_either_sign(&self) -> bool {
+        (self.range.start() + self.range.end()).abs() <= 0.0
+    }
+}
+
 /// Where a rounded quantity changes so steadily that a curve goes through its steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bridging {

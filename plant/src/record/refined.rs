@@ -58,7 +58,7 @@ impl Record {
         };
         let kept =
             |values: &Column| -> Column { places.iter().map(|&(row, _)| values[row]).collect() };
-        Self {
+        let mut record = Self {
             time_s: straight(&self.time_s),
             position_mm: straight(&self.position_mm),
             spindle_rad: straight(&self.spindle_rad),
@@ -67,10 +67,13 @@ impl Record {
             pass: places.iter().map(|&(row, _)| self.pass[row]).collect(),
             travelled_mm: straight(&self.travelled_mm),
             since_reversal_mm: straight(&self.since_reversal_mm),
+            velocity_rpm: Column::default(),
             error_um: straight(&self.error_um),
             columns: self.columns.clone(),
             covariates: self.covariates_between(places),
-        }
+        };
+        record.velocity_rpm = record.velocities_rpm();
+        record
     }
 
     fn covariates_between(&self, places: &[(usize, f64)]) -> Column {
