@@ -51,6 +51,7 @@ mod lockstep;
 mod logic_analyser;
 mod make_sim;
 mod metrology;
+mod mistakes_beside_effects;
 mod next;
 mod not_finite;
 mod odd_machines;

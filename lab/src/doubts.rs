@@ -27,6 +27,7 @@ use crate::policy::extent::SEARCHED_ROWS;
 use court::Court;
 pub use dividers::divider_doubt;
 pub use doubt::Doubt;
+pub(crate) use doubt::Suspect;
 use hypothesis::Hypothesis;
 
 /// Most mistakes in one file: each is looked for with the others mended.
@@ -37,12 +38,18 @@ const MOST: usize = 3;
 /// The largest evidence comes first. Looks at no more than a few thousand rows.
 #[must_use]
 pub fn doubts(problem: &Problem) -> Vec<Doubt> {
+    doubts_and_suspects(problem).0
+}
+
+/// The same, and where nothing is doubted, what may yet be a mistake.
+#[must_use]
+pub(crate) fn doubts_and_suspects(problem: &Problem) -> (Vec<Doubt>, Vec<Suspect>) {
     if let Some(doubt) = along::runs_along(problem) {
-        return vec![doubt];
+        return (vec![doubt], Vec::new());
     }
     let contradicting = contradicting(problem);
     if !contradicting.is_empty() {
-        return contradicting;
+        return (contradicting, Vec::new());
     }
     let small = problem.thinned(SEARCHED_ROWS);
     // Laid out anew, so that a mend changes nothing but what it mends.
@@ -51,14 +58,13 @@ pub fn doubts(problem: &Problem) -> Vec<Doubt> {
     let mut doubts: Vec<Doubt> = Vec::new();
     while doubts.len() < MOST {
         let all = hypotheses(&now);
-        let Some((one, mended)) = Court::of(&now, all.len()).judged(all) else { break };
-        if doubts.iter().any(|other| other.mend == one.mend) {
-            break;
-        }
-        doubts.push(one);
-        now = mended;
+        let (mistake, suspects) = Court::of(&now, all.len()).judged(all);
+        let is_new = |one: &Hypothesis| doubts.iter().all(|other| other.mend != one.mend);
+        let Some(one) = mistake.filter(is_new) else { return (doubts, suspects) };
+        doubts.push(one.doubt());
+        now = one.mended;
     }
-    doubts
+    (doubts, Vec::new())
 }
 
 /// What contradicts itself, whatever effects fit; the rest is told only when that is mended.
@@ -70,6 +76,7 @@ fn contradicting(problem: &Problem) -> Vec<Doubt> {
 
 fn hypotheses(problem: &Problem) -> Vec<Hypothesis> {
     let mut all = column::units(problem);
+    all.extend(column::signs(problem));
     all.extend(swap::swaps(problem));
     all.extend(shift::shifts(problem));
     all.extend(dividers::other_dividers(problem));

@@ -11,6 +11,7 @@ mod polish;
 mod pruning;
 mod refusal;
 mod rivals;
+mod suspected;
 mod uneven;
 
 pub(crate) use analysis::{Step, search, take_for_a_shape};
@@ -21,3 +22,4 @@ pub(crate) use polish::polished;
 pub(crate) use pruning::{Dropped, pruned, pruned_in_doubt};
 pub(crate) use refusal::Refusal;
 pub(crate) use rivals::{Rivals, rivals};
+pub(crate) use suspected::suspected;

@@ -6,7 +6,7 @@ use helixlock_plant::{Role, Search, Term};
 use rayon::prelude::*;
 
 use super::experiment::{self, Advice};
-use crate::doubts::{Doubt, doubts};
+use crate::doubts::{Doubt, Suspect, doubts_and_suspects};
 use crate::hypotheses::{
     Likelihood, Structure, at_targets, disagreements, is_left, no_all_clear, no_larger_than,
     samples_a_pass, slow_without, structures,
@@ -21,7 +21,7 @@ use crate::policy::chance::{AT_AN_END, STANDARD_ERRORS};
 use crate::policy::extent::SEARCHED_ROWS;
 use crate::search::{
     Dropped, Refusal, Rivals, Step, hear, nobodys, not_told, own_errors, polished, pruned,
-    pruned_in_doubt, rivals, search, take_for_a_shape,
+    pruned_in_doubt, rivals, search, suspected, take_for_a_shape,
 };
 
 /// What can be said about a model and a measurement.
@@ -152,8 +152,8 @@ pub struct Diagnosis {
 /// scatter that means hide.
 #[must_use]
 pub fn diagnose(problem: &Problem) -> Diagnosis {
-    let doubts = doubts(problem);
-    if doubts.is_empty() { searched(problem) } else { doubtful(problem, doubts) }
+    let (doubts, suspects) = doubts_and_suspects(problem);
+    if doubts.is_empty() { searched(problem, &suspects) } else { doubtful(problem, doubts) }
 }
 
 /// The diagnosis of mistaken input: the model as it is, and nothing added.
@@ -174,7 +174,17 @@ fn doubtful(problem: &Problem, doubts: Vec<Doubt>) -> Diagnosis {
     }
 }
 
-fn searched(problem: &Problem) -> Diagnosis {
+/// What a search has found, on few rows and on all.
+struct Searched {
+    small: Problem,
+    problem: Problem,
+    steps: Vec<Step>,
+    states: Vec<State>,
+    /// What targets show at every visit and no effect explains.
+    of_targets: Option<Structure>,
+}
+
+fn search_on_all_rows(problem: &Problem) -> Searched {
     let mut small = problem.thinned(SEARCHED_ROWS).unwrap_or_else(|| problem.clone());
     let mut steps = search(&mut small);
     let of_targets =
@@ -194,16 +204,26 @@ fn searched(problem: &Problem) -> Diagnosis {
         steps.push(step);
         states.push(state);
     }
+    Searched { small, problem, steps, states, of_targets }
+}
+
+fn searched(problem: &Problem, suspects: &[Suspect]) -> Diagnosis {
+    let Searched { small, problem, mut steps, mut states, of_targets } =
+        search_on_all_rows(problem);
     let last = &steps[steps.len() - 1].state;
     let mut found = rivals(&small, last, &steps[0].tried);
     let mut residual = structures(&small, &last.columns, &last.fit);
     let heard = hear(&small, last, &found);
+    let suspected = suspected(&small, last, &found, suspects);
+    if let Some(doubt) = suspected.doubt {
+        return doubtful(&problem, vec![doubt]);
+    }
     residual.extend(nobodys(&small, &steps));
     if residual.is_empty() {
         residual.extend(slow_without(&small, last, tried_beside(&steps)));
     }
     residual.extend(disagreements(&small, last));
-    confuse(&mut found, heard.witnesses);
+    confuse(&mut found, heard.witnesses.into_iter().chain(suspected.witnesses));
     let problems = (&problem, &small);
     if let Some(winner) = heard.winner {
         found = take_out(problems, (&mut steps, &mut states), (&winner.beaten, BEATEN), found);
@@ -246,7 +266,7 @@ fn tried_beside(steps: &[Step]) -> &[Judged] {
 }
 
 /// Adds what rivals effects without beating them.
-fn confuse(found: &mut [Rivals], witnesses: Vec<(usize, String)>) {
+fn confuse(found: &mut [Rivals], witnesses: impl Iterator<Item = (usize, String)>) {
     for (index, witness) in witnesses {
         if let Some(rivals) = found.iter_mut().find(|rivals| rivals.index == index) {
             rivals.confused.push(witness);

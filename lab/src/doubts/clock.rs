@@ -9,6 +9,10 @@ use crate::measurement::Measurement;
 use crate::numerics::median;
 use crate::policy::mistakes::{A_ROW_AT_A_UNIT, AT_A_UNIT};
 
+/// Rows from one to the next that a speed is read from: neighbours, and those so far apart that a clock
+/// which is rounded in another unit tells them.
+const ROWS_APART: [usize; 2] = [1, 16];
+
 /// The doubt, where the table moves faster or slower than its speed by the factor of a unit of time.
 ///
 /// Where the axis dwells, or the speed is nominal only, another factor would come out, and no one
@@ -17,8 +21,13 @@ pub(super) fn contradicted(measurement: &Measurement, machine: &Machine) -> Opti
     if !measurement.timed || follows_from_clock(measurement, machine) {
         return None;
     }
-    let ratios = ratios(measurement, machine);
-    let usual = median(&mut ratios.clone());
+    ROWS_APART
+        .iter()
+        .find_map(|apart| by_ratios(measurement, machine, &ratios(measurement, machine, *apart)))
+}
+
+fn by_ratios(measurement: &Measurement, machine: &Machine, ratios: &[f64]) -> Option<Doubt> {
+    let usual = median(&mut ratios.to_vec());
     let off = |factor: f64| move |ratio: f64| libm::log(ratio / factor).abs();
     let is_at = |unit: &&&HeaderUnit| off(unit.1)(usual) < AT_A_UNIT;
     let units = others(LoggedColumn::named("time_s")?);
@@ -31,11 +40,13 @@ pub(super) fn contradicted(measurement: &Measurement, machine: &Machine) -> Opti
     Some(Doubt { what: "unit", evidence: said_by(so), says, mend })
 }
 
-/// Speed by travel and clock over the speed told, by its column or the machine file, row by row.
-fn ratios(measurement: &Measurement, machine: &Machine) -> Vec<f64> {
+/// Speed by travel and clock over the speed told, by its column or the machine file, from every so
+/// many rows to the next.
+fn ratios(measurement: &Measurement, machine: &Machine, apart: usize) -> Vec<f64> {
     let nominal = machine.spindle.speed_rpm;
     let ratio = |(row, rpm): (usize, f64)| rpm / measurement.told_rpm(row, nominal);
-    measurement.clocked().map(ratio).filter(|ratio| ratio.is_finite() && 0.0 < *ratio).collect()
+    let all = measurement.clocked(apart).map(ratio);
+    all.filter(|ratio| ratio.is_finite() && 0.0 < *ratio).collect()
 }
 
 /// True when the travel in another unit would be nearer to the workpiece's: then it is that.

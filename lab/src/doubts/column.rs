@@ -1,7 +1,7 @@
 //! Units of logged columns and of the coordinates.
 
 use helixlock_plant::{
-    CATALOGUE, Card, Columns, HeaderUnit, LOGGED_COLUMNS, LoggedColumn, Role, Term,
+    CATALOGUE, Card, Columns, HeaderUnit, LOGGED_COLUMNS, LoggedColumn, Role, Setting, Term,
 };
 
 use super::doubt::recipe;
@@ -9,6 +9,8 @@ use super::hypothesis::Hypothesis;
 use super::law::follows_from_clock;
 use crate::measurement::Measurement;
 use crate::model::Problem;
+
+const POSITION: &str = "position_mm";
 
 /// Every unit that a column of the data may have been written in.
 pub(super) fn units(problem: &Problem) -> Vec<Hypothesis> {
@@ -18,6 +20,25 @@ pub(super) fn units(problem: &Problem) -> Vec<Hypothesis> {
         others.into_iter().flat_map(move |unit| hypotheses(problem, column, unit))
     };
     logged.flat_map(of).collect()
+}
+
+/// Columns whose sign is a convention and may be the other one.
+pub(super) fn signs(problem: &Problem) -> Vec<Hypothesis> {
+    let logged = LOGGED_COLUMNS.iter().filter(|column| is_there(problem, column));
+    let of = |column: &&LoggedColumn| {
+        column.name == POSITION || column.setting.as_ref().is_some_and(Setting::has_either_sign)
+    };
+    let turned = logged.filter(of).filter_map(|column| {
+        let says = format!("`{}` has the opposite sign", column.name);
+        let measurement = &problem.measurement;
+        let mended = match column.name {
+            POSITION => measurement.turned(),
+            name => converted(measurement, name, &("", -1.0, 0.0)),
+        };
+        let mend = recipe(column.name, "sign = -1");
+        Hypothesis::of_measurement(problem, &mended, ("sign", says, mend))
+    });
+    turned.collect()
 }
 
 /// Units with another factor or zero than that of the column, each once.
@@ -40,7 +61,7 @@ fn is_there(problem: &Problem, column: &LoggedColumn) -> bool {
     let derived = follows_from_clock(measurement, &problem.model);
     match column.name {
         "time_s" => measurement.timed,
-        "position_mm" => !measurement.rotary && !derived,
+        POSITION => !measurement.rotary && !derived,
         "speed_rpm" => measurement.speed_told && measurement.timed && !derived,
         name => measurement.covariates.contains_key(name),
     }
@@ -74,7 +95,7 @@ fn converted(measurement: &Measurement, column: &str, unit: &HeaderUnit) -> Meas
     match column {
         "speed_rpm" => convert(&mut samples.speed_rpm),
         "time_s" => convert(&mut samples.time_s),
-        "position_mm" => {
+        POSITION => {
             convert(&mut samples.position_mm);
             convert(&mut samples.angle_rev);
         }

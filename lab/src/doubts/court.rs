@@ -5,7 +5,7 @@ use helixlock_plant::{CATALOGUE, Model, Parameter, Role, Term};
 
 use super::column::all_physics;
 use super::common::{curves, slopes};
-use super::doubt::Doubt;
+use super::doubt::Suspect;
 use super::hypothesis::{Hypothesis, with_effects};
 use super::view::{View, rough_noises};
 use crate::hypotheses::{candidate, try_candidate};
@@ -20,8 +20,8 @@ pub(super) struct Court<'a> {
     common: [Columns; 3],
     /// Predictions of nothing at all, and of a machine without effects.
     absent: Vec<Vec<f64>>,
-    /// What the number of looks costs.
-    price: f64,
+    /// What the number of mistakes that are tried costs.
+    looks: f64,
 }
 
 /// Most mistakes whose noise is fitted under either view.
@@ -32,38 +32,58 @@ const MOST_PHYSICS: usize = 4;
 
 impl<'a> Court<'a> {
     pub(super) fn of(problem: &'a Problem, tried: usize) -> Self {
-        let price = 2.0 * libm::log(count(tried.max(1)));
+        let looks = 2.0 * libm::log(count(tried.max(1)));
         let lines = slopes(problem);
         let curves = lines.and(&curves(problem));
         let bare = Model { effects: Vec::new(), ..problem.model.clone() };
         let bare = predicted_by(problem, &bare).filter(|_| !problem.model.effects.is_empty());
         let absent = std::iter::once(vec![0.0; problem.samples.len()]).chain(bare).collect();
-        Self { problem, common: [Columns::default(), lines, curves], absent, price }
+        Self { problem, common: [Columns::default(), lines, curves], absent, looks }
     }
 
-    /// The mistake that beats every other explanation, with the problem after its mend.
-    pub(super) fn judged(&self, all: Vec<Hypothesis>) -> Option<(Doubt, Problem)> {
+    /// The mistake that beats every other explanation, and those that only the file's own effects at other
+    /// sizes, or further ones, explain as well.
+    pub(super) fn judged(&self, all: Vec<Hypothesis>) -> (Option<Hypothesis>, Vec<Suspect>) {
         let noises = rough_noises(self.problem);
         let rough = self.view(&noises);
         let plain = View::new(self.problem, &self.common[0], &noises);
         let all: Vec<Hypothesis> =
             all.into_iter().filter(|one| self.told([&rough, &plain], one)).collect();
         if all.is_empty() {
-            return None;
+            return (None, Vec::new());
         }
         let (base, fit) = self.evidence(&self.problem.predicted, &Columns::default());
         let gains = [self.gains(&rough, &all), self.gains(&self.view(&fit.noises), &all)];
         let worth = worth_a_fit(&all, &gains);
         let judged = all.into_iter().zip(worth).filter(|(_, worth)| *worth).map(|(one, _)| one);
-        let with_evidence = judged.map(|one| (self.own_evidence(&one) - base, one));
-        let mut likely: Vec<(f64, Hypothesis)> =
-            with_evidence.filter(|(evidence, _)| DOUBT < *evidence).collect();
-        likely.sort_by(|a, b| a.1.last_resort().cmp(&b.1.last_resort()).then(b.0.total_cmp(&a.0)));
-        likely.into_iter().find_map(|(evidence, one)| {
-            let evidence = evidence - (self.rival(&one) - base).max(0.0);
-            let Hypothesis { what, says, mend, mended, .. } = one;
-            (DOUBT < evidence).then_some((Doubt { what, evidence, says, mend }, mended))
-        })
+        let mut likely: Vec<Hypothesis> = judged
+            .map(|one| Hypothesis { evidence: self.own_evidence(&one) - base, ..one })
+            .filter(|one| DOUBT < one.evidence)
+            .collect();
+        likely.sort_by(|a, b| {
+            a.last_resort().cmp(&b.last_resort()).then(b.evidence.total_cmp(&a.evidence))
+        });
+        let most = likely.iter().map(|one| one.evidence).fold(0.0, f64::max);
+        let mut suspects = Vec::new();
+        for one in likely {
+            let ahead = |rival: f64| one.evidence - (rival - base).max(0.0);
+            let of_nothing = ahead(self.nothing(&one));
+            let evidence = of_nothing.min(ahead(self.rival(&one)));
+            if DOUBT < evidence {
+                return (Some(Hypothesis { evidence, ..one }), suspects);
+            }
+            let is_near = NEAR_THE_BEST_DOUBT * most <= one.evidence;
+            if DOUBT < of_nothing && is_near && !one.last_resort() {
+                suspects.push(self.suspect(one));
+            }
+        }
+        (None, suspects)
+    }
+
+    fn suspect(&self, one: Hypothesis) -> Suspect {
+        let both = one.mended.predicted.iter().zip(&self.problem.predicted);
+        let change = both.map(|(after, before)| after - before).collect();
+        Suspect { doubt: one.doubt(), change, price: self.price(&one), mended: one.mended }
     }
 
     fn view(&self, noises: &[crate::noise::Noise]) -> View {
@@ -97,9 +117,20 @@ impl<'a> Court<'a> {
     }
 
     fn own_evidence(&self, one: &Hypothesis) -> f64 {
+        self.evidence(&one.mended.predicted, &Columns::default()).0 - self.price(one)
+    }
+
+    /// What a mistake pays: its numbers, and all looks; how much more usual it is takes some of it back.
+    fn price(&self, one: &Hypothesis) -> f64 {
         let numbers = one.numbers * self.problem.price_of_a_number();
-        let looks = self.price + 2.0 * libm::log(one.looks);
-        self.evidence(&one.mended.predicted, &Columns::default()).0 + one.usual - looks - numbers
+        self.looks + 2.0 * libm::log(one.looks) + numbers - one.usual
+    }
+
+    /// Evidence of a prediction of nothing: whatever makes a wrong prediction vanish looks like a mend.
+    fn nothing(&self, best: &Hypothesis) -> f64 {
+        let absent = self.absent.iter().filter(|_| !best.last_resort());
+        let evidence = absent.map(|predicted| self.evidence(predicted, &Columns::default()).0);
+        evidence.fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// The best of all other explanations.
@@ -112,10 +143,6 @@ impl<'a> Court<'a> {
         }
         if best.shifts() {
             rivals.extend(self.delayed());
-        }
-        // Whatever makes a wrong prediction vanish looks like a mend.
-        if !best.last_resort() {
-            rivals.extend(self.absent.iter().map(|predicted| evidence(predicted)));
         }
         rivals.into_iter().fold(f64::NEG_INFINITY, f64::max)
     }

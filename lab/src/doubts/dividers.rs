@@ -38,6 +38,7 @@ pub(super) fn other_dividers(problem: &Problem) -> Option<Hypothesis> {
         usual,
         numbers: 0.0,
         looks: 1.0,
+        evidence: 0.0,
     })
 }
 

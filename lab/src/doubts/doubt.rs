@@ -2,6 +2,7 @@
 
 use std::f64::consts::LN_2;
 
+use crate::model::Problem;
 use crate::numerics::count;
 
 /// A mistake that explains the data better than any effect.
@@ -15,6 +16,20 @@ pub struct Doubt {
     pub says: String,
     /// The line that puts it right: of a recipe for a column, of the machine file for a setting.
     pub mend: String,
+}
+
+/// A mistake that the file's own effects at other sizes, or further ones, may explain as well: to be held
+/// against those that are found.
+#[derive(Debug)]
+pub(crate) struct Suspect {
+    /// What is said of it.
+    pub(crate) doubt: Doubt,
+    /// The problem with the mistake put right.
+    pub(crate) mended: Problem,
+    /// By what that changes the prediction.
+    pub(crate) change: Vec<f64>,
+    /// What it pays for its numbers and looks.
+    pub(crate) price: f64,
 }
 
 /// Evidence of rows that each say so by accident no oftener than every second time.

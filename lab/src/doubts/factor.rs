@@ -91,5 +91,6 @@ fn scaled(
         usual: size_of_error(values, k.abs()) - size_of_error(values, 1.0),
         numbers: 0.0,
         looks: 1.0,
+        evidence: 0.0,
     }
 }

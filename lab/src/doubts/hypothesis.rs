@@ -6,6 +6,7 @@ use crate::measurement::Measurement;
 use crate::model::Problem;
 use crate::policy::mistakes::MACHINE_OF_EFFECTS;
 
+use super::doubt::Doubt;
 use super::law::usualness;
 
 /// A mistake before the court.
@@ -29,6 +30,8 @@ pub(super) struct Hypothesis {
     /// Free numbers, and places they were looked for at.
     pub(super) numbers: f64,
     pub(super) looks: f64,
+    /// Evidence against the next best explanation, once it has been judged.
+    pub(super) evidence: f64,
 }
 
 impl Hypothesis {
@@ -36,6 +39,12 @@ impl Hypothesis {
     /// not there at all.
     pub(super) fn lets_go(&self) -> bool {
         self.scales || self.last_resort()
+    }
+
+    /// What is said of it.
+    pub(super) fn doubt(&self) -> Doubt {
+        let (says, mend) = (self.says.clone(), self.mend.clone());
+        Doubt { what: self.what, evidence: self.evidence, says, mend }
     }
 
     /// True for a zero of the position, which an effect that delays imitates at one speed.
@@ -79,6 +88,7 @@ impl Hypothesis {
             usual,
             numbers: 0.0,
             looks: 1.0,
+            evidence: 0.0,
         })
     }
 }
@@ -109,5 +119,6 @@ pub(super) fn another_machine(problem: &Problem) -> Option<Hypothesis> {
         usual: 0.0,
         numbers: 0.0,
         looks: 1.0,
+        evidence: 0.0,
     })
 }

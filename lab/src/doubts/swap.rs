@@ -62,5 +62,6 @@ fn place_for_error(problem: &Problem) -> Option<Hypothesis> {
         usual: usualness(&mended, &problem.model) - usualness(measurement, &problem.model),
         numbers: 0.0,
         looks: 1.0,
+        evidence: 0.0,
     })
 }

@@ -141,6 +141,11 @@ fn a_clock_in_another_unit_is_told_by_travel_and_speed() {
             assert!(mend.ends_with(&format!("unit = \"{unit}\"")), "{mend}");
         }
     }
+    // Rounded to a sixth of what passes between two rows.
+    let rounded =
+        changed(measured(&known), "time_s", |time_s| (600.0 * time_s / 60.0).round() / 600.0);
+    let (_, mend) = doubted(&known, &rounded).expect("a doubt");
+    assert!(mend.ends_with("unit = \"min\""), "{mend}");
     // A spindle that slips, so that the travel is not worked out from the clock.
     let slipping = changed(with_speed(0.1), "time_s", |time_s| 1.002 * time_s);
     let (_, mend) = doubted(&known, &slipping).expect("a doubt");

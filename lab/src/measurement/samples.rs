@@ -117,13 +117,25 @@ fn is_of_another_run(name: &str) -> bool {
 }
 
 impl Measurement {
-    /// Rows that moved since the one before, with the speed by travel and clock, rpm.
-    pub(crate) fn clocked(&self) -> impl Iterator<Item = (usize, f64)> {
+    /// The same with places that count the other way.
+    pub(crate) fn turned(&self) -> Self {
+        let mut turned = self.clone();
+        let Samples { position_mm, angle_rev, direction, .. } = &mut turned.samples;
+        for column in [position_mm, angle_rev, direction] {
+            column.iter_mut().for_each(|value| *value = -*value);
+        }
+        turned
+    }
+
+    /// Every so many rows, those that moved since the one so far before, with the speed by travel and clock,
+    /// rpm.
+    pub(crate) fn clocked(&self, apart: usize) -> impl Iterator<Item = (usize, f64)> {
         let Samples { angle_rev, time_s, pass, .. } = &self.samples;
-        let inside = (1..pass.len()).filter(|&row| pass[row] == pass[row - 1]);
-        let speed = |row: usize| {
-            let turns = angle_rev[row] - angle_rev[row - 1];
-            (row, 60.0 * (turns / (time_s[row] - time_s[row - 1])).abs())
+        let rows = (apart..pass.len()).step_by(apart);
+        let inside = rows.filter(move |&row| pass[row] == pass[row - apart]);
+        let speed = move |row: usize| {
+            let turns = angle_rev[row] - angle_rev[row - apart];
+            (row, 60.0 * (turns / (time_s[row] - time_s[row - apart])).abs())
         };
         inside.map(speed).filter(|(_, rpm)| rpm.is_finite() && 0.0 < *rpm)
     }
@@ -139,7 +151,7 @@ impl Measurement {
         let angle = &self.samples.angle_rev;
         let piece =
             |(row, rpm): (usize, f64)| (speed(row, rpm), (angle[row] - angle[row - 1]).abs());
-        weighted_median(&mut self.clocked().map(piece).collect::<Vec<_>>())
+        weighted_median(&mut self.clocked(1).map(piece).collect::<Vec<_>>())
     }
 
     /// Orders and completes the samples of a table.

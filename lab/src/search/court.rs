@@ -174,9 +174,9 @@ pub(super) fn price(problem: &Problem, component: &Component, looks: f64) -> f64
 }
 
 /// A model and the shapes that are tried against it.
-struct Court<'a> {
-    problem: &'a Problem,
-    state: &'a State,
+pub(super) struct Court<'a> {
+    pub(super) problem: &'a Problem,
+    pub(super) state: &'a State,
     shapes: &'a [Shape],
     /// What each effect pays.
     prices: Vec<f64>,
@@ -222,7 +222,7 @@ fn farthest<'c, 'a: 'c>(claims: impl IntoIterator<Item = &'c Claim<'a>>) -> Opti
 }
 
 impl<'a> Court<'a> {
-    fn new(
+    pub(super) fn new(
         problem: &'a Problem,
         state: &'a State,
         found: &[Rivals],
@@ -372,7 +372,7 @@ impl<'a> Court<'a> {
     }
 
     /// Evidence by which a fit is ahead of the effects in whose place a shape stands, its price apart.
-    fn ahead(&self, group: &[usize], fit: &Fit) -> f64 {
+    pub(super) fn ahead(&self, group: &[usize], fit: &Fit) -> f64 {
         // The shape's noise may suit the effects, too.
         let own = settle(self.problem, &self.state.columns, &fit.noises).log_likelihood;
         let own = own.max(self.state.fit.log_likelihood);
