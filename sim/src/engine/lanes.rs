@@ -5,9 +5,11 @@
 //! Where many copies are wanted this is the fastest engine per copy; where most clocks are idle,
 //! [`crate::Leap`] is.
 
+use std::ops::Range;
+
 use helixlock_netlist::{Netlist, SignalId};
 
-use super::circuit::{Circuit, Place};
+use super::circuit::Circuit;
 use super::state::{FlipFlops, pack};
 use super::vector::Vector;
 #[cfg(target_arch = "x86_64")]
@@ -72,6 +74,8 @@ pub struct Lanes<'a, K: LaneKernel> {
     watched: usize,
     /// How many edges the flip-flops looked at have stood still, one an edge.
     still: usize,
+    /// Places of an input's bits, by signal; none for any other signal.
+    ports: Vec<Range<usize>>,
 }
 
 /// Lanes of which each is a line of the cache: one that lies across two takes twice as long.
@@ -135,6 +139,7 @@ impl<'a, K: LaneKernel> Lanes<'a, K> {
             resting: false,
             watched: 0,
             still: 0,
+            ports: ports(circuit.netlist()),
         };
         lanes.fill(&initial);
         lanes
@@ -212,21 +217,33 @@ impl<'a, K: LaneKernel> Lanes<'a, K> {
         if self.resting {
             return;
         }
-        let state = self.held.state.0.as_ref();
-        let before = state.get(self.watched).copied();
-        // Flip-flops have stood still, each when it was looked at: now all are.
-        let all_before = (state.len() <= self.still).then(|| self.held.state.clone());
+        let all = self.held.state.0.as_ref().len();
+        if all <= self.still {
+            return self.step_looking_at_all();
+        }
+        let before = self.watched_lanes();
         self.take_edge();
-        let state = self.held.state.0.as_ref();
-        if let Some(before) = all_before {
-            self.resting = state == before.0.as_ref();
-            self.still = 0;
-        } else if state.get(self.watched).copied() == before {
+        if are_alike(self.watched_lanes(), before) {
             self.still += 1;
-            self.watched = (self.watched + 1) % state.len().max(1);
+            self.watched = if self.watched + 1 < all { self.watched + 1 } else { 0 };
         } else {
             self.still = 0;
         }
+    }
+
+    /// Flip-flops have stood still, each when it was looked at.
+    #[cold]
+    fn step_looking_at_all(&mut self) {
+        let before = self.held.state.clone();
+        self.take_edge();
+        self.resting = self.held.state.0.as_ref() == before.0.as_ref();
+        self.still = 0;
+    }
+
+    /// The flip-flop that is looked at, if there is one.
+    #[inline]
+    fn watched_lanes(&self) -> Lane {
+        self.held.state.0.as_ref().get(self.watched).copied().unwrap_or_default()
     }
 
     fn take_edge(&mut self) {
@@ -291,18 +308,18 @@ impl<'a, K: LaneKernel> Lanes<'a, K> {
     }
 
     /// Places of the bits of an input, with their levels.
+    #[inline]
     fn input_bits(
         &self,
         input: SignalId,
         value: u64,
-    ) -> impl Iterator<Item = (usize, bool)> + use<'a, K> {
-        let index = self.circuit.input_index(input, value);
-        debug_assert_eq!(self.circuit.place(input), Place::Input(index));
-        let netlist = self.circuit.netlist();
-        let widths = netlist.inputs.iter().map(|input| netlist.signal(*input).width as usize);
-        let low: usize = widths.take(index).sum();
-        let width = netlist.signal(input).width as usize;
-        (0..width).map(move |bit| (low + bit, value >> bit & 1 == 1))
+    ) -> impl Iterator<Item = (usize, bool)> + use<K> {
+        let places = self.ports[input.0 as usize].clone();
+        let bits = u64::BITS - value.leading_zeros();
+        if places.is_empty() || places.len() < bits as usize {
+            self.circuit.refuse(input, value);
+        }
+        places.enumerate().map(move |(bit, place)| (place, value >> bit & 1 == 1))
     }
 }
 
@@ -326,6 +343,24 @@ impl Vectors {
     fn widest() -> Self {
         Self::all()[0]
     }
+}
+
+/// Places of an input's bits, by signal.
+fn ports(netlist: &Netlist) -> Vec<Range<usize>> {
+    let mut ports = vec![0..0; netlist.signals.len()];
+    let mut low = 0;
+    for input in &netlist.inputs {
+        let high = low + netlist.signal(*input).width as usize;
+        ports[input.0 as usize] = low..high;
+        low = high;
+    }
+    ports
+}
+
+/// Word by word: as lists they would be handed to a function that compares bytes.
+#[inline]
+fn are_alike(a: Lane, b: Lane) -> bool {
+    a.iter().zip(b).fold(0, |unlike, (a, b)| unlike | (a ^ b)) == 0
 }
 
 fn set_bit(lanes: &mut Lane, lane: usize, bit: bool) {
