@@ -172,6 +172,7 @@ impl Expression {
 }
 
 /// `width` ones, `width` from 1 to 64.
+#[inline]
 #[must_use]
 pub const fn mask(width: u32) -> u64 {
     u64::MAX >> (64 - width)

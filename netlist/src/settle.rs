@@ -54,6 +54,7 @@ pub fn counters(netlist: &Netlist, narrowest: u32) -> Vec<Counter> {
 /// Stretches are [0, threshold), the threshold itself, and those above up to 2^`width`; running
 /// over either end of the range leaves too. A step above half of 2^`width` counts downwards.
 /// A counter at rest never leaves: `u64::MAX`.
+#[inline]
 #[must_use]
 pub fn clocks_within(value: u64, step: u64, threshold: u64, width: u32) -> u64 {
     let top = mask(width);

@@ -5,6 +5,8 @@
 
 #[cfg(target_arch = "x86_64")]
 use std::arch::x86_64::{__cpuid, _pext_u64};
+#[cfg(target_arch = "x86_64")]
+use std::sync::LazyLock;
 
 /// How bits are brought together into the index of a table.
 pub trait Gather {
@@ -62,7 +64,7 @@ impl Gathering {
     pub(super) fn all() -> Vec<Self> {
         let mut all = vec![];
         #[cfg(target_arch = "x86_64")]
-        if is_x86_feature_detected!("bmi2") && !extracts_slowly() {
+        if is_x86_feature_detected!("bmi2") && !*EXTRACTS_SLOWLY {
             all.push(Self::Extracting);
         }
         all.push(Self::Shifting);
@@ -87,13 +89,15 @@ impl Gathering {
 }
 
 /// AMD's processors before Zen 3 have the instruction, and take some hundred clocks for it.
+///
+/// Asked once: a virtual machine answers as slowly as an engine simulates a thousand clocks.
 #[cfg(target_arch = "x86_64")]
-fn extracts_slowly() -> bool {
+static EXTRACTS_SLOWLY: LazyLock<bool> = LazyLock::new(|| {
     let is_amd = __cpuid(0).ebx == u32::from_le_bytes(*b"Auth");
     let signature = __cpuid(1).eax;
     let family = (signature >> 8 & 0xf) + (signature >> 20 & 0xff);
     is_amd && family < 0x19
-}
+});
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "bmi2")]

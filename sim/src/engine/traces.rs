@@ -10,7 +10,7 @@ use super::dense::{DenseKernel, Edge, Known};
 const LONGEST: u64 = 16;
 
 /// Traces remembered; a new one takes the place of another.
-const REMEMBERED: usize = 512;
+const REMEMBERED: usize = 1024;
 
 /// How a trace ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
