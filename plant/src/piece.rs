@@ -20,8 +20,12 @@ pub(crate) struct Piece {
     per_s: f64,
     /// Last moment at which it holds, s.
     pub(crate) end_s: f64,
-    /// Coefficients of the powers of `(time − centre)·per_s`, which lies between −1 and 1.
-    powers: [f64; POINTS],
+    /// Coefficients of the powers of `(time − centre)·per_s`, which lies between −1 and 1: of an even
+    /// power and the odd one above it. Next to each other they are summed up side by side, which is
+    /// what the next pulse waits for.
+    powers: [[f64; 2]; POINTS / 2],
+    /// The same of its derivative.
+    slopes: [[f64; 2]; POINTS / 2],
 }
 
 impl Piece {
@@ -51,7 +55,16 @@ impl Piece {
             let sum: f64 = (0..POINTS).map(|point| values[point] * wave(point)).sum();
             sum * if degree == 0 { 1.0 } else { 2.0 } / POINTS as f64
         });
-        Self { centre_s, per_s: 1.0 / half_s, end_s, powers: to_powers(&chebyshev) }
+        let powers = to_powers(&chebyshev);
+        #[expect(clippy::cast_precision_loss, reason = "at most 12")]
+        let slope = |power: usize| powers.get(power + 1).map_or(0.0, |c| (power + 1) as f64 * c);
+        Self {
+            centre_s,
+            per_s: 1.0 / half_s,
+            end_s,
+            powers: std::array::from_fn(|pair| [powers[2 * pair], powers[2 * pair + 1]]),
+            slopes: std::array::from_fn(|pair| [slope(2 * pair), slope(2 * pair + 1)]),
+        }
     }
 
     /// First moment at which it holds, s.
@@ -62,12 +75,16 @@ impl Piece {
     /// Value and its change per second.
     pub(crate) fn at(&self, time_s: f64) -> (f64, f64) {
         let place = (time_s - self.centre_s) * self.per_s;
-        let (mut value, mut slope) = (0.0, 0.0);
-        for power in self.powers.iter().rev() {
-            slope = slope * place + value;
-            value = value * place + power;
+        let square = place * place;
+        let (mut value, mut slope) = ([0.0; 2], [0.0; 2]);
+        for (powers, slopes) in self.powers.iter().zip(&self.slopes).rev() {
+            for parity in 0..2 {
+                value[parity] = value[parity] * square + powers[parity];
+                slope[parity] = slope[parity] * square + slopes[parity];
+            }
         }
-        (value, slope * self.per_s)
+        let whole = |[even, odd]: [f64; 2]| even + place * odd;
+        (whole(value), whole(slope) * self.per_s)
     }
 }
 

@@ -168,7 +168,7 @@ impl Channel {
 
     /// The pulse comes when the reading reaches it, or as soon as the detector can give it.
     fn owe(&mut self, motion: &Motion, root_s: f64) {
-        self.due_s = root_s.max(self.last_s + SHORTEST_S);
+        self.due_s = later(root_s, self.last_s + SHORTEST_S);
         self.owed = if root_s < self.due_s { self.owed + 1 } else { 0 };
         if MOST_OWED < self.owed {
             let reading = match self.reading {
@@ -209,7 +209,7 @@ impl Channel {
             }
             time_s += step_s;
             if step_s.abs() < self.close_s {
-                return time_s.max(from_s);
+                return later(time_s, from_s);
             }
             if time_s < from_s || stretch.end_s + (stretch.end_s - from_s) + 1.0 < time_s {
                 break;
@@ -277,6 +277,12 @@ impl Channel {
         self.piece = Some(piece);
         piece.at(time_s)
     }
+}
+
+/// The later of two instants; the second when the first is none. One instruction, where `max` is four
+/// that wait for each other, and the next pulse for them.
+fn later(time_s: f64, other_s: f64) -> f64 {
+    if other_s < time_s { time_s } else { other_s }
 }
 
 fn rates(effect: &impl Effect, stretch: &Stretch) -> Smoothness {

@@ -18,7 +18,7 @@ use helixlock_netlist::{Netlist, SignalId};
 
 use super::all_signals::Evaluated;
 use super::circuit::{Circuit, Place};
-use super::dense::{Coast, DenseKernel, Edge, Machine};
+use super::dense::{Coast, DenseKernel, Edge, Known, Machine};
 use super::gather::{Gather, Gathering, Work};
 use super::state::{FlipFlops, Snapshot};
 use super::traces::{End, Traces};
@@ -32,6 +32,8 @@ pub struct Leaping<'a, K: DenseKernel> {
     run: Run<K>,
     /// One a signal: its place among outputs that follow from what is known.
     shown: Vec<Option<u32>>,
+    /// What these are, and of what: several are read at one clock.
+    last_shown: (Known, u64),
     /// Watched signals of which traces know nothing, with the values they had.
     watched_others: Vec<(SignalId, u64)>,
     /// A watched signal shows a counter that coasts.
@@ -78,9 +80,26 @@ impl<'a, K: DenseKernel> Leaping<'a, K> {
         let machine = Machine::new(netlist);
         let mut run = Run { machine, since: 0, wake: 0, traces: Traces::watching(0) };
         run.find_wake();
-        let evaluated = Evaluated::new(circuit);
-        let (watched_others, watches_counter) = (Vec::new(), false);
-        Self { circuit, by, run, shown, watched_others, watches_counter, evaluated }
+        Self {
+            circuit,
+            by,
+            last_shown: (run.machine.known, K::shown(run.machine.known)),
+            run,
+            shown,
+            watched_others: Vec::new(),
+            watches_counter: false,
+            evaluated: Evaluated::new(circuit),
+        }
+    }
+
+    /// Outputs that follow from what is known.
+    fn shown_now(&mut self) -> u64 {
+        self.run.settle();
+        let known = self.run.machine.known;
+        if known.difference(self.last_shown.0) != 0 {
+            self.last_shown = (known, K::shown(known));
+        }
+        self.last_shown.1
     }
 
     fn evaluate(&mut self) -> &[u64] {
@@ -331,8 +350,7 @@ impl<K: DenseKernel> Engine for Leaping<'_, K> {
 
     fn value(&mut self, signal: SignalId) -> u64 {
         if let Some(place) = self.shown[signal.0 as usize] {
-            self.run.settle();
-            return K::shown(self.run.machine.known) >> place & 1;
+            return self.shown_now() >> place & 1;
         }
         match self.circuit.place(signal) {
             Place::Input(index) => self.run.machine.inputs.as_ref()[index],
