@@ -96,6 +96,34 @@ fn humps_of_no_place_are_no_slow_noise() {
     }
 }
 
+/// Coolant that goes on and off as the operator likes, six deviations of noise apart: noise as slow as that
+/// comes to any value between.
+#[test]
+fn what_switches_between_two_levels_is_no_slow_noise() {
+    let is_on = |pass: usize, mm: f64| {
+        let turn = 7.0 * f64::from(u8::try_from(pass).expect("six"));
+        0.0 < libm::sin(mm / 9.0 + 2.5 * libm::sin(mm / 47.0 + turn) + turn)
+    };
+    for seed in 0..4 {
+        let found = six_passes(seed, &|pass, mm| if is_on(pass, mm) { 1.2 } else { 0.0 });
+        assert_eq!(found.verdict, Verdict::Unexplained, "{seed}");
+        assert!(tells(&found, "switches between levels"), "{seed}: {:?}", found.residual);
+    }
+}
+
+/// A pump that speeds up in every pass, from another angle each time: no line, and no narrow band.
+#[test]
+fn what_swings_at_no_one_frequency_is_no_noise() {
+    for seed in 0..4 {
+        let found = six_passes(seed, &|pass, mm| {
+            let (row, turn) = (mm / 3.0, f64::from(u8::try_from(pass).expect("six")));
+            0.35 * libm::sin(1.9 * turn + 0.9 * row + 0.003 * row * row)
+        });
+        assert_eq!(found.verdict, Verdict::Unexplained, "{seed}");
+        assert!(tells(&found, "swings there and back"), "{seed}: {:?}", found.residual);
+    }
+}
+
 /// Samples that a scratch lifts by forty deviations, one in eleven: an outlier weighs little, but these
 /// all stand at one angle. As many at any angle are bad readings.
 #[test]

@@ -10,6 +10,7 @@ mod excursions;
 mod flaws;
 mod grid;
 mod jumps;
+mod levels;
 mod likelihood;
 mod local;
 #[cfg(test)]
@@ -22,6 +23,7 @@ mod repeatability;
 mod setting_trial;
 mod settings;
 mod slow_noise;
+mod swings;
 mod tails;
 mod time_reversal;
 mod trial;

@@ -8,12 +8,14 @@ use super::common_curve::common_curve;
 use super::excursions::excursions;
 use super::flaws::above_flaws;
 use super::jumps::jumps;
+use super::levels::levels;
 use super::local::{self, Local};
 use super::nonlinearity::nonlinearity;
 use super::odd_pass::odd_pass;
 use super::outliers::{Company, outliers};
 use super::repeatability::repeatability;
 use super::slow_noise::taken_for_noise;
+use super::swings::swings;
 use super::tails::chance_with_tails;
 use super::time_reversal::one_way;
 use super::waves;
@@ -131,6 +133,8 @@ pub(crate) fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> V
     all.extend(bent_pass(problem, fit));
     all.extend(standing_out(problem, fit));
     all.extend(predicted(problem, model, fit));
+    all.extend(keeping(problem, fit));
+    all.extend(swinging(problem, fit));
     all.extend(standing_apart(problem, fit));
     all.extend(jumping(problem, fit));
     all.extend(one_way_jumps(problem, fit));
@@ -301,6 +305,20 @@ fn predicted(problem: &Problem, model: &Columns, fit: &Fit) -> Option<Structure>
     let p_value = of_all(problem, chance);
     let shape = "humps, levels or teeth, more regular than noise";
     Some(Structure::without_place("time", shape, rms_um, p_value))
+}
+
+/// Levels or bounds that noise does not keep to.
+fn keeping(problem: &Problem, fit: &Fit) -> Option<Structure> {
+    let (rms_um, chance) = levels(problem, fit)?;
+    let shape = "switches between levels, or swings between bounds";
+    Some(Structure::without_place("time", shape, rms_um, of_all(problem, chance)))
+}
+
+/// What goes there and back at no one frequency.
+fn swinging(problem: &Problem, fit: &Fit) -> Option<Structure> {
+    let (rms_um, chance) = swings(problem, fit)?;
+    let shape = "swings there and back, of changing length";
+    Some(Structure::without_place("time", shape, rms_um, of_all(problem, chance)))
 }
 
 /// Outliers that do not come by chance.

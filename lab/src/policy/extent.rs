@@ -314,6 +314,24 @@ pub(crate) const PREDICTED_BY: usize = 8;
 /// Chosen: half of them. Doubled: the mean of all eight, once more.
 pub(crate) const JUST_BEFORE: usize = 4;
 
+/// Rows whose means are cut in two, to tell levels from noise.
+///
+/// Chosen: single rows of rounding are no levels, and what lasts nine is no smooth curve. Doubled: levels of
+/// three to eight rows are blurred.
+pub(crate) const ROWS_OF_A_LEVEL: [usize; 4] = [2, 3, 5, 9];
+
+/// Fewest means of a pass that are cut.
+///
+/// Chosen: of fewer the halves differ by most of the square in any noise. Doubled: passes of fewer than fifty
+/// rows say nothing.
+pub(crate) const FEWEST_CUT_IN_TWO: usize = 12;
+
+/// Rows after which half a swing is over.
+///
+/// Chosen: differences of rounded values are of the other sign one row later, and what is longer is a line.
+/// Doubled: periods of four rows are not seen.
+pub(crate) const HALF_A_SWING: [usize; 8] = [2, 3, 4, 6, 8, 11, 16, 22];
+
 /// Rows that each of [`PREDICTED_BY`] needs.
 ///
 /// Chosen. Doubled: a record of 150 rows says nothing.

@@ -224,7 +224,7 @@ fn beyond_a_parabola(problem: &Problem, values: &[f64], rows: Range<usize>) -> f
 }
 
 /// True unless a frequency in time was found where no clock tells it from an order: times that were
-/// not measured, one speed, or less than three waves in every pass.
+/// not measured, one speed without a rest, or less than three waves in every pass.
 #[must_use]
 pub(crate) fn by_the_clock(problem: &Problem, component: &Component) -> bool {
     let term = &component.term;
@@ -236,7 +236,7 @@ pub(crate) fn by_the_clock(problem: &Problem, component: &Component) -> bool {
     let seconds = record.passes().into_iter().map(|rows| spread(&record.time_s[rows]));
     let longest_s = seconds.fold(0.0, f64::max);
     problem.measurement.timed
-        && has_two_speeds(&record.speed_rpm)
+        && (has_two_speeds(&record.speed_rpm) || goes_and_stands(&record.speed_rpm))
         && WAVES_A_PASS <= longest_s * term.values[hertz]
 }
 
@@ -249,6 +249,13 @@ fn has_two_speeds(speed_rpm: &[f64]) -> bool {
     let mut slower: Vec<f64> = moving.iter().map(|speed| -speed).collect();
     let slow = -one_in(&mut slower, ON_THE_WAY);
     ANOTHER_SPEED * fastest < fast - slow
+}
+
+/// True when enough samples move and enough do not: at rest a clock runs on and an angle does not.
+fn goes_and_stands(speed_rpm: &[f64]) -> bool {
+    let fastest = speed_rpm.iter().copied().fold(0.0, f64::max);
+    let moving = speed_rpm.iter().filter(|speed| ANOTHER_SPEED * fastest < **speed).count();
+    speed_rpm.len() < ON_THE_WAY * moving.min(speed_rpm.len() - moving)
 }
 
 /// True unless an effect runs by the clock where nobody measured it and the axis stands at targets:
