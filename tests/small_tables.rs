@@ -37,3 +37,25 @@ fn a_count_that_any_step_would_fit_is_not_sure() {
         assert_eq!((names(&found), found.verdict), (vec!["grating-slip"], verdict), "{noise_um}");
     }
 }
+
+/// One target of eleven is off at every visit of three runs: no bad reading, and no wear.
+#[test]
+fn a_target_that_is_always_off_is_no_bad_reading() {
+    let mut error_um = [0.0; 11];
+    error_um[6] = 3.0;
+    for seed in 0..4 {
+        let (mut noise, mut own) = (white(seed, 0.1), error_um.iter().cycle());
+        let found = runs(3, 11, |_| own.next().expect("a cycle") + noise());
+        assert_eq!((names(&found), found.verdict), (vec![], Verdict::Unexplained), "{seed}");
+    }
+}
+
+/// Five targets a run; what the axis takes up in the first of eight runs is told by no other.
+#[test]
+fn what_happens_in_one_short_run_is_held_out_by_halves() {
+    for seed in 0..4 {
+        let mut noise = white(seed, 0.05);
+        let found = runs(8, 5, |t| noise() + 12.0 * (1.0 - libm::exp(-t / 40.0)));
+        assert_eq!(names(&found), ["headstock-growth"], "{seed}: {:?}", found.residual);
+    }
+}

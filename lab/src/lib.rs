@@ -41,7 +41,7 @@ pub use challenge::{
 pub use discover::{Discovery, FormulaParameter, Found, Proposal, RunnerUp, discover};
 pub use doubts::{Doubt, divider_doubt, doubts};
 pub use hypotheses::Structure;
-pub use measurement::{LabError, Measurement, Nominal, PulseTrains, Steps, sensor_column};
+pub use measurement::{LabError, Measurement, Nominal, PulseTrains, Steps, Told, sensor_column};
 pub use model::Problem;
 pub use noise::{Block, Layout, Noise, SlowPart};
 pub use spectrum::{Line, NamedLine, amplitude_spectrum, lines_left};

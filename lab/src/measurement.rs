@@ -17,5 +17,5 @@ mod thinning;
 pub use error::LabError;
 pub use pulse_trains::{PulseTrains, Steps};
 pub(crate) use quantised::spacing;
-pub use samples::{Measurement, Nominal, sensor_column};
+pub use samples::{Measurement, Nominal, Told, sensor_column};
 pub(crate) use thinning::means;

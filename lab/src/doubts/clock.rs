@@ -68,7 +68,7 @@ fn said(
     let nominal = machine.spindle.speed_rpm;
     let told = median(&mut measurement.speed_rpm.clone());
     let is_nominal = |rpm: f64| libm::log(rpm / nominal).abs() < A_ROW_AT_A_UNIT;
-    match (minutes, measurement.speed_told) {
+    match (minutes, measurement.told.speed) {
         (true, true) if is_nominal(60.0 * told) => {
             (speed.to_owned(), recipe("speed_rpm", "unit = \"1/s\""))
         }

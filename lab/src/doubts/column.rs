@@ -62,7 +62,7 @@ fn is_there(problem: &Problem, column: &LoggedColumn) -> bool {
     match column.name {
         "time_s" => measurement.timed,
         POSITION => !measurement.rotary && !derived,
-        "speed_rpm" => measurement.speed_told && measurement.timed && !derived,
+        "speed_rpm" => measurement.told.speed && measurement.timed && !derived,
         name => measurement.covariates.contains_key(name),
     }
 }

@@ -9,7 +9,7 @@ use crate::policy::mistakes::DENIED;
 /// Rows of one way only and without a clock may be listed the other way round.
 pub(super) fn denied(measurement: &Measurement) -> Option<Doubt> {
     let both = measurement.direction.windows(2).any(|pair| pair[0] * pair[1] < 0.0);
-    if !measurement.timed && !both {
+    if !measurement.told.direction || (!measurement.timed && !both) {
         return None;
     }
     let (place, pass) = (&measurement.angle_rev, &measurement.pass);

@@ -3,7 +3,8 @@
 //! An outlier weighs as little in a fit as it stands far out, so that whatever makes a few samples
 //! stand out is the better hidden the larger it is: a scratch of the grating, a burst of swing, a bump of
 //! two samples. Bad readings of an instrument come at any moment and at any place. Those that come
-//! together, at one angle of a turn, or where another pass has one, have a cause.
+//! together, at one angle of a turn, or where another pass has one, have a cause, and so have more of them than
+//! noise of any law has.
 
 use std::ops::Range;
 
@@ -16,7 +17,7 @@ use crate::noise::departures;
 use crate::numerics::{count, deviation, fourier, median, spread};
 use crate::policy::chance::FEWEST_OUTLIERS;
 use crate::policy::extent::{IN_COMPANY, LOUDNESS_ROWS};
-use crate::policy::reading::{FAR_OUT, MOST_LOUD};
+use crate::policy::reading::{FAR_IN_TAILS, FAR_OUT, MOST_LOUD};
 
 /// What outliers have in common.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,6 +28,8 @@ pub(super) enum Company {
     Angle(f64),
     /// They stand where another pass has one.
     Place,
+    /// They are more than any noise has.
+    Number,
 }
 
 /// Outliers of a cause.
@@ -56,6 +59,7 @@ pub(super) fn outliers(problem: &Problem, fit: &Fit) -> Option<Outliers> {
         (Company::Rows, in_rows(&passes)),
         (Company::Angle(order), at_one_angle),
         (Company::Place, at_places(problem, &passes)),
+        (Company::Number, so_many(&passes, &fit.left)),
     ];
     let (company, p_value) = surest(&all)?;
     let square: f64 = passes.iter().map(|pass| pass.square).sum();
@@ -107,6 +111,23 @@ fn is_far(sizes: &[f64], row: usize, usual: f64) -> bool {
     let near = row.saturating_sub(LOUDNESS_ROWS)..(row + LOUDNESS_ROWS + 1).min(sizes.len());
     let here = deviation(&mut sizes[near].to_vec()).clamp(usual, MOST_LOUD * usual);
     FAR_OUT * here < sizes[row]
+}
+
+/// Chance that so many of all rows are bad, in noise of the longest tails: far from their neighbours, and
+/// from the middle of their pass as others are not, for readings that are smoothed lie near each other.
+fn so_many(passes: &[Pass], left: &[f64]) -> f64 {
+    let off = |pass: &Pass| {
+        let middle = median(&mut left[pass.rows.clone()].to_vec());
+        pass.rows.clone().map(|row| (left[row] - middle).abs()).collect::<Vec<f64>>()
+    };
+    let off: Vec<Vec<f64>> = passes.iter().map(off).collect();
+    let usual = deviation(&mut off.concat());
+    let both = passes.iter().zip(&off).map(|(pass, off)| {
+        let is_off = |row: &&usize| FAR_OUT * usual < off[**row - pass.rows.start];
+        pass.far.iter().filter(is_off).count()
+    });
+    let (far, rows) = (both.sum(), off.iter().map(Vec::len).sum::<usize>());
+    Binomial::new(FAR_IN_TAILS, rows as u64).map_or(1.0, |law| at_least(&law, far))
 }
 
 /// Chance that so many follow another within a few rows: gaps between chance events are geometric.
@@ -184,11 +205,18 @@ mod tests {
     /// Rows of a pass.
     const ROWS: usize = 400;
 
+    fn record(seed: u64, mut noise: impl FnMut(&mut ChaCha8Rng, usize) -> f64) -> Vec<f64> {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        (0..2 * ROWS).map(|row| noise(&mut random, row)).collect()
+    }
+
+    fn two(left: &[f64]) -> Vec<Pass> {
+        [0..ROWS, ROWS..2 * ROWS].map(|rows| Pass::of(rows, 0, left, 0.01)).into()
+    }
+
     /// Two passes with some noise.
     fn passes(seed: u64, noise: impl Fn(&mut ChaCha8Rng, usize) -> f64) -> Vec<Pass> {
-        let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let left: Vec<f64> = (0..2 * ROWS).map(|row| noise(&mut random, row)).collect();
-        [0..ROWS, ROWS..2 * ROWS].map(|rows| Pass::of(rows, 0, &left, 0.01)).into()
+        two(&record(seed, noise))
     }
 
     /// Of 300 records hardly more fall below a chance than should.
@@ -208,6 +236,30 @@ mod tests {
         come_alone("tails", |random, _| StudentT::new(2.0).unwrap().sample(random));
         let louder = |row: usize| if (200..300).contains(&row) { 4.0 } else { 1.0 };
         come_alone("louder in places", |random, row| louder(row) * normal(random));
+    }
+
+    #[test]
+    fn noise_has_few_of_them_and_lost_signs_many() {
+        let chance = |left: Vec<f64>| so_many(&two(&left), &left);
+        let rarely = |what: &str, chances: Vec<f64>| {
+            let below = chances.iter().filter(|chance| **chance < 1e-3).count();
+            assert!(below <= 3, "{what}: {below}");
+        };
+        let tails = |random: &mut ChaCha8Rng, _| StudentT::new(2.0).unwrap().sample(random);
+        rarely("tails", (0..300).map(|seed| chance(record(seed, tails))).collect());
+        let smoothed = |seed| {
+            let mut last = [0.0; 5];
+            chance(record(seed, |random, row| {
+                last[row % 5] = normal(random);
+                last.iter().sum()
+            }))
+        };
+        rarely("smoothed", (0..300).map(smoothed).collect());
+        let lost = |random: &mut ChaCha8Rng, row: usize| {
+            let sign = if random.random::<f64>() < 0.15 { 1.0 } else { 0.0 };
+            sign * 20.0 * libm::sin(count(row) / 30.0) + normal(random)
+        };
+        assert!((0..10).all(|seed| chance(record(seed, lost)) < 1e-9));
     }
 
     #[test]

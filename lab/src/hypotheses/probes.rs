@@ -328,6 +328,7 @@ fn standing_apart(problem: &Problem, fit: &Fit) -> Option<Structure> {
         Company::Rows => ("time", "several together", None),
         Company::Angle(order) => ("spindle order", "at one angle", Some(order)),
         Company::Place => ("position", "where the last pass has one", None),
+        Company::Number => ("time", "more than noise has", None),
     };
     let shape = format!("samples far from their neighbours, {how}");
     let p_value = of_all(problem, found.p_value);

@@ -56,6 +56,15 @@ pub fn sensor_column(sensor: Sensor, rotary: bool) -> &'static str {
     }
 }
 
+/// What of the motion has a column of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Told {
+    /// True for the speed.
+    pub speed: bool,
+    /// True for the direction.
+    pub direction: bool,
+}
+
 /// [`Samples`] sorted by pass and, within a pass, by time, with what sensors showed of each.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measurement {
@@ -75,8 +84,8 @@ pub struct Measurement {
     pub off_by: BTreeMap<String, f64>,
     /// True when time was measured, not worked out from travel and speed.
     pub timed: bool,
-    /// True when a column tells the speed, which otherwise follows from travel and time.
-    pub speed_told: bool,
+    /// What columns tell that otherwise follows from travel and time.
+    pub told: Told,
     /// What a user should know about how the file was read.
     pub notes: Vec<String>,
 }
@@ -142,7 +151,7 @@ impl Measurement {
 
     /// Speed that a row was told, by its column or else the nominal one, rpm.
     pub(crate) fn told_rpm(&self, row: usize, nominal_rpm: f64) -> f64 {
-        if self.speed_told { self.samples.speed_rpm[row] } else { nominal_rpm }
+        if self.told.speed { self.samples.speed_rpm[row] } else { nominal_rpm }
     }
 
     /// Median over the way of a speed of each row, given with its own by the clock, rpm: over the
@@ -392,7 +401,10 @@ fn assemble(
         deviations,
         off_by: BTreeMap::new(),
         timed: coordinates.timed,
-        speed_told: table.column("speed_rpm").is_some(),
+        told: Told {
+            speed: table.column("speed_rpm").is_some(),
+            direction: table.column("direction").is_some(),
+        },
         notes,
     }
 }

@@ -11,7 +11,7 @@ use crate::policy::evidence::{PARTS, TOLD};
 /// Root mean square of the residual on held-out data, µm (arcsec).
 ///
 /// Whole passes are held out in turn when the others tell every coefficient; otherwise stretches
-/// of a fifth of each pass, twice with other bounds, for what happens at a bound shows on neither
+/// of a fifth of each pass, or of two rows, twice with other bounds, for what happens at a bound shows on neither
 /// side of it, and of those the ones beside which every coefficient is told, if there are any. A
 /// held-out part may have its own zero, as a pass has.
 #[must_use]
@@ -100,15 +100,18 @@ fn folds(problem: &Problem, columns: &Columns) -> Vec<Vec<bool>> {
     if 1 < by_pass.len() && by_pass.iter().all(told) {
         return by_pass;
     }
-    let fifths = (0..PARTS).map(|part| (part, 0));
-    let shifted = (0..=PARTS).map(|part| (part, 1));
+    // A part of one row is all zero of its own.
+    let longest = layout.blocks.iter().map(|block| block.rows.len()).max().unwrap_or(0);
+    let parts = PARTS.min(longest / 2).max(2);
+    let whole = (0..parts).map(|part| (part, 0));
+    let shifted = (0..=parts).map(|part| (part, 1));
     let stretch = |(part, halves): (usize, usize)| {
         rows_where(layout, |block, row| {
             let rows = &layout.blocks[block].rows;
-            (2 * (row - rows.start) * PARTS + halves * rows.len()) / (2 * rows.len()) == part
+            (2 * (row - rows.start) * parts + halves * rows.len()) / (2 * rows.len()) == part
         })
     };
-    let stretches: Vec<Vec<bool>> = fifths.chain(shifted).map(stretch).collect();
+    let stretches: Vec<Vec<bool>> = whole.chain(shifted).map(stretch).collect();
     let telling: Vec<Vec<bool>> = stretches.iter().filter(|held| told(held)).cloned().collect();
     if telling.is_empty() { stretches } else { telling }
 }

@@ -164,6 +164,7 @@ impl Problem {
 
     /// Weighs outliers down, as they stand out of what a model leaves.
     pub(crate) fn mark_outliers(&mut self, left: &[f64]) {
+        let left = &self.without_own_errors(left);
         if self.measurement.deviations.is_none() {
             let outliers = outlier_inflation(&self.layout, left, &self.least_variance);
             self.layout.inflation = outliers.into();

@@ -1,10 +1,11 @@
 //! Targets that are approached again and again, as ISO 230-2 has it.
 
+use std::collections::BTreeMap;
+
 use super::columns::Columns;
 use super::problem::Problem;
-use crate::numerics::spread;
-use crate::policy::evidence::{PASSING, VISITS};
-use crate::policy::extent::ROWS_A_COLUMN;
+use crate::numerics::{median, spread};
+use crate::policy::evidence::{MOST_TARGETS, PASSING, VISITS};
 
 /// Places that count as one, against the travel.
 const ONE_PLACE: f64 = 1e-6;
@@ -21,7 +22,8 @@ pub(crate) fn distinct(mut values: Vec<f64>) -> Vec<f64> {
 impl Problem {
     /// Places of the targets, where all samples lie at a few places and the axis may have stopped there.
     fn targets(&self) -> Option<Vec<f64>> {
-        self.places().filter(|_| !self.goes_as_told())
+        let few = |all: &Vec<f64>| all.len() <= MOST_TARGETS && !self.goes_as_told();
+        self.places().filter(few)
     }
 
     /// Places of the samples, turns of the spindle, lowest first; `None` unless each is met several
@@ -54,7 +56,7 @@ impl Problem {
     pub(crate) fn columns_of_targets(&self) -> Vec<Vec<f64>> {
         let Some(targets) = self.targets() else { return Vec::new() };
         let width = targets.len() * self.sensors.len();
-        if self.samples.len() < ROWS_A_COLUMN * width {
+        if self.samples.len() < VISITS * width {
             return Vec::new();
         }
         let of = self.visited(&targets);
@@ -65,6 +67,31 @@ impl Problem {
         sensors
             .flat_map(|sensor| (1..targets.len()).map(move |target| one(sensor, target)))
             .collect()
+    }
+
+    /// What a model leaves without what each target shows at most of its visits: a target that is off
+    /// at every visit is no bad reading.
+    pub(super) fn without_own_errors(&self, left: &[f64]) -> Vec<f64> {
+        let mut rest = left.to_vec();
+        let Some(targets) = self.targets() else { return rest };
+        let of = self.visited(&targets);
+        for block in &self.layout.blocks {
+            let level = median(&mut left[block.rows.clone()].to_vec());
+            rest[block.rows.clone()].iter_mut().for_each(|value| *value -= level);
+        }
+        let mut visits = BTreeMap::<_, Vec<usize>>::new();
+        for block in &self.layout.blocks {
+            for row in block.rows.clone() {
+                visits.entry((block.sensor, of[self.samples[row]])).or_default().push(row);
+            }
+        }
+        for rows in visits.values().filter(|rows| VISITS <= rows.len()) {
+            let usual = median(&mut rows.iter().map(|&row| rest[row]).collect::<Vec<_>>());
+            for &row in rows {
+                rest[row] -= usual;
+            }
+        }
+        rest
     }
 
     /// The same problem with what each target shows at every visit left free, so that what happens

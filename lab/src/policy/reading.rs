@@ -172,6 +172,12 @@ pub(crate) const KELVIN: std::ops::RangeInclusive<f64> = 200.0..=400.0;
 /// what was cut off (1e-5 and 1e-6), at six none is. Doubled: one bad reading in a hundred decides.
 pub(crate) const FAR_OUT: f64 = 6.0;
 
+/// Share of samples so far out in noise of the longest tails.
+///
+/// Derived: of Student's law with two degrees of freedom, whose variance is infinite, one in 54. Doubled: bad
+/// readings of six in a hundred are believed.
+pub(crate) const FAR_IN_TAILS: f64 = 1.0 / 54.0;
+
 /// Deviations of its pass beyond which a sample predicts no more.
 ///
 /// Chosen: of 1000 normal ones none lies there. Doubled: a cube follows the largest few alone.
