@@ -15,7 +15,7 @@ use super::excursions::are_readings;
 use crate::model::{Fit, Problem};
 use crate::noise::departures;
 use crate::numerics::{count, deviation, fourier, median, spread};
-use crate::policy::chance::FEWEST_OUTLIERS;
+use crate::policy::chance::{FEWEST_OUTLIERS, SIGNIFICANCE};
 use crate::policy::extent::{IN_COMPANY, LOUDNESS_ROWS};
 use crate::policy::reading::{FAR_IN_TAILS, FAR_OUT, MOST_LOUD};
 
@@ -59,9 +59,14 @@ pub(super) fn outliers(problem: &Problem, fit: &Fit) -> Option<Outliers> {
         (Company::Rows, in_rows(&passes)),
         (Company::Angle(order), at_one_angle),
         (Company::Place, at_places(problem, &passes)),
-        (Company::Number, so_many(&passes, &fit.left)),
     ];
-    let (company, p_value) = surest(&all)?;
+    let with_company = surest(&all)?;
+    // Where they have a place that says more than how many they are.
+    let (company, p_value) = if with_company.1 < SIGNIFICANCE {
+        with_company
+    } else {
+        surest(&[with_company, (Company::Number, so_many(&passes, &fit.left))])?
+    };
     let square: f64 = passes.iter().map(|pass| pass.square).sum();
     Some(Outliers { company, rms_um: (square / count(problem.samples.len())).sqrt(), p_value })
 }

@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use super::columns::Columns;
 use super::problem::Problem;
 use crate::numerics::{median, spread};
-use crate::policy::evidence::{MOST_TARGETS, PASSING, VISITS};
+use crate::policy::evidence::{FEW_TARGETS, PASSING, VISITS, VISITS_OF_FEW};
+use crate::policy::extent::ROWS_A_COLUMN;
 
 /// Places that count as one, against the travel.
 const ONE_PLACE: f64 = 1e-6;
@@ -22,8 +23,7 @@ pub(crate) fn distinct(mut values: Vec<f64>) -> Vec<f64> {
 impl Problem {
     /// Places of the targets, where all samples lie at a few places and the axis may have stopped there.
     fn targets(&self) -> Option<Vec<f64>> {
-        let few = |all: &Vec<f64>| all.len() <= MOST_TARGETS && !self.goes_as_told();
-        self.places().filter(few)
+        self.places().filter(|_| !self.goes_as_told())
     }
 
     /// Places of the samples, turns of the spindle, lowest first; `None` unless each is met several
@@ -31,7 +31,8 @@ impl Problem {
     #[must_use]
     pub(crate) fn places(&self) -> Option<Vec<f64>> {
         let turns = distinct(self.record.turns().collect());
-        (VISITS * turns.len() <= self.record.len()).then_some(turns)
+        let visits = if turns.len() <= FEW_TARGETS { VISITS_OF_FEW } else { VISITS };
+        (visits * turns.len() <= self.record.len()).then_some(turns)
     }
 
     /// Which of some targets each sample is at.
@@ -56,7 +57,8 @@ impl Problem {
     pub(crate) fn columns_of_targets(&self) -> Vec<Vec<f64>> {
         let Some(targets) = self.targets() else { return Vec::new() };
         let width = targets.len() * self.sensors.len();
-        if self.samples.len() < VISITS * width {
+        let rows = if targets.len() <= FEW_TARGETS { VISITS_OF_FEW } else { ROWS_A_COLUMN };
+        if self.samples.len() < rows * width {
             return Vec::new();
         }
         let of = self.visited(&targets);
@@ -69,7 +71,7 @@ impl Problem {
             .collect()
     }
 
-    /// What a model leaves without what each target shows at most of its visits: a target that is off
+    /// What a model leaves without what each target shows at most of its visits one way: a target that is off
     /// at every visit is no bad reading.
     pub(super) fn without_own_errors(&self, left: &[f64]) -> Vec<f64> {
         let mut rest = left.to_vec();
@@ -82,10 +84,12 @@ impl Problem {
         let mut visits = BTreeMap::<_, Vec<usize>>::new();
         for block in &self.layout.blocks {
             for row in block.rows.clone() {
-                visits.entry((block.sensor, of[self.samples[row]])).or_default().push(row);
+                let sample = self.samples[row];
+                let is_forward = 0.0 < self.record.direction[sample];
+                visits.entry((block.sensor, of[sample], is_forward)).or_default().push(row);
             }
         }
-        for rows in visits.values().filter(|rows| VISITS <= rows.len()) {
+        for rows in visits.values().filter(|rows| VISITS_OF_FEW <= rows.len()) {
             let usual = median(&mut rows.iter().map(|&row| rest[row]).collect::<Vec<_>>());
             for &row in rows {
                 rest[row] -= usual;

@@ -74,13 +74,19 @@ pub(crate) const WAVES_A_PASS: f64 = 3.0;
 
 /// Samples a place, on average, from which on a record is a table of targets.
 ///
-/// Chosen: of three the middle one tells which is wrong. Doubled: five runs one way are none.
-pub(crate) const VISITS: usize = 3;
+/// Chosen: ISO 230-2 asks for ten. Doubled: three runs there and back are none.
+pub(crate) const VISITS: usize = 4;
 
-/// Most places that are targets, each with an error of its own.
+/// The same of few places.
 ///
-/// Chosen: a rotary table of one degree. Doubled: four times the time where passes are read at even places.
-pub(crate) const MOST_TARGETS: usize = 360;
+/// Chosen: of three visits the middle one tells which is wrong. Doubled: five runs one way are none.
+pub(crate) const VISITS_OF_FEW: usize = 3;
+
+/// Places that are few.
+///
+/// Chosen: a rotary table every five degrees has 72. Doubled: three passes that were read at even places of a
+/// moving axis are a table.
+pub(crate) const FEW_TARGETS: usize = 100;
 
 /// Logarithm by which the speed by the clock may be off that which is told where an axis stops nowhere.
 ///

@@ -9,7 +9,7 @@
 use std::ops::Range;
 
 use crate::model::{Columns, Fit, Problem, Stage, State};
-use crate::noise::{Block, Noise, Whitener, fit_noise};
+use crate::noise::{Block, Whitener, fit_noise};
 use crate::numerics::least_squares::dot;
 use crate::numerics::{count, median};
 use crate::policy::chance::{
@@ -133,22 +133,23 @@ fn nearby(
 }
 
 /// What a fit gains on a part of a block under the noise of all, over its gain there under a noise of
-/// their own; 1 where they do not need one. With the effect and without it, the noise is that which was
-/// fitted so: what a large step leaves behind itself is no noise, but without the step it is.
+/// their own; 1 where they do not need one. It gains no more there than in all: without a large step the
+/// noise is not that which the step leaves, but the step itself.
 fn gained_apart(problem: &Problem, now: &State, fit: &Fit, part: &Block) -> f64 {
     let layout = problem.layout.stretch(part.rows.clone(), part.pass);
     let (before, after) = (&now.fit.left[part.rows.clone()], &fit.left[part.rows.clone()]);
-    let under_all = |noises: &[Noise], left: &[f64]| {
-        let whitener = Whitener::new(&layout, &noises[part.sensor..=part.sensor]);
+    let whitener = Whitener::new(&layout, &fit.noises[part.sensor..=part.sensor]);
+    let under_all = |left: &[f64]| {
         let white = whitener.whiten(left.to_vec());
         -0.5 * (dot(&white, &white) + whitener.log_determinant())
     };
     let own = fit_noise(&layout, after, None).log_likelihood;
-    let with_it = under_all(&fit.noises, after);
+    let with_it = under_all(after);
     if 2.0 * (own - with_it) < ANOTHER_NOISE {
         return 1.0;
     }
-    let gained = with_it - under_all(&now.fit.noises, before);
+    let in_all = (fit.log_likelihood - now.fit.log_likelihood).max(0.0);
+    let gained = (with_it - under_all(before)).min(in_all);
     let apart = own - fit_noise(&layout, before, None).log_likelihood;
     gained / apart.clamp(f64::MIN_POSITIVE, gained.max(f64::MIN_POSITIVE))
 }
