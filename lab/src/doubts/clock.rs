@@ -21,13 +21,12 @@ pub(super) fn contradicted(measurement: &Measurement, machine: &Machine) -> Opti
     if !measurement.timed || follows_from_clock(measurement, machine) {
         return None;
     }
-    ROWS_APART
-        .iter()
-        .find_map(|apart| by_ratios(measurement, machine, &ratios(measurement, machine, *apart)))
+    ROWS_APART.iter().find_map(|apart| by_rows(measurement, machine, *apart))
 }
 
-fn by_ratios(measurement: &Measurement, machine: &Machine, ratios: &[f64]) -> Option<Doubt> {
-    let usual = median(&mut ratios.to_vec());
+fn by_rows(measurement: &Measurement, machine: &Machine, apart: usize) -> Option<Doubt> {
+    let ratios = ratios(measurement, machine, apart);
+    let usual = median(&mut ratios.clone());
     let off = |factor: f64| move |ratio: f64| libm::log(ratio / factor).abs();
     let is_at = |unit: &&&HeaderUnit| off(unit.1)(usual) < AT_A_UNIT;
     let units = others(LoggedColumn::named("time_s")?);

@@ -8,7 +8,7 @@ use statrs::distribution::{ContinuousCDF, Gamma};
 
 use super::calibration::draw;
 use crate::model::{Fit, Problem};
-use crate::noise::{Layout, Noise};
+use crate::noise::{Layout, Noise, rms};
 use crate::numerics::count;
 use crate::policy::chance::{DRAWS, MOST_DRAWS, WORTH_DRAWING};
 
@@ -26,6 +26,11 @@ impl<'a> OwnNoise<'a> {
         (Self { layout, noise: &fit.noises[sensor] }, rows)
     }
 
+    /// The part of some values that each pass has.
+    pub(super) fn passes<'v>(&self, values: &'v [f64]) -> impl Iterator<Item = &'v [f64]> {
+        self.layout.blocks.iter().map(|block| &values[block.rows.clone()])
+    }
+
     /// Another draw of it.
     pub(super) fn drawn(&self, random: &mut ChaCha8Rng) -> Vec<f64> {
         draw(&self.layout, std::slice::from_ref(self.noise), random)
@@ -36,6 +41,21 @@ impl<'a> OwnNoise<'a> {
 pub(super) fn surest<T: Copy>(found: &[(T, f64)]) -> Option<(T, f64)> {
     let (one, chance) = found.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1))?;
     Some((one, (count(found.len()) * chance).min(1.0)))
+}
+
+/// Root mean square, µm (arcsec), of the surest share of the square that a sensor shows, and its chance; `None`
+/// where the file says how sure each reading is, so that neighbours need not be alike.
+pub(super) fn surest_share(
+    problem: &Problem,
+    fit: &Fit,
+    of_sensor: impl Fn(usize) -> Option<(f64, f64)>,
+) -> Option<(f64, f64)> {
+    if problem.measurement.deviations.is_some() {
+        return None;
+    }
+    let found: Vec<(f64, f64)> = (0..problem.sensors.len()).filter_map(of_sensor).collect();
+    let (share, chance) = surest(&found)?;
+    Some((rms(&problem.layout, &fit.left) * share.max(0.0).sqrt(), chance))
 }
 
 /// Which figure stands out most, and the chance that any does so in noise, of which `drawn` gives the

@@ -10,10 +10,9 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use super::drawn::{OwnNoise, clearest, surest};
+use super::drawn::{OwnNoise, clearest, surest_share};
 use super::excursions::{are_readings, without_outliers};
 use crate::model::{Fit, Problem};
-use crate::noise::rms;
 use crate::numerics::{count, mean};
 use crate::policy::extent::{FEWEST_CUT_IN_TWO, ROWS_OF_A_LEVEL};
 use crate::policy::reading::FAR_OUT;
@@ -22,12 +21,7 @@ use crate::policy::reading::FAR_OUT;
 /// record is too short to tell, or the file says how sure each reading is.
 #[must_use]
 pub(super) fn levels(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
-    if problem.measurement.deviations.is_some() {
-        return None;
-    }
-    let found = (0..problem.sensors.len()).filter_map(|sensor| of_sensor(problem, fit, sensor));
-    let (share, chance) = surest(&found.collect::<Vec<_>>())?;
-    Some((rms(&problem.layout, &fit.left) * share.sqrt(), chance))
+    surest_share(problem, fit, |sensor| of_sensor(problem, fit, sensor))
 }
 
 /// Share of the square by which the halves differ, and the chance of as much, of one sensor.
@@ -35,8 +29,8 @@ fn of_sensor(problem: &Problem, fit: &Fit, sensor: usize) -> Option<(f64, f64)> 
     let (own, rows) = OwnNoise::of(problem, fit, sensor);
     let finest = problem.least_variance[sensor].sqrt();
     let figures_of = |values: &[f64]| {
-        let passes = own.layout.blocks.iter().map(|block| &values[block.rows.clone()]);
-        figures(&passes.filter(|pass| are_readings(pass, finest)).collect::<Vec<_>>())
+        let read = own.passes(values).filter(|pass| are_readings(pass, finest));
+        figures(&read.collect::<Vec<_>>())
     };
     let found = figures_of(&fit.left[rows]);
     let drawn = |seed| figures_of(&own.drawn(&mut ChaCha8Rng::seed_from_u64(seed)));

@@ -11,10 +11,9 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
-use super::drawn::{OwnNoise, clearest, surest};
+use super::drawn::{OwnNoise, clearest, surest_share};
 use super::excursions::{are_readings, loudness, without_outliers};
 use crate::model::{Fit, Problem};
-use crate::noise::rms;
 use crate::numerics::least_squares;
 use crate::numerics::{count, deviation, mean, median};
 use crate::policy::extent::{JUST_BEFORE, LOUDNESS_ROWS, PREDICTED_BY, ROWS_A_LAG};
@@ -24,13 +23,7 @@ use crate::policy::reading::{CLEARLY_LOUDER, FAR_OUT, MOST_DEVIATIONS};
 /// where a record is too short to tell, or the file says how sure each reading is.
 #[must_use]
 pub(super) fn nonlinearity(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
-    if problem.measurement.deviations.is_some() {
-        return None;
-    }
-    let found = (0..problem.sensors.len()).filter_map(|sensor| of_sensor(problem, fit, sensor));
-    let found: Vec<(f64, f64)> = found.collect();
-    let (share, chance) = surest(&found)?;
-    Some((rms(&problem.layout, &fit.left) * share.sqrt(), chance))
+    surest_share(problem, fit, |sensor| of_sensor(problem, fit, sensor))
 }
 
 /// Share and chance of one sensor. Rows that come unevenly are no linear series, for how far the last
@@ -39,10 +32,7 @@ pub(super) fn nonlinearity(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
 fn of_sensor(problem: &Problem, fit: &Fit, sensor: usize) -> Option<(f64, f64)> {
     let (own, rows) = OwnNoise::of(problem, fit, sensor);
     let finest = problem.least_variance[sensor].sqrt();
-    let judged_of = |values: &[f64]| {
-        let passes = own.layout.blocks.iter().map(|block| &values[block.rows.clone()]);
-        judged(&passes.collect::<Vec<_>>(), finest)
-    };
+    let judged_of = |values: &[f64]| judged(&own.passes(values).collect::<Vec<_>>(), finest);
     let found = judged_of(&fit.left[rows])?;
     if WORTH_NOISE < found.chance {
         return Some((found.share, found.chance));

@@ -11,10 +11,9 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use statrs::distribution::{ContinuousCDF, Normal};
 
-use super::drawn::{OwnNoise, clearest, surest};
+use super::drawn::{OwnNoise, clearest, surest_share};
 use super::excursions::{are_readings, without_outliers};
 use crate::model::{Fit, Problem};
-use crate::noise::rms;
 use crate::numerics::least_squares::dot;
 use crate::numerics::{count, mean};
 use crate::policy::extent::HALF_A_SWING;
@@ -24,12 +23,7 @@ use crate::policy::reading::FAR_OUT;
 /// how sure each reading is.
 #[must_use]
 pub(super) fn swings(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
-    if problem.measurement.deviations.is_some() {
-        return None;
-    }
-    let found = (0..problem.sensors.len()).filter_map(|sensor| of_sensor(problem, fit, sensor));
-    let (share, chance) = surest(&found.collect::<Vec<_>>())?;
-    Some((rms(&problem.layout, &fit.left) * share.max(0.0).sqrt(), chance))
+    surest_share(problem, fit, |sensor| of_sensor(problem, fit, sensor))
 }
 
 /// Share of the square that is of the other sign later, and the chance of as much, of one sensor.
@@ -37,8 +31,8 @@ fn of_sensor(problem: &Problem, fit: &Fit, sensor: usize) -> Option<(f64, f64)> 
     let (own, rows) = OwnNoise::of(problem, fit, sensor);
     let finest = problem.least_variance[sensor].sqrt();
     let figures_of = |values: &[f64]| {
-        let passes = own.layout.blocks.iter().map(|block| &values[block.rows.clone()]);
-        figures(&passes.filter(|pass| are_readings(pass, finest)).collect::<Vec<_>>())
+        let read = own.passes(values).filter(|pass| are_readings(pass, finest));
+        figures(&read.collect::<Vec<_>>())
     };
     let found = figures_of(&fit.left[rows]);
     let drawn = |seed| at_halves(&figures_of(&own.drawn(&mut ChaCha8Rng::seed_from_u64(seed))));

@@ -77,13 +77,11 @@ impl Problem {
         let mut rest = left.to_vec();
         let Some(targets) = self.targets() else { return rest };
         let of = self.visited(&targets);
-        for block in &self.layout.blocks {
-            let level = median(&mut left[block.rows.clone()].to_vec());
-            rest[block.rows.clone()].iter_mut().for_each(|value| *value -= level);
-        }
         let mut visits = BTreeMap::<_, Vec<usize>>::new();
         for block in &self.layout.blocks {
+            let level = median(&mut left[block.rows.clone()].to_vec());
             for row in block.rows.clone() {
+                rest[row] -= level;
                 let sample = self.samples[row];
                 let is_forward = 0.0 < self.record.direction[sample];
                 visits.entry((block.sensor, of[sample], is_forward)).or_default().push(row);
