@@ -78,9 +78,8 @@ fn shift(stage: &Stage<'_>, zero: Zero) -> Option<Hypothesis> {
     if probe.iter().all(|value| value.abs() <= 0.0) {
         return None;
     }
-    let places = 0..=SHIFT_TURNS * PLACES_A_TURN;
-    let places: Vec<f64> =
-        places.map(f64::from).flat_map(|place| [place, -place]).skip(1).collect();
+    let most = i32::from(SHIFT_TURNS * PLACES_A_TURN);
+    let places: Vec<f64> = (-most..=most).map(f64::from).collect();
     let gains: Vec<f64> = places.par_iter().map(|place| gain(place * step)).collect();
     let most = gains.iter().copied().fold(0.0, f64::max);
     let is_top = |&at: &usize| {
