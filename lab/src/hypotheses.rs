@@ -13,6 +13,7 @@ mod jumps;
 mod levels;
 mod likelihood;
 mod local;
+mod lost_signs;
 #[cfg(test)]
 mod made_noise;
 mod nonlinearity;

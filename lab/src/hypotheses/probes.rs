@@ -10,6 +10,7 @@ use super::flaws::above_flaws;
 use super::jumps::jumps;
 use super::levels::levels;
 use super::local::{self, Local};
+use super::lost_signs::lost_signs;
 use super::nonlinearity::nonlinearity;
 use super::odd_pass::odd_pass;
 use super::outliers::{Company, outliers};
@@ -136,6 +137,7 @@ pub(crate) fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> V
     all.extend(keeping(problem, fit));
     all.extend(swinging(problem, fit));
     all.extend(standing_apart(problem, fit));
+    all.extend(on_the_other_side(problem, fit));
     all.extend(jumping(problem, fit));
     all.extend(one_way_jumps(problem, fit));
     all.extend(local_shapes(problem, fit));
@@ -333,6 +335,13 @@ fn standing_apart(problem: &Problem, fit: &Fit) -> Option<Structure> {
     let shape = format!("samples far from their neighbours, {how}");
     let p_value = of_all(problem, found.p_value);
     Some(Structure { at, ..Structure::without_place(along, &shape, found.rms_um, p_value) })
+}
+
+/// Readings that lost their sign.
+fn on_the_other_side(problem: &Problem, fit: &Fit) -> Option<Structure> {
+    let (rms_um, chance) = lost_signs(problem, fit)?;
+    let shape = "samples on the other side of zero";
+    Some(Structure::without_place("position", shape, rms_um, of_all(problem, chance)))
 }
 
 /// Creep one way and jumps back, as stick and slip leave them.

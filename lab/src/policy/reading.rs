@@ -178,6 +178,18 @@ pub(crate) const FAR_OUT: f64 = 6.0;
 /// readings of six in a hundred are believed.
 pub(crate) const FAR_IN_TAILS: f64 = 1.0 / 54.0;
 
+/// Shares of readings that lost their sign which are tried.
+///
+/// Chosen: between the likelihoods of neighbours lies less than one. Doubled: one lost sign in 200 readings is
+/// less likely by two.
+pub(crate) const SIGNS_LOST: [f64; 4] = [0.01, 0.03, 0.1, 0.25];
+
+/// Deviations between a reading that is as others are and one that lost its sign.
+///
+/// Chosen: of 200 readings one is farther out by chance; without any that is off by more and with its sign turned by
+/// less nothing is asked. Doubled: a few signs of readings of six deviations stay lost.
+pub(crate) const BEYOND_NOISE: f64 = 3.0;
+
 /// Deviations of its pass beyond which a sample predicts no more.
 ///
 /// Chosen: of 1000 normal ones none lies there. Doubled: a cube follows the largest few alone.

@@ -1,0 +1,143 @@
+//! Readings that lost their sign when they were written down.
+//!
+//! Such a reading is off by twice itself: far from its neighbours, so that a fit takes it for a bad one, and with
+//! its sign turned where they are. How likely it is that some are so is held against the likelihood that all are
+//! as they were read, in noise of any tails, to which a bad one belongs, and that some are turned about one value,
+//! as skewed noise and readings of few steps may be: only what they should have read tells a sign.
+
+use std::ops::Range;
+
+use statrs::distribution::{Continuous, StudentsT};
+
+use super::drawn::surest_share;
+use crate::model::{Fit, Problem};
+use crate::noise::departures;
+use crate::numerics::{chi_squared_tail, deviation, median};
+use crate::policy::chance::SIGNIFICANCE;
+use crate::policy::reading::{BEYOND_NOISE, SIGNS_LOST};
+
+/// Root mean square of readings of the other sign, µm (arcsec), and the chance of as many; `None` where the file
+/// says how sure each reading is.
+#[must_use]
+pub(super) fn lost_signs(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
+    surest_share(problem, fit, |sensor| {
+        let of_sensor = problem.layout.blocks.iter().filter(|block| block.sensor == sensor);
+        let passes = of_sensor.map(|block| block.rows.clone());
+        share(passes, &fit.left, &problem.observed, problem.least_variance[sensor].sqrt())
+    })
+}
+
+/// The same of one sensor, as a share of the square of all rows.
+fn share(
+    passes: impl Iterator<Item = Range<usize>>,
+    left: &[f64],
+    observed: &[f64],
+    finest: f64,
+) -> Option<(f64, f64)> {
+    let both = |rows: Range<usize>| {
+        let (left, observed) = (&left[rows.clone()], &observed[rows]);
+        let zero = median(&mut left.to_vec());
+        let expected = observed.iter().zip(left).map(|(read, left)| read - (left - zero));
+        let turned = |(off, expected): (f64, f64)| (off, -off - 2.0 * expected);
+        departures(left).into_iter().zip(expected).map(turned).collect()
+    };
+    let both: Vec<(f64, f64)> = passes.flat_map(|rows| -> Vec<_> { both(rows) }).collect();
+    let usual = deviation(&mut both.iter().map(|(off, _)| off.abs()).collect::<Vec<_>>());
+    let usual = usual.max(finest);
+    let is_turned = |(off, turned): &&(f64, f64)| {
+        turned.abs() < BEYOND_NOISE * usual && BEYOND_NOISE * usual < off.abs()
+    };
+    let lost: Vec<(f64, f64)> = both.iter().filter(is_turned).copied().collect();
+    if lost.is_empty() {
+        return None;
+    }
+    let square = |all: &[(f64, f64)]| all.iter().map(|(off, _)| off * off).sum::<f64>();
+    let found = likelihood(&both, usual, &SIGNS_LOST);
+    let by_chance = |otherwise: f64| chi_squared_tail(2.0 * (found - otherwise), 1.0);
+    let chance = by_chance(likelihood(&both, usual, &[0.0]));
+    let about_one_value = |(off, turned): &(f64, f64)| {
+        let all = both.iter().map(|(other, _)| (*other, turned + off - other));
+        by_chance(likelihood(&all.collect::<Vec<_>>(), usual, &SIGNS_LOST))
+    };
+    let chance = match chance {
+        0.0..SIGNIFICANCE => {
+            let some = lost.iter().step_by(lost.len().div_ceil(VALUES));
+            some.map(about_one_value).fold(chance, f64::max)
+        }
+        _ => chance,
+    };
+    Some((square(&lost) / square(&both), chance))
+}
+
+/// Most values about which rows are turned.
+const VALUES: usize = 20;
+
+/// Degrees of freedom of the tails that are tried: from a bad reading in four to none.
+const TAILS: [f64; 6] = [1.0, 1.5, 2.0, 3.0, 6.0, 200.0];
+
+/// Widths of the bulk that are tried, against the usual departure, which readings of the other sign widen.
+const WIDTHS: [f64; 6] = [0.5, 0.6, 0.72, 0.86, 1.0, 1.2];
+
+/// Logarithm of the likelihood of rows of which a share is turned, at the best share, tail and width.
+fn likelihood(both: &[(f64, f64)], usual: f64, shares: &[f64]) -> f64 {
+    let laws = TAILS.iter().flat_map(|tail| WIDTHS.iter().map(|width| (usual * width, *tail)));
+    let of_law = |(width, tail): (f64, f64)| {
+        let law = StudentsT::new(0.0, width, tail).ok()?;
+        let densities = both.iter().map(|(off, turned)| (law.pdf(*off), law.pdf(*turned)));
+        let densities: Vec<(f64, f64)> = densities.collect();
+        let of_share = |share: &f64| -> f64 {
+            let rows = densities.iter();
+            rows.map(|(off, turned)| libm::log((1.0 - share) * off + share * turned)).sum()
+        };
+        shares.iter().map(of_share).max_by(f64::total_cmp)
+    };
+    laws.filter_map(of_law).fold(f64::NEG_INFINITY, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::super::made_noise::normal;
+    use super::*;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::{Distribution, StudentT};
+
+    /// Rows of two passes.
+    const ROWS: usize = 60;
+
+    /// Chance that signs were lost of a wave of eight units, some rows of which are read otherwise.
+    fn chance(seed: u64, mut read: impl FnMut(&mut ChaCha8Rng, f64) -> f64) -> f64 {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let wave: Vec<f64> =
+            (0..ROWS).map(|row| 8.0 * libm::sin(TAU * row as f64 / 20.0)).collect();
+        let observed: Vec<f64> = wave.iter().map(|true_um| read(&mut random, *true_um)).collect();
+        let left: Vec<f64> = observed.iter().zip(&wave).map(|(read, wave)| read - wave).collect();
+        let passes = [0..ROWS / 2, ROWS / 2..ROWS].into_iter();
+        share(passes, &left, &observed, 0.01).map_or(1.0, |(_, chance)| chance)
+    }
+
+    #[test]
+    fn signs_that_were_lost_are_told_from_bad_readings() {
+        let one_in = |random: &mut ChaCha8Rng, share: f64| random.random::<f64>() < share;
+        let lost = |random: &mut ChaCha8Rng, value: f64| {
+            let read = value + normal(random);
+            if one_in(random, 0.15) { -read } else { read }
+        };
+        let found = (0..100).filter(|seed| chance(*seed, lost) < 1e-4).count();
+        assert!(80 <= found, "{found}");
+        let knocked = |random: &mut ChaCha8Rng, value: f64| {
+            value + normal(random) + if one_in(random, 0.1) { 16.0 * normal(random) } else { 0.0 }
+        };
+        let tails = |random: &mut ChaCha8Rng, value: f64| {
+            value + StudentT::new(2.0).unwrap().sample(random)
+        };
+        let below = |what: &str, chances: Vec<f64>| {
+            let found = chances.iter().filter(|chance| **chance < 1e-3).count();
+            assert!(found <= 5, "{what}: {found}");
+        };
+        below("knocked", (0..1000).map(|seed| chance(seed, knocked)).collect());
+        below("tails", (0..1000).map(|seed| chance(seed, tails)).collect());
+    }
+}
