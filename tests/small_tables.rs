@@ -71,7 +71,11 @@ fn a_sign_that_was_lost_is_told_from_a_bad_reading() {
             if visit % 6.0 == 4.0 { -read } else { read }
         });
         let told = "samples on the other side of zero";
-        assert!(found.residual.iter().any(|left| left.shape == told), "{seed}: {:?}", found.verdict);
+        assert!(
+            found.residual.iter().any(|left| left.shape == told),
+            "{seed}: {:?}",
+            found.verdict
+        );
         assert_eq!(found.verdict, Verdict::Unexplained, "{seed}");
     }
 }

@@ -100,6 +100,7 @@ mod tests {
 
     use super::super::made_noise::normal;
     use super::*;
+    use crate::numerics::count;
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
     use rand_distr::{Distribution, StudentT};
@@ -111,7 +112,7 @@ mod tests {
     fn chance(seed: u64, mut read: impl FnMut(&mut ChaCha8Rng, f64) -> f64) -> f64 {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let wave: Vec<f64> =
-            (0..ROWS).map(|row| 8.0 * libm::sin(TAU * row as f64 / 20.0)).collect();
+            (0..ROWS).map(|row| 8.0 * libm::sin(TAU * count(row) / 20.0)).collect();
         let observed: Vec<f64> = wave.iter().map(|true_um| read(&mut random, *true_um)).collect();
         let left: Vec<f64> = observed.iter().zip(&wave).map(|(read, wave)| read - wave).collect();
         let passes = [0..ROWS / 2, ROWS / 2..ROWS].into_iter();
