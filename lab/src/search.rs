@@ -5,6 +5,7 @@ mod acceptance;
 mod analysis;
 mod beside_the_rest;
 mod court;
+mod judging;
 mod likeness;
 mod own_errors;
 mod polish;
@@ -12,6 +13,7 @@ mod pruning;
 mod refusal;
 mod rivals;
 mod suspected;
+mod together;
 mod uneven;
 
 pub(crate) use analysis::{Step, search, take_for_a_shape};

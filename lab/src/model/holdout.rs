@@ -38,6 +38,17 @@ pub(crate) fn helps_unseen(problem: &Problem, model: Unseen<'_>, without: Unseen
     better(|part| part.weighed_rms) || better(|part| part.swift_rms)
 }
 
+/// Root mean squares of what a model and another leave of the same unseen data, µm (arcsec).
+#[must_use]
+pub(crate) fn holdout_beside(
+    problem: &Problem,
+    model: Unseen<'_>,
+    without: Unseen<'_>,
+) -> [f64; 2] {
+    let folds = folds(problem, model.0);
+    [model, without].map(|one| size(&unseen(problem, &folds, one), |part| part.rms))
+}
+
 /// True when enough of what two models differ by lies in rows that are held out some time.
 fn tells_apart(
     problem: &Problem,

@@ -21,6 +21,11 @@ pub(crate) const SHORTLIST: usize = 4;
 /// Chosen. Doubled: no other candidate would be.
 pub(crate) const NEAR_THE_BEST: f64 = 0.7;
 
+/// Effects beside each of which a second is looked for.
+///
+/// Chosen, by time: each is a round. Doubled: no other pair.
+pub(crate) const FIRST_OF_PAIRS: usize = 6;
+
 /// Most effects of known size that are tried in sets.
 ///
 /// Chosen, by time: 26 sets. Doubled: 1013.

@@ -7,7 +7,9 @@ use super::{likeness, uneven};
 use crate::hypotheses::{
     chance_in_noise, chance_with_tails, gain_at, least_above_hunting, turn_scan,
 };
-use crate::model::{Columns, Component, Judged, Problem, Stage, State, helps_unseen, holdout_rms};
+use crate::model::{
+    Columns, Component, Judged, Problem, Stage, State, helps_unseen, holdout_beside,
+};
 use crate::noise::{effective_samples, rms, swift_rms};
 use crate::numerics::least_squares::covariance_rows;
 use crate::numerics::{chi_squared_tail, count};
@@ -76,11 +78,11 @@ fn undone(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
 /// Refused when the model with an effect does no better on unseen data than without it.
 fn no_better_unseen(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
     let columns = now.columns.and(&own_columns(problem, judged)?);
-    let helps =
-        helps_unseen(problem, (&columns, &judged.fit.noises), (&now.columns, &now.fit.noises));
-    (!helps).then(|| Refusal::Unseen {
-        with_um: judged.holdout_rms_um,
-        without_um: holdout_rms(problem, &now.columns, &now.fit.noises),
+    let model = (&columns, judged.fit.noises.as_slice());
+    let without = (&now.columns, now.fit.noises.as_slice());
+    (!helps_unseen(problem, model, without)).then(|| {
+        let [with_um, without_um] = holdout_beside(problem, model, without);
+        Refusal::Unseen { with_um, without_um }
     })
 }
 

@@ -1,25 +1,14 @@
 //! The search for what a model lacks: round by round, until what is left is noise.
 
-use std::collections::BTreeMap;
-
-use helixlock_plant::Role;
-use rayon::prelude::*;
-
 use super::acceptance::refusal;
 use super::court::shape_beside;
-use super::likeness;
+use super::judging::tried;
 use super::pruning::{Dropped, pruned};
 use super::refusal::Refusal;
-use crate::hypotheses::{Candidate, Trial, candidates, setting_trials, try_candidate};
-use crate::model::{
-    Columns, Component, Fit, Judged, Problem, Stage, State, holdout_rms, noises_of, settle_beside,
-    with_noise,
-};
-use crate::noise::{Noise, rms};
-use crate::numerics::{chi_squared_tail, count, deviation};
-use crate::policy::chance::NAMED;
-use crate::policy::evidence::{MARGIN, SET_MARGIN};
-use crate::policy::extent::{KNOWN_IN_SETS, MOST_ROUNDS, NEAR_THE_BEST, SHORTLIST};
+use super::together::{Pair, known_together, pair};
+use crate::model::{Component, Judged, Problem, State};
+use crate::policy::evidence::MARGIN;
+use crate::policy::extent::MOST_ROUNDS;
 
 /// Everything that happened in one round.
 #[derive(Debug, Clone)]
@@ -77,17 +66,30 @@ pub(crate) fn take_for_a_shape(problem: &mut Problem, steps: &mut Vec<Step>) {
     }
 }
 
+/// The step from a model to the one with effects more, the last of which is judged beside the others;
+/// `None`, and outliers marked as before, where one of them is dropped at once: it would only be found again.
+fn with_more(problem: &mut Problem, names: &[&str], now: &State, last: &Judged) -> Option<Step> {
+    let marks = problem.layout.inflation.clone();
+    let components = [now.components.clone(), vec![last.component.clone()]].concat();
+    problem.mark_outliers(&last.fit.left);
+    let (state, dropped) = pruned(problem, State::settled(problem, components, &last.fit.noises)?);
+    if dropped.iter().any(|one| names.contains(&one.name.as_str())) {
+        problem.layout.inflation = marks;
+        return None;
+    }
+    Some(Step::to(state, Some(last.component.term.name.clone()), dropped))
+}
+
 /// The step from a model to the one with one effect more.
 fn with_one_more(problem: &mut Problem, now: &State, best: &Judged) -> Option<Step> {
-    let mut components = now.components.clone();
-    components.push(best.component.clone());
-    problem.mark_outliers(&best.fit.left);
-    let state = State::settled(problem, components, &best.fit.noises)?;
-    let (state, dropped) = pruned(problem, state);
-    let name = &best.component.term.name;
-    // What is dropped at once would only be found again.
-    let again = dropped.iter().any(|one| one.name == *name);
-    (!again).then(|| Step::to(state, Some(name.clone()), dropped))
+    with_more(problem, &[&best.component.term.name], now, best)
+}
+
+/// The steps from a model to the one with two effects more.
+fn with_two_more(problem: &mut Problem, two: Pair) -> Option<[Step; 2]> {
+    let next = with_more(problem, &two.names(), &two.first, &two.second)?;
+    let name = two.names()[0].to_owned();
+    Some([Step::to(two.first, Some(name), Vec::new()), next])
 }
 
 fn go_on(problem: &mut Problem, steps: &mut Vec<Step>) {
@@ -107,11 +109,18 @@ fn go_on(problem: &mut Problem, steps: &mut Vec<Step>) {
             add_together(problem, steps, members);
             continue;
         }
-        let next = best.and_then(|best| with_one_more(problem, now, &best));
+        let next = match best.and_then(|best| with_one_more(problem, now, &best)) {
+            Some(one) => vec![one],
+            None => pair(problem, now, &tried)
+                .and_then(|two| with_two_more(problem, two))
+                .map_or_else(Vec::new, Vec::from),
+        };
         steps[last].tried = tried;
         steps[last].refused = refused;
-        let Some(next) = next else { break };
-        steps.push(next);
+        if next.is_empty() {
+            break;
+        }
+        steps.extend(next);
     }
 }
 
@@ -127,163 +136,4 @@ fn add_together(problem: &mut Problem, steps: &mut Vec<Step>, members: Vec<Compo
     }
     let left = steps[steps.len() - 1].state.fit.left.clone();
     problem.mark_outliers(&left);
-}
-
-/// Several effects of known size that together beat every single effect.
-///
-/// Logged physics comes together: a warm day has weather too, and one part of it alone may fit
-/// worse than none. Which of the sets it is, is chosen at the price of a number for each member.
-/// Whether it is there at all is another question: their sizes are known, so that noise multiplies
-/// the likelihood by `x` no oftener than once in `x` (Markov's inequality), and by as much in one
-/// of `n` sets `n` times as often.
-fn known_together(problem: &Problem, now: &State, tried: &[Judged]) -> Option<Vec<Component>> {
-    let coloured = Stage::new(problem, &now.columns, &now.fit.noises);
-    let known: Vec<Component> = candidates(&coloured, &now.components)
-        .into_iter()
-        .map(|candidate| Component::new(candidate.term))
-        .filter(|component| {
-            component.term.parameters.iter().any(|what| matches!(what.role, Role::Known { .. }))
-                && now.components.iter().all(|other| other.term.name != component.term.name)
-        })
-        .collect();
-    let price = problem.price_of_a_number();
-    let single = tried.first().map_or(0.0, |best| best.evidence);
-    let known = &known[..known.len().min(KNOWN_IN_SETS)];
-    let sets = (1_usize..1 << known.len()).filter(|set| 1 < set.count_ones());
-    let looks = 2.0 * libm::log(count(sets.clone().count().max(1)));
-    let (_, gain, members) = sets
-        .filter_map(|set| {
-            let members: Vec<Component> = (0..known.len())
-                .filter(|index| set & (1 << index) != 0)
-                .map(|index| known[index].clone())
-                .collect();
-            let all = [now.components.clone(), members.clone()].concat();
-            let columns = Columns::of_model(problem, &all).ok()?;
-            let rough = with_noise(
-                &problem.layout,
-                &columns,
-                &problem.residual(),
-                &plain_noises(problem, &now.fit),
-            );
-            let state = State::of(problem, all, &noises_of(problem, &rough.left))?;
-            let gain = 2.0 * (state.fit.log_likelihood - now.fit.log_likelihood);
-            Some((gain - price * count(members.len()), gain, members))
-        })
-        .max_by(|a, b| a.0.total_cmp(&b.0))?;
-    let least = (single.max(0.0) + SET_MARGIN).max(-2.0 * libm::log(NAMED));
-    (least < gain - looks).then_some(members)
-}
-
-/// All candidates on what a model leaves, best evidence first.
-#[must_use]
-pub(crate) fn tried(problem: &Problem, now: &State) -> Vec<Judged> {
-    let coloured = Stage::new(problem, &now.columns, &now.fit.noises);
-    let white = Stage::new(problem, &now.columns, &plain_noises(problem, &now.fit));
-    let first = judged_shortlist(problem, now, &[trials(&white, now), trials(&coloured, now)]);
-    let Some(best) = first.first() else { return first };
-    if best.fit.noises.iter().zip(&now.fit.noises).all(|(a, b)| a.is_like(b)) {
-        return first;
-    }
-    // Under the noise that the best one leaves, its rivals show what they can really do.
-    let clear = Stage::new(problem, &now.columns, &best.fit.noises);
-    let again = trials(&clear, now);
-    let mut all = judged_shortlist(problem, now, &[again]);
-    for judged in first {
-        let known =
-            all.iter().position(|other| other.component.term.name == judged.component.term.name);
-        match known {
-            Some(place) if all[place].evidence < judged.evidence => all[place] = judged,
-            Some(_) => {}
-            None => all.push(judged),
-        }
-    }
-    all.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
-    all
-}
-
-/// The strongest trials under a stage's noise and all that come near them, largest gain first, and
-/// how many there were.
-fn trials(stage: &Stage<'_>, now: &State) -> (Vec<Trial>, usize) {
-    let all = candidates(stage, &now.components);
-    let of = |candidate| Some((Some(candidate), try_candidate(stage, candidate)?));
-    let mut trials: Vec<(Option<&Candidate>, Trial)> = all.par_iter().filter_map(of).collect();
-    trials.extend(setting_trials(stage).map(|trial| (None, trial)));
-    trials.sort_by(|a, b| b.1.gain.total_cmp(&a.1.gain));
-    let tried = trials.len();
-    let best = trials.first().map_or(0.0, |(_, trial)| trial.gain);
-    let near = |place: usize, trial: &Trial| place < SHORTLIST || NEAR_THE_BEST * best < trial.gain;
-    let strongest = trials.into_iter().enumerate().filter(|(place, (_, one))| near(*place, one));
-    let strongest: Vec<(Option<&Candidate>, Trial)> = strongest.map(|(_, one)| one).collect();
-    let with_looks = |(candidate, trial): (Option<&Candidate>, Trial)| match candidate {
-        Some(candidate) => trial.with_looks(stage, candidate),
-        None => trial,
-    };
-    (strongest.into_par_iter().map(with_looks).collect(), tried)
-}
-
-/// Trials with their noise fitted anew, the best of each name.
-fn judged_shortlist(problem: &Problem, now: &State, lists: &[(Vec<Trial>, usize)]) -> Vec<Judged> {
-    let mut chosen: BTreeMap<String, Vec<&Trial>> = BTreeMap::new();
-    for trial in lists.iter().flat_map(|(trials, _)| trials) {
-        let known = chosen.entry(trial.component.term.name.clone()).or_default();
-        if !known.iter().any(|other| trial.leaves_as_much_as(other)) {
-            known.push(trial);
-        }
-    }
-    let tried = count(lists.iter().map(|(_, tried)| *tried).max().unwrap_or(1).max(1));
-    let flat: Vec<&Trial> = chosen.into_values().flatten().collect();
-    let judged: Vec<Judged> =
-        flat.into_par_iter().filter_map(|trial| judge(problem, now, trial, tried)).collect();
-    let mut best: Vec<Judged> = Vec::new();
-    for one in judged {
-        match best.iter_mut().find(|other| other.component.term.name == one.component.term.name) {
-            Some(other) if other.evidence < one.evidence => *other = one,
-            Some(_) => {}
-            None => best.push(one),
-        }
-    }
-    best.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
-    best
-}
-
-/// Joint fit, evidence, chance and held-out error of one trial.
-fn judge(problem: &Problem, now: &State, trial: &Trial, tried: f64) -> Option<Judged> {
-    let more = Columns::of(problem, std::slice::from_ref(&trial.component)).ok()?;
-    // The noise begins with what the trial leaves, lest the first noise hides the effect.
-    let left = more.left(&now.fit.left, &trial.coefficients);
-    let columns = now.columns.and(&more);
-    let start = noises_of(problem, &left);
-    let fit = settle_beside(problem, &columns, &start, &now.fit.noises);
-    let gain = 2.0 * (fit.log_likelihood - now.fit.log_likelihood);
-    let freedom = trial.freedom();
-    let price = problem.price_of_a_number();
-    let looks = trial.places(gain);
-    Some(Judged {
-        component: trial.component.clone(),
-        gain,
-        evidence: gain
-            - freedom * price
-            - 2.0 * libm::log(looks)
-            - likeness::price(&trial.component, &now.components),
-        looks,
-        p_value: (chi_squared_tail(gain, freedom) * looks.max(1.0) * tried).min(1.0),
-        rms_um: rms(&problem.layout, &fit.left),
-        holdout_rms_um: holdout_rms(problem, &columns, &fit.noises),
-        fit,
-    })
-}
-
-/// White noise of the size that neighbouring samples differ by: no slow effect hides in it.
-pub(super) fn plain_noises(problem: &Problem, fit: &Fit) -> Vec<Noise> {
-    (0..problem.sensors.len())
-        .map(|sensor| {
-            let blocks = problem.layout.blocks.iter().filter(|block| block.sensor == sensor);
-            let mut steps: Vec<f64> = blocks
-                .flat_map(|block| block.rows.clone().skip(1))
-                .map(|row| (fit.left[row] - fit.left[row - 1]).abs())
-                .collect();
-            let deviation = deviation(&mut steps).max(f64::MIN_POSITIVE.sqrt());
-            Noise::white().scaled(0.5 * deviation * deviation)
-        })
-        .collect()
 }

@@ -10,7 +10,8 @@ use std::collections::BTreeSet;
 use helixlock_plant::{CATALOGUE, Entry};
 
 use super::acceptance::chance_in_any_noise;
-use super::analysis::{Step, plain_noises};
+use super::analysis::Step;
+use super::judging::plain_noises;
 use super::refusal::Refusal;
 use super::rivals::Rivals;
 use super::uneven;

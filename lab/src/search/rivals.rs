@@ -1,7 +1,7 @@
 //! Who explains the data as well as an effect that was found, so that no name is safe.
 
 use super::acceptance::plausible;
-use super::analysis::tried;
+use super::judging::tried;
 use super::likeness::{by_physics, far_fetched};
 use super::pruning::counts;
 use crate::model::{Columns, Component, Judged, Problem, State, pattern, settle};

@@ -1,0 +1,128 @@
+//! Effects judged on what a model leaves: the strongest trials, their noise fitted anew.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use super::likeness;
+use crate::hypotheses::{Candidate, Trial, candidates, setting_trials, try_candidate};
+use crate::model::{
+    Columns, Fit, Judged, Problem, Stage, State, holdout_rms, noises_of, settle_beside,
+};
+use crate::noise::{Noise, rms};
+use crate::numerics::{chi_squared_tail, count, deviation};
+use crate::policy::extent::{NEAR_THE_BEST, SHORTLIST};
+
+/// All candidates on what a model leaves, best evidence first.
+#[must_use]
+pub(crate) fn tried(problem: &Problem, now: &State) -> Vec<Judged> {
+    let coloured = Stage::new(problem, &now.columns, &now.fit.noises);
+    let white = Stage::new(problem, &now.columns, &plain_noises(problem, &now.fit));
+    let first = judged_shortlist(problem, now, &[trials(&white, now), trials(&coloured, now)]);
+    let Some(best) = first.first() else { return first };
+    if best.fit.noises.iter().zip(&now.fit.noises).all(|(a, b)| a.is_like(b)) {
+        return first;
+    }
+    // Under the noise that the best one leaves, its rivals show what they can really do.
+    let clear = Stage::new(problem, &now.columns, &best.fit.noises);
+    let again = trials(&clear, now);
+    let mut all = judged_shortlist(problem, now, &[again]);
+    for judged in first {
+        let known =
+            all.iter().position(|other| other.component.term.name == judged.component.term.name);
+        match known {
+            Some(place) if all[place].evidence < judged.evidence => all[place] = judged,
+            Some(_) => {}
+            None => all.push(judged),
+        }
+    }
+    all.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+    all
+}
+
+/// The strongest trials under a stage's noise and all that come near them, largest gain first, and
+/// how many there were.
+fn trials(stage: &Stage<'_>, now: &State) -> (Vec<Trial>, usize) {
+    let all = candidates(stage, &now.components);
+    let of = |candidate| Some((Some(candidate), try_candidate(stage, candidate)?));
+    let mut trials: Vec<(Option<&Candidate>, Trial)> = all.par_iter().filter_map(of).collect();
+    trials.extend(setting_trials(stage).map(|trial| (None, trial)));
+    trials.sort_by(|a, b| b.1.gain.total_cmp(&a.1.gain));
+    let tried = trials.len();
+    let best = trials.first().map_or(0.0, |(_, trial)| trial.gain);
+    let near = |place: usize, trial: &Trial| place < SHORTLIST || NEAR_THE_BEST * best < trial.gain;
+    let strongest = trials.into_iter().enumerate().filter(|(place, (_, one))| near(*place, one));
+    let strongest: Vec<(Option<&Candidate>, Trial)> = strongest.map(|(_, one)| one).collect();
+    let with_looks = |(candidate, trial): (Option<&Candidate>, Trial)| match candidate {
+        Some(candidate) => trial.with_looks(stage, candidate),
+        None => trial,
+    };
+    (strongest.into_par_iter().map(with_looks).collect(), tried)
+}
+
+/// Trials with their noise fitted anew, the best of each name.
+fn judged_shortlist(problem: &Problem, now: &State, lists: &[(Vec<Trial>, usize)]) -> Vec<Judged> {
+    let mut chosen: BTreeMap<String, Vec<&Trial>> = BTreeMap::new();
+    for trial in lists.iter().flat_map(|(trials, _)| trials) {
+        let known = chosen.entry(trial.component.term.name.clone()).or_default();
+        if !known.iter().any(|other| trial.leaves_as_much_as(other)) {
+            known.push(trial);
+        }
+    }
+    let tried = count(lists.iter().map(|(_, tried)| *tried).max().unwrap_or(1).max(1));
+    let flat: Vec<&Trial> = chosen.into_values().flatten().collect();
+    let judged: Vec<Judged> =
+        flat.into_par_iter().filter_map(|trial| judge(problem, now, trial, tried)).collect();
+    let mut best: Vec<Judged> = Vec::new();
+    for one in judged {
+        match best.iter_mut().find(|other| other.component.term.name == one.component.term.name) {
+            Some(other) if other.evidence < one.evidence => *other = one,
+            Some(_) => {}
+            None => best.push(one),
+        }
+    }
+    best.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+    best
+}
+
+/// Joint fit, evidence, chance and held-out error of one trial.
+fn judge(problem: &Problem, now: &State, trial: &Trial, tried: f64) -> Option<Judged> {
+    let more = Columns::of(problem, std::slice::from_ref(&trial.component)).ok()?;
+    // The noise begins with what the trial leaves, lest the first noise hides the effect.
+    let left = more.left(&now.fit.left, &trial.coefficients);
+    let columns = now.columns.and(&more);
+    let start = noises_of(problem, &left);
+    let fit = settle_beside(problem, &columns, &start, &now.fit.noises);
+    let gain = 2.0 * (fit.log_likelihood - now.fit.log_likelihood);
+    let freedom = trial.freedom();
+    let price = problem.price_of_a_number();
+    let looks = trial.places(gain);
+    Some(Judged {
+        component: trial.component.clone(),
+        gain,
+        evidence: gain
+            - freedom * price
+            - 2.0 * libm::log(looks)
+            - likeness::price(&trial.component, &now.components),
+        looks,
+        p_value: (chi_squared_tail(gain, freedom) * looks.max(1.0) * tried).min(1.0),
+        rms_um: rms(&problem.layout, &fit.left),
+        holdout_rms_um: holdout_rms(problem, &columns, &fit.noises),
+        fit,
+    })
+}
+
+/// White noise of the size that neighbouring samples differ by: no slow effect hides in it.
+pub(super) fn plain_noises(problem: &Problem, fit: &Fit) -> Vec<Noise> {
+    (0..problem.sensors.len())
+        .map(|sensor| {
+            let blocks = problem.layout.blocks.iter().filter(|block| block.sensor == sensor);
+            let mut steps: Vec<f64> = blocks
+                .flat_map(|block| block.rows.clone().skip(1))
+                .map(|row| (fit.left[row] - fit.left[row - 1]).abs())
+                .collect();
+            let deviation = deviation(&mut steps).max(f64::MIN_POSITIVE.sqrt());
+            Noise::white().scaled(0.5 * deviation * deviation)
+        })
+        .collect()
+}
