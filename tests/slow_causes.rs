@@ -32,6 +32,29 @@ fn six_passes_at(
 /// Where each pass begins, mm: no place is met twice, as targets are.
 const OFF_MM: [f64; 6] = [0.0, 0.4, 0.9, 0.2, 0.7, 1.1];
 
+/// A spindle that warms up and a fringe lost in one pass: slow noise takes up either while the other is missing.
+#[test]
+fn two_effects_are_found_at_once() {
+    let both = |seed: &u64| {
+        let mut noise = white(*seed, 0.12);
+        let mut columns = [const { Vec::new() }; 3];
+        for row in 0..700 {
+            let time_s = 1.07 * f64::from(row);
+            let lost_um = if 400.0 < time_s { 0.5 * 0.63281983 } else { 0.0 };
+            let error_um = 0.8 * (1.0 - libm::exp(-time_s / 150.0)) - lost_um + noise();
+            let cells = [time_s, time_s / 1.5, error_um];
+            columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+        }
+        let titles = ["time_s", "position_mm", "error_um"];
+        let found = diagnosed(titles.into_iter().zip(columns).collect());
+        let mut names = names(&found);
+        names.sort_unstable();
+        names == ["fringe-slip", "headstock-growth"]
+    };
+    let found = (0..8).filter(both).count();
+    assert!(4 <= found, "{found} of 8");
+}
+
 /// True when something is left of which these words are said.
 fn tells(found: &Diagnosis, words: &str) -> bool {
     found.residual.iter().any(|one| one.shape.contains(words))

@@ -2,8 +2,9 @@
 //!
 //! Such a reading is off by twice itself: far from its neighbours, so that a fit takes it for a bad one, and with
 //! its sign turned where they are. How likely it is that some are so is held against the likelihood that all are
-//! as they were read, in noise of any tails, to which a bad one belongs, and that some are turned about one value,
-//! as skewed noise and readings of few steps may be: only what they should have read tells a sign.
+//! as they were read, in noise of any tails, to which a bad one belongs, and that some are turned about one value of
+//! their pass, as skewed noise and readings of few steps may be: only where they should have read different values
+//! does a sign tell.
 
 use std::ops::Range;
 
@@ -34,30 +35,24 @@ fn share(
     observed: &[f64],
     finest: f64,
 ) -> Option<(f64, f64)> {
-    let both = |rows: Range<usize>| {
-        let (left, observed) = (&left[rows.clone()], &observed[rows]);
-        let zero = median(&mut left.to_vec());
-        let expected = observed.iter().zip(left).map(|(read, left)| read - (left - zero));
-        let turned = |(off, expected): (f64, f64)| (off, -off - 2.0 * expected);
-        departures(left).into_iter().zip(expected).map(turned).collect()
-    };
-    let both: Vec<(f64, f64)> = passes.flat_map(|rows| -> Vec<_> { both(rows) }).collect();
-    let usual = deviation(&mut both.iter().map(|(off, _)| off.abs()).collect::<Vec<_>>());
+    let rows = |rows: Range<usize>| rows_of(&left[rows.clone()], &observed[rows]);
+    let rows: Vec<Row> = passes.flat_map(rows).collect();
+    let usual = deviation(&mut rows.iter().map(|row| row.off.abs()).collect::<Vec<_>>());
     let usual = usual.max(finest);
-    let is_turned = |(off, turned): &&(f64, f64)| {
-        turned.abs() < BEYOND_NOISE * usual && BEYOND_NOISE * usual < off.abs()
+    let is_turned = |row: &&Row| {
+        row.turned().abs() < BEYOND_NOISE * usual && BEYOND_NOISE * usual < row.off.abs()
     };
-    let lost: Vec<(f64, f64)> = both.iter().filter(is_turned).copied().collect();
+    let lost: Vec<&Row> = rows.iter().filter(is_turned).collect();
     if lost.is_empty() {
         return None;
     }
-    let square = |all: &[(f64, f64)]| all.iter().map(|(off, _)| off * off).sum::<f64>();
-    let found = likelihood(&both, usual, &SIGNS_LOST);
+    let found = likelihood(&rows, Row::turned, usual, &SIGNS_LOST);
     let by_chance = |otherwise: f64| chi_squared_tail(2.0 * (found - otherwise), 1.0);
-    let chance = by_chance(likelihood(&both, usual, &[0.0]));
-    let about_one_value = |(off, turned): &(f64, f64)| {
-        let all = both.iter().map(|(other, _)| (*other, turned + off - other));
-        by_chance(likelihood(&all.collect::<Vec<_>>(), usual, &SIGNS_LOST))
+    let chance = by_chance(likelihood(&rows, Row::turned, usual, &[0.0]));
+    let about_one_value = |lost: &&Row| {
+        let aside = lost.expected - lost.middle;
+        let turned = |row: &Row| -row.off - 2.0 * (row.middle + aside);
+        by_chance(likelihood(&rows, turned, usual, &SIGNS_LOST))
     };
     let chance = match chance {
         0.0..SIGNIFICANCE => {
@@ -66,7 +61,36 @@ fn share(
         }
         _ => chance,
     };
-    Some((square(&lost) / square(&both), chance))
+    let square = |row: &Row| row.off * row.off;
+    let of_lost: f64 = lost.into_iter().map(square).sum();
+    Some((of_lost / rows.iter().map(square).sum::<f64>(), chance))
+}
+
+/// A reading.
+struct Row {
+    /// What it is off its neighbours by.
+    off: f64,
+    /// What should have been read.
+    expected: f64,
+    /// The middle of that in its pass.
+    middle: f64,
+}
+
+impl Row {
+    /// What it is off by with its sign turned.
+    fn turned(&self) -> f64 {
+        -self.off - 2.0 * self.expected
+    }
+}
+
+/// The readings of a pass.
+fn rows_of(left: &[f64], observed: &[f64]) -> Vec<Row> {
+    let zero = median(&mut left.to_vec());
+    let expected: Vec<f64> =
+        observed.iter().zip(left).map(|(read, left)| read - (left - zero)).collect();
+    let middle = median(&mut expected.clone());
+    let off = departures(left).into_iter();
+    off.zip(expected).map(|(off, expected)| Row { off, expected, middle }).collect()
 }
 
 /// Most values about which rows are turned.
@@ -79,12 +103,12 @@ const TAILS: [f64; 6] = [1.0, 1.5, 2.0, 3.0, 6.0, 200.0];
 const WIDTHS: [f64; 6] = [0.5, 0.6, 0.72, 0.86, 1.0, 1.2];
 
 /// Logarithm of the likelihood of rows of which a share is turned, at the best share, tail and width.
-fn likelihood(both: &[(f64, f64)], usual: f64, shares: &[f64]) -> f64 {
+fn likelihood(rows: &[Row], turned: impl Fn(&Row) -> f64, usual: f64, shares: &[f64]) -> f64 {
     let laws = TAILS.iter().flat_map(|tail| WIDTHS.iter().map(|width| (usual * width, *tail)));
     let of_law = |(width, tail): (f64, f64)| {
         let law = StudentsT::new(0.0, width, tail).ok()?;
-        let densities = both.iter().map(|(off, turned)| (law.pdf(*off), law.pdf(*turned)));
-        let densities: Vec<(f64, f64)> = densities.collect();
+        let density = |row: &Row| (law.pdf(row.off), law.pdf(turned(row)));
+        let densities: Vec<(f64, f64)> = rows.iter().map(density).collect();
         let of_share = |share: &f64| -> f64 {
             let rows = densities.iter();
             rows.map(|(off, turned)| libm::log((1.0 - share) * off + share * turned)).sum()
