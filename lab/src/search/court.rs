@@ -20,10 +20,11 @@ use crate::hypotheses::{Structure, chance_with_tails, is_left};
 use crate::model::{
     Columns, Component, Fit, Judged, Problem, Stage, State, noises_of, settle, with_noise,
 };
-use crate::noise::rms;
+use crate::noise::{about_means, rms};
+use crate::numerics::least_squares::{self, dot};
 use crate::numerics::{Looks, chi_squared_tail, count};
 use crate::policy::chance::{NO_ALL_CLEAR, SIGNIFICANCE};
-use crate::policy::evidence::MARGIN;
+use crate::policy::evidence::{MARGIN, SHAPE};
 
 /// Shapes of each noise whose own noise is fitted.
 const SHORTLIST: usize = 2;
@@ -166,12 +167,26 @@ fn looks(state: &State, found: &[Rivals], index: usize) -> f64 {
     own.next().map_or(1.0, |judged| judged.looks)
 }
 
-/// What a named effect pays: its free numbers, and the places it was looked for at. A size that
-/// physics fixes is none.
-pub(super) fn price(problem: &Problem, component: &Component, looks: f64) -> f64 {
-    let priors = component.term.priors();
-    let free = component.kept.iter().zip(&priors).filter(|(kept, known)| **kept && known.is_none());
-    count(free.count()) * problem.price_of_a_number() + 2.0 * libm::log(looks.max(1.0))
+/// What a named effect pays.
+pub(super) struct Price {
+    /// For its free numbers; a size that physics fixes is none.
+    numbers: f64,
+    /// For the places it was looked for at.
+    looks: f64,
+}
+
+impl Price {
+    pub(super) fn of(problem: &Problem, component: &Component, looks: f64) -> Self {
+        let priors = component.term.priors();
+        let free =
+            component.kept.iter().zip(&priors).filter(|(kept, known)| **kept && known.is_none());
+        let numbers = count(free.count()) * problem.price_of_a_number();
+        Self { numbers, looks: 2.0 * libm::log(looks.max(1.0)) }
+    }
+
+    pub(super) fn whole(&self) -> f64 {
+        self.numbers + self.looks
+    }
 }
 
 /// A model and the shapes that are tried against it.
@@ -180,7 +195,7 @@ pub(super) struct Court<'a> {
     pub(super) state: &'a State,
     shapes: &'a [Shape],
     /// What each effect pays.
-    prices: Vec<f64>,
+    prices: Vec<Price>,
     /// Shapes of each noise whose own noise is fitted.
     shortlist: usize,
     /// Places from which on a shape is looked for beside the effects only.
@@ -231,7 +246,7 @@ impl<'a> Court<'a> {
         (shortlist, most_places): (usize, f64),
     ) -> Self {
         let prices = (0..state.components.len())
-            .map(|index| price(problem, &state.components[index], looks(state, found, index)))
+            .map(|index| Price::of(problem, &state.components[index], looks(state, found, index)))
             .collect();
         Self { problem, state, shapes, prices, shortlist, most_places }
     }
@@ -300,7 +315,9 @@ impl<'a> Court<'a> {
             claims.extend(self.shortlist(&stage, group).into_iter().map(|(placed, looks)| {
                 let fit = self.fitted(base, &placed, &stage);
                 let gain = 2.0 * (fit.log_likelihood - nothing);
-                let ahead = self.ahead(group, &fit) - self.price(&placed, &looks, gain);
+                let price = self.price(&placed, &looks, gain);
+                let unsaved = if self.contains(&placed, group) { self.chosen(group) } else { 0.0 };
+                let ahead = self.ahead(group, &fit) - price - unsaved;
                 let p_value = if group.is_empty() {
                     self.chance(&placed, &looks, &fit)
                 } else {
@@ -377,11 +394,38 @@ impl<'a> Court<'a> {
         // The shape's noise may suit the effects, too.
         let own = settle(self.problem, &self.state.columns, &fit.noises).log_likelihood;
         let own = own.max(self.state.fit.log_likelihood);
-        let saved: f64 = group.iter().map(|&index| self.prices[index]).sum();
-        // A shape is one of a list, as a name is; every further name was chosen once more.
+        let saved: f64 = group.iter().map(|&index| self.prices[index].whole()).sum();
+        2.0 * (fit.log_likelihood - own) + saved + self.names_chosen(group)
+    }
+
+    /// What several names pay: a shape is one of a list, as a name is; every further name was chosen once more.
+    fn names_chosen(&self, group: &[usize]) -> f64 {
         let more_names = count(self.names(group).len().saturating_sub(1));
-        let chosen = 2.0 * more_names * libm::log(count(CATALOGUE.len()));
-        2.0 * (fit.log_likelihood - own) + saved + chosen
+        2.0 * more_names * libm::log(count(CATALOGUE.len()))
+    }
+
+    /// What effects pay for having been chosen among places and names: what contains them has chosen as much.
+    fn chosen(&self, group: &[usize]) -> f64 {
+        let looks: f64 = group.iter().map(|&index| self.prices[index].looks).sum();
+        looks + self.names_chosen(group)
+    }
+
+    /// True when the effects of a group are sums of the columns of a shape, which has more of them.
+    fn contains(&self, placed: &Placed<'_>, group: &[usize]) -> bool {
+        let about = |values: &[f64]| about_means(&self.problem.layout, values);
+        let columns: Vec<Vec<f64>> = placed.columns.raw.iter().map(|raw| about(raw)).collect();
+        let views: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+        let is_sum = |&index: &usize| {
+            let (used, _) = self.state.coefficients(index);
+            let shown = self.state.components[index].shown_um(self.problem, used);
+            shown.is_some_and(|shown| {
+                let shown = about(&shown);
+                let left = least_squares::fit(&views, &shown).residual_square;
+                left < SHAPE * dot(&shown, &shown)
+            })
+        };
+        let numbers: usize = group.iter().map(|&index| self.state.components[index].width()).sum();
+        !group.is_empty() && numbers < placed.columns.raw.len() && group.iter().all(is_sum)
     }
 
     /// Chance of what a shape takes away beside all effects in noise, which may have tails.

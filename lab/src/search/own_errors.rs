@@ -5,7 +5,7 @@
 //! before the same judge as one hypothesis with one free number, their common size.
 
 use super::analysis::Step;
-use super::court::{groups, price};
+use super::court::{Price, groups};
 use crate::hypotheses::{Structure, at_targets};
 use crate::model::{Columns, Problem, Stage, State, settle};
 use crate::noise::Noise;
@@ -39,7 +39,7 @@ pub(super) fn paid(problem: &Problem, state: &State, steps: &[Step], index: usiz
     let component = &state.components[index];
     let tried = steps.iter().flat_map(|step| &step.tried);
     let own = tried.filter(|judged| judged.component.term.name == component.term.name);
-    price(problem, component, own.map(|judged| judged.looks).fold(1.0, f64::max))
+    Price::of(problem, component, own.map(|judged| judged.looks).fold(1.0, f64::max)).whole()
 }
 
 /// Log likelihood of a model beside which every target has an error of its own, all of one size.
