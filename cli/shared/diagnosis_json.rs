@@ -65,6 +65,8 @@ keys! {
         stderr: Option<f64> = one.stderr,
         #[serde(skip_serializing_if = "Option::is_none")]
         warning: Option<&'static str> = one.warning,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        file_says: Option<f64> = one.file_says,
     }
 
     CandidateJson<'a>(one: &'a Ranked) {

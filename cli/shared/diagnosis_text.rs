@@ -4,7 +4,7 @@ use std::io::Write;
 
 use helixlock_lab::{Diagnosis, Doubt, FittedEffect, Measurement, Ranked, Round};
 
-use crate::shared::words::{change, why_left, with_error, with_p, worth_of_a_pass};
+use crate::shared::words::{change, file_says, why_left, with_error, with_p, worth_of_a_pass};
 
 /// Standard errors below this have no digit among three decimals.
 const SMALL: f64 = 5e-4;
@@ -82,7 +82,8 @@ pub(crate) fn print_effect(out: &mut impl Write, effect: &FittedEffect) -> anyho
             None => format!("{:.4}", parameter.value),
         };
         let warning = parameter.warning.map_or(String::new(), |w| format!("  ({w})"));
-        writeln!(out, "  {} = {value}{warning}", parameter.key)?;
+        let before = file_says(parameter).map_or(String::new(), |before| format!("  ({before})"));
+        writeln!(out, "  {} = {value}{before}{warning}", parameter.key)?;
     }
     Ok(())
 }

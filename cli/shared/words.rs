@@ -3,7 +3,7 @@
 use std::borrow::Borrow;
 use std::process::ExitCode;
 
-use helixlock_lab::{Comparison, Doubt, Structure, Verdict};
+use helixlock_lab::{Comparison, Doubt, FittedParameter, Structure, Verdict};
 
 /// Chances below this come from rounding, and say no more than that it is very small.
 const SMALLEST: f64 = 1e-99;
@@ -88,6 +88,13 @@ pub(crate) fn doubted(doubt: &Doubt) -> String {
 /// Exit status of a diagnosis: 1 when the input itself is doubted.
 pub(crate) fn status(verdict: Verdict) -> ExitCode {
     if verdict == Verdict::DoubtfulInput { ExitCode::from(1) } else { ExitCode::SUCCESS }
+}
+
+/// What the machine file says of a value that is another one.
+pub(crate) fn file_says(parameter: &FittedParameter) -> Option<String> {
+    let before =
+        parameter.file_says.filter(|before| before.to_bits() != parameter.value.to_bits())?;
+    Some(format!("the file says {before:.4}"))
 }
 
 #[cfg(test)]

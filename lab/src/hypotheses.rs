@@ -5,6 +5,7 @@ mod agreement;
 mod calibration;
 mod candidates;
 mod common_curve;
+mod corrections;
 mod drawn;
 mod excursions;
 mod flaws;

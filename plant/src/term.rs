@@ -37,6 +37,8 @@ pub struct Term {
     pub values: Vec<f64>,
     /// Its formula.
     pub formula: Formula,
+    /// The effect of the machine file, by its place there, that it takes the place of.
+    pub instead_of: Option<usize>,
 }
 
 /// A parameter a fit has found.
@@ -81,6 +83,7 @@ impl Term {
             parameters: card.parameters.iter().map(on_chain).collect(),
             values,
             formula: Formula::Card(card),
+            instead_of: None,
         }
     }
 
@@ -100,7 +103,7 @@ impl Term {
         let custom = Custom::new(name, formula, &names)?;
         let parameters = custom.with_roles(parameters);
         let formula = Formula::Custom(Arc::new(custom));
-        Ok(Self { name: name.into(), entry, parameters, values, formula })
+        Ok(Self { name: name.into(), entry, parameters, values, formula, instead_of: None })
     }
 
     /// Its word after `kind =` in a machine file.

@@ -2,12 +2,14 @@
 
 mod pictures;
 
-use helixlock_lab::{Diagnosis, FittedEffect, Problem, Verdict, lines_left, spectra};
+use helixlock_lab::{
+    Diagnosis, FittedEffect, FittedParameter, Problem, Verdict, lines_left, spectra,
+};
 use helixlock_report::{Page, Part, Table};
 
 use self::pictures::before_and_after;
 pub(crate) use self::pictures::{Left, falling};
-use crate::shared::words::{chance, change, doubted, why_left};
+use crate::shared::words::{chance, change, doubted, file_says, why_left};
 
 /// The page, with what else is known of the model behind the pictures of the data.
 pub(crate) fn page(problem: &Problem, diagnosis: &Diagnosis, more: Vec<Part>) -> Page {
@@ -76,7 +78,7 @@ fn sentence(diagnosis: &Diagnosis, unit: &str) -> String {
 /// An effect with its first parameters.
 fn described(effect: &FittedEffect) -> String {
     const MOST: usize = 2;
-    let value = |parameter: &helixlock_lab::FittedParameter| {
+    let value = |parameter: &FittedParameter| {
         let stderr = parameter.stderr.map_or(String::new(), |stderr| format!(" ± {stderr:.3}"));
         format!("{} {:.3}{stderr}", parameter.key, parameter.value)
     };
@@ -149,11 +151,17 @@ fn parameters(diagnosis: &Diagnosis) -> Table {
                 parameter.key.clone(),
                 format!("{:.5}", parameter.value),
                 parameter.stderr.map_or("from a list".into(), |stderr| format!("{stderr:.5}")),
-                parameter.warning.unwrap_or_default().to_owned(),
+                remarks(parameter),
             ]);
         }
     }
     table
+}
+
+/// What is to be said of a value.
+fn remarks(parameter: &FittedParameter) -> String {
+    let warning = parameter.warning.map(str::to_owned);
+    file_says(parameter).into_iter().chain(warning).collect::<Vec<_>>().join("; ")
 }
 
 fn tried(diagnosis: &Diagnosis, unit: &str) -> Table {

@@ -64,6 +64,8 @@ pub struct FittedParameter {
     pub stderr: Option<f64>,
     /// Why the value should not be trusted as it is, if so.
     pub warning: Option<&'static str>,
+    /// What the machine file says, where it has the effect already.
+    pub file_says: Option<f64>,
 }
 
 /// An effect with its fitted parameters.
@@ -446,19 +448,22 @@ fn fitted(
         component.estimates(used, &covariance_rows(&covariance.linear, from, component.width()))
     };
     let term = component.valued(used);
+    let before = term.instead_of.and_then(|place| problem.model.effects.get(place));
+    let file_says = |parameter: usize| before.map(|before| before.values[parameter]);
     let mut parameters = Vec::new();
     for (estimate, wider) in estimates(of_used).into_iter().zip(estimates(of_all)) {
         let what = &component.term.parameters[estimate.parameter];
         if component.is_counted(estimate.parameter) {
             let (key, value) = (what.key(), estimate.value.round());
-            parameters.push(FittedParameter { key, value, stderr: None, warning: None });
+            let file_says = file_says(estimate.parameter);
+            parameters.push(FittedParameter { key, value, stderr: None, warning: None, file_says });
             continue;
         }
         let of_nature = component.term.nature().uncertainty * estimate.value;
         let [narrow, stderr] = [&estimate, &wider].map(|one| libm::hypot(one.stderr, of_nature));
         // Neither zero nor half a turn is a special phase.
         let has_ends = what.role != Role::Phase;
-        let warning = has_ends
+        let warning = (has_ends && before.is_none())
             .then(|| warning(estimate.value, narrow, &what.range))
             .flatten()
             .or_else(|| another_material(&component.term, estimate.parameter))
@@ -468,6 +473,7 @@ fn fitted(
             value: estimate.value,
             stderr: Some(stderr),
             warning,
+            file_says: file_says(estimate.parameter),
         });
     }
     for (place, &parameter) in component.term.nonlinear_indices().iter().enumerate() {
@@ -486,7 +492,8 @@ fn fitted(
         let stderr = stderr.map(|least| least.max(stepwise(problem, state, index, place)));
         let value = if setting_counts(&term, what) { value.round() } else { value };
         let warning = stderr.and_then(|stderr| warning_at_bound(value, stderr, &what.range));
-        parameters.push(FittedParameter { key: what.key(), value, stderr, warning });
+        let file_says = file_says(parameter);
+        parameters.push(FittedParameter { key: what.key(), value, stderr, warning, file_says });
     }
     FittedEffect { name: component.term.name.clone(), term, parameters }
 }

@@ -2,8 +2,9 @@
 
 use std::cell::LazyCell;
 
-use helixlock_plant::{CATALOGUE, Entry, Formula, Parameter, Role, Search, Term};
+use helixlock_plant::{CATALOGUE, Card, Entry, Formula, Parameter, Role, Search, Term};
 
+use super::corrections::{corrections, is_correctable};
 use super::unfolding::unfolded;
 use crate::model::{Component, Problem, Stage};
 use crate::numerics::{Looks, by_factors, count, evenly, may_resolve, product, spread};
@@ -52,6 +53,7 @@ pub(crate) fn candidates(stage: &Stage<'_>, found: &[Component]) -> Vec<Candidat
         .filter(|card| card.candidate && !card.random && problem.sees(card.entry))
         .filter(|card| problem.model.lacks(card.parts).is_none())
         .filter(|card| card.entry != Entry::Actuator || corrector_moves(problem))
+        .filter(|card| !is_another_size(problem, card))
         .map(|card| Term::candidate(card, problem.model.rotary))
         .chain(problem.extra.iter().cloned())
         .filter(|term| logged(problem, term))
@@ -59,7 +61,15 @@ pub(crate) fn candidates(stage: &Stage<'_>, found: &[Component]) -> Vec<Candidat
         .map(|candidate| with_overtones(candidate, stage.problem, found))
         .flat_map(|candidate| [freed(&candidate), doubled(stage, &candidate), Some(candidate)])
         .flatten()
+        .chain(corrections(stage, found))
         .collect()
+}
+
+/// True for an effect that beside one of the file's is that one in another size.
+fn is_another_size(problem: &Problem, card: &Card) -> bool {
+    let of_file = problem.model.effects.iter().filter(|term| term.kind() == card.kind);
+    card.parameters.iter().all(|what| !what.is_nonlinear())
+        && of_file.into_iter().any(is_correctable)
 }
 
 /// Adds the overtones of gears of which the model has a line already.
@@ -115,12 +125,13 @@ pub(crate) fn candidate(stage: &Stage<'_>, term: Term) -> Option<Candidate> {
     if matches!(term.formula, Formula::Custom(_)) {
         return Some(around_its_values(term));
     }
-    let axes: Vec<Vec<f64>> = term
-        .parameters
-        .iter()
-        .filter(|parameter| parameter.is_nonlinear())
-        .map(|parameter| axis(stage, parameter))
-        .collect();
+    let nonlinear = term.parameters.iter().filter(|parameter| parameter.is_nonlinear());
+    let axes = nonlinear.map(|parameter| axis(stage, parameter)).collect();
+    on_axes(stage, term, axes)
+}
+
+/// An effect with the grid of some values of each of its nonlinear parameters.
+pub(super) fn on_axes(stage: &Stage<'_>, term: Term, axes: Vec<Vec<f64>>) -> Option<Candidate> {
     if axes.iter().any(Vec::is_empty) {
         return None;
     }
@@ -241,7 +252,7 @@ fn logged(problem: &Problem, term: &Term) -> bool {
     term.needs().iter().all(|name| problem.measurement.covariates.contains_key(*name))
 }
 
-fn axis(stage: &Stage<'_>, parameter: &Parameter) -> Vec<f64> {
+pub(super) fn axis(stage: &Stage<'_>, parameter: &Parameter) -> Vec<f64> {
     let record = &stage.problem.record;
     let (low, high) = (*parameter.range.start(), *parameter.range.end());
     match parameter.search {

@@ -25,7 +25,10 @@ pub(crate) fn on_grid(problem: &Problem, candidate: &Candidate) -> GridColumns {
     let at = |point| usable(problem, &Component::new(candidate.at(point)));
     let make = || Arc::new((0..candidate.grid.len()).into_par_iter().map(at).collect());
     match kind.filter(|_| 1 < candidate.grid.len() && values <= MOST_VALUES) {
-        Some(kind) => problem.designs.of(kind, &candidate.grid, make),
+        Some(kind) => {
+            let key = (kind, candidate.term.instead_of);
+            problem.designs.of(key, &candidate.grid, make)
+        }
         None => make(),
     }
 }

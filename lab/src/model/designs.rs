@@ -8,10 +8,13 @@ use super::columns::Columns;
 /// Columns at every place of a grid; `None` where they say nothing.
 pub(crate) type GridColumns = Arc<Vec<Option<Columns>>>;
 
+/// Kind of an effect, and the effect of the machine file in whose place it stands.
+pub(crate) type Key = (&'static str, Option<usize>);
+
 /// What is known of the effects of the catalogue; clones of a problem share it.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Designs {
-    known: Arc<Mutex<BTreeMap<&'static str, Known>>>,
+    known: Arc<Mutex<BTreeMap<Key, Known>>>,
 }
 
 #[derive(Debug)]
@@ -25,19 +28,19 @@ impl Designs {
     #[must_use]
     pub(crate) fn of(
         &self,
-        kind: &'static str,
+        key: Key,
         grid: &[Vec<f64>],
         make: impl FnOnce() -> GridColumns,
     ) -> GridColumns {
         let known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(known) = known.get(kind).filter(|known| known.grid == grid) {
+        if let Some(known) = known.get(&key).filter(|known| known.grid == grid) {
             return Arc::clone(&known.columns);
         }
         // Nobody waits for a lock while columns are made: the work is shared with other threads.
         drop(known);
         let columns = make();
         let fresh = Known { grid: grid.to_vec(), columns: Arc::clone(&columns) };
-        self.known.lock().unwrap_or_else(PoisonError::into_inner).insert(kind, fresh);
+        self.known.lock().unwrap_or_else(PoisonError::into_inner).insert(key, fresh);
         columns
     }
 }

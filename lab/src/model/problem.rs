@@ -271,6 +271,27 @@ impl Problem {
     ///
     /// [`EffectError`] when a column or a section of the machine file is missing.
     pub(crate) fn design(&self, term: &Term) -> Result<Design, EffectError> {
+        let mut design = self.design_alone(term)?;
+        if let Some(before) = term.instead_of.and_then(|place| self.model.effects.get(place)) {
+            let said = self.said(before)?;
+            let fixed = design.fixed.get_or_insert_with(|| vec![0.0; said.len()].into());
+            fixed.iter_mut().zip(&said).for_each(|(fixed, said)| *fixed -= said);
+        }
+        Ok(design)
+    }
+
+    /// What the machine file says that an effect of it shows, row by row.
+    fn said(&self, term: &Term) -> Result<Vec<f64>, EffectError> {
+        let Design { columns, fixed } = self.design_alone(term)?;
+        let mut said = fixed.map_or_else(|| vec![0.0; self.samples.len()], |fixed| fixed.to_vec());
+        for (column, size) in columns.iter().zip(term.coefficients()) {
+            said.iter_mut().zip(column.iter()).for_each(|(sum, value)| *sum += size * value);
+        }
+        Ok(said)
+    }
+
+    /// The same of a term that takes no other's place.
+    fn design_alone(&self, term: &Term) -> Result<Design, EffectError> {
         let context =
             helixlock_plant::Context { machine: &self.model, columns: &self.record.columns };
         let basis = term.basis(&context)?;

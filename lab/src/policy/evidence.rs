@@ -37,6 +37,11 @@ pub(crate) const TIME_LOCK: f64 = 12.0;
 /// seen at once, and is else found one by one.
 pub(crate) const SET_MARGIN: f64 = 10.0;
 
+/// What an effect of the machine file at another value must bring beyond one that is new.
+///
+/// Chosen: it is twice as likely, -2·ln 2; of two that are one column the file's own is said. Doubled: four times.
+pub(crate) const OF_THE_FILE_PRICE: f64 = -1.4;
+
 /// What a high harmonic without the lower ones must bring beyond a named shaft.
 ///
 /// Chosen: odds of one to a hundred, 2·ln 100. Doubled: one to ten thousand.

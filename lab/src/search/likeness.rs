@@ -9,7 +9,9 @@ use crate::model::{Component, Problem, State, pattern};
 use crate::noise::{Block, Whitener, about_means};
 use crate::numerics::least_squares::dot;
 use crate::numerics::{count, least_squares, mean, median, one_in, resolves, spread};
-use crate::policy::evidence::{HIGH_HARMONIC_PRICE, OTHER_TARGETS, SHAPE, WAVE, WAVES_A_PASS};
+use crate::policy::evidence::{
+    HIGH_HARMONIC_PRICE, OF_THE_FILE_PRICE, OTHER_TARGETS, SHAPE, WAVE, WAVES_A_PASS,
+};
 use crate::policy::extent::{FEWEST_TARGETS, ROWS_A_COLUMN, RUN_IN};
 use crate::policy::reading::REVERSAL_REACH;
 use crate::policy::size::{ANOTHER_SPEED, ON_THE_WAY};
@@ -19,7 +21,9 @@ use crate::policy::size::{ANOTHER_SPEED, ON_THE_WAY};
 #[must_use]
 pub(crate) fn high_harmonic_alone(component: &Component, others: &[Component]) -> bool {
     let term = &component.term;
-    let Some(high) = term.nature().high_harmonic else { return false };
+    let Some(high) = term.nature().high_harmonic.filter(|_| term.instead_of.is_none()) else {
+        return false;
+    };
     term.nonlinear().first().is_some_and(|harmonic| high <= *harmonic)
         && !others.iter().any(|other| {
             other.term.kind() == term.kind() && other.term.nonlinear() != term.nonlinear()
@@ -29,7 +33,11 @@ pub(crate) fn high_harmonic_alone(component: &Component, others: &[Component]) -
 /// Evidence an effect has to pay for being unlikely beforehand.
 #[must_use]
 pub(crate) fn price(component: &Component, others: &[Component]) -> f64 {
-    if high_harmonic_alone(component, others) { HIGH_HARMONIC_PRICE } else { 0.0 }
+    match component.term.instead_of {
+        Some(_) => OF_THE_FILE_PRICE,
+        None if high_harmonic_alone(component, others) => HIGH_HARMONIC_PRICE,
+        None => 0.0,
+    }
 }
 
 /// True when a rival is no match for an effect by physics alone: the harmonic of the screw that a

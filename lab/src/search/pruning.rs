@@ -192,6 +192,10 @@ pub(super) fn counts(problem: &Problem, state: &State) -> Vec<Count> {
 fn useless(state: &State, covariance: &JointCovariance, index: usize) -> Option<String> {
     let component = &state.components[index];
     let (used, from) = state.coefficients(index);
+    // That the file's effect has gone is as good a correction as any.
+    if component.term.instead_of.is_some() {
+        return None;
+    }
     if component.kept.is_empty() {
         let mut values = component.term.nonlinear().into_iter().zip(&covariance.nonlinear[index]);
         let is_open = |(value, stderr): (f64, &Option<f64>)| {

@@ -119,6 +119,7 @@ impl Reader<'_> {
                 parameters: vec![MeasuredCurve::SCALE],
                 values: vec![scale],
                 formula: Formula::Curve(Arc::new(curve)),
+                instead_of: None,
             }),
             Err(message) => section.refuse(MachineError::Companion {
                 at: section.value_at("file"),

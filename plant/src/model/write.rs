@@ -75,12 +75,15 @@ impl MachineFile {
         self.document.to_string()
     }
 
-    /// The file with one more effect at its end.
+    /// The file with one more effect at its end, or with one in the place of another.
     ///
     /// # Errors
     ///
     /// [`MachineError`] when the machine cannot carry the effect.
     pub fn with_effect(&self, term: &Term) -> Result<Self, MachineError> {
+        if let Some(place) = term.instead_of {
+            return self.with_values(place, term);
+        }
         let mut document = self.document.clone();
         effect_tables(&mut document).push(effect_table(&self.model, term));
         self.reread(document)
