@@ -13,6 +13,7 @@ mod closed_loop_data;
 mod coarse_readings;
 mod command_line;
 mod compensation_exports;
+mod corrections;
 mod cumulative_compensator;
 mod decade_counter;
 mod device;

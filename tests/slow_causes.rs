@@ -40,7 +40,7 @@ fn two_effects_are_found_at_once() {
         let mut columns = [const { Vec::new() }; 3];
         for row in 0..700 {
             let time_s = 1.07 * f64::from(row);
-            let lost_um = if 400.0 < time_s { 0.5 * 0.63281983 } else { 0.0 };
+            let lost_um = if 400.0 < time_s { 0.5 * 0.632_819_83 } else { 0.0 };
             let error_um = 0.8 * (1.0 - libm::exp(-time_s / 150.0)) - lost_um + noise();
             let cells = [time_s, time_s / 1.5, error_um];
             columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
