@@ -77,11 +77,14 @@ pub(super) struct Pair {
 }
 
 impl Pair {
-    /// A first effect and the best that is accepted beside it.
+    /// A first effect and the best of another name that is accepted beside it: two of one name, such as a slip there
+    /// and one back, imitate a spell of anything.
     fn beside(problem: &Problem, now: &State, one: &Judged) -> Option<Self> {
         let first = with(problem, now, one)?;
         let listed = tried(problem, &first);
-        let second = listed.into_iter().find(|two| refusal(problem, &first, two).is_none())?;
+        let name = &one.component.term.name;
+        let mut others = listed.into_iter().filter(|two| two.component.term.name != *name);
+        let second = others.find(|two| refusal(problem, &first, two).is_none())?;
         let price = |judged: &Judged| judged.gain - judged.evidence;
         let gain = 2.0 * (second.fit.log_likelihood - now.fit.log_likelihood);
         let evidence = gain - price(one) - price(&second);
