@@ -66,6 +66,12 @@ pub(crate) const PROBES: f64 = 18.0;
 /// Doubled: that curve, and a shape of eight columns that repeats each turn, would again.
 pub(crate) const MANY_COLUMNS: usize = 6;
 
+/// Samples that a record is worth where noise may have swallowed two effects.
+///
+/// Measured on twelve pairs that were found so: 2 to 13. Doubled: no other pair, and a fifth more time for a
+/// diagnosis.
+pub(crate) const SWALLOWED: f64 = 30.0;
+
 /// Samples that a record must be worth for χ² to be believed of an effect of few columns.
 ///
 /// Derived: two columns reach a chance of 1e-4 by χ² oftener than so by Fisher's law with a hundred

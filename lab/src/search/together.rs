@@ -11,7 +11,7 @@ use crate::hypotheses::{candidates, chance_in_noise};
 use crate::model::{Columns, Component, Judged, Problem, Stage, State, noises_of, with_noise};
 use crate::noise::effective_samples;
 use crate::numerics::{chi_squared_tail, count};
-use crate::policy::chance::{FEW_SAMPLES, NAMED};
+use crate::policy::chance::{NAMED, SWALLOWED};
 use crate::policy::evidence::{MARGIN, SET_MARGIN};
 use crate::policy::extent::{FIRST_OF_PAIRS, KNOWN_IN_SETS};
 
@@ -151,5 +151,5 @@ fn is_slow(problem: &Problem, now: &State) -> bool {
         let (layout, _) = problem.layout.of_sensor(sensor);
         effective_samples(&layout, &now.fit.noises[sensor])
     };
-    (0..problem.sensors.len()).any(|sensor| worth(sensor) < FEW_SAMPLES)
+    (0..problem.sensors.len()).any(|sensor| worth(sensor) < SWALLOWED)
 }
