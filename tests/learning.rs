@@ -42,7 +42,7 @@ fn a_diagnosis_says_how_the_data_were_read_and_why_names_were_not_taken() {
         "note: angle and travel follow from `time_s` and the spindle speed\n",
         "note: times of effects count from the first sample, `time_s` 700\n",
         "    not taken beside screw-periodic, gear-error",
-        ": not beyond chance: p = ",
+        "    not taken: explains less than screw-periodic: evidence ",
     ];
     for said in said {
         assert!(run.stdout.contains(said), "{said}: {}", run.stdout);

@@ -3,14 +3,14 @@
 //! Logged physics comes together, and slow noise that takes up one of two curves takes up the other while it is
 //! missing: then each alone explains nothing.
 
-use helixlock_plant::Role;
+use helixlock_plant::{CATALOGUE, Role};
 
 use super::acceptance::refusal;
 use super::judging::{plain_noises, tried};
 use crate::hypotheses::{candidates, chance_in_noise};
 use crate::model::{Columns, Component, Judged, Problem, Stage, State, noises_of, with_noise};
 use crate::noise::effective_samples;
-use crate::numerics::{chi_squared_tail, count};
+use crate::numerics::count;
 use crate::policy::chance::{NAMED, SWALLOWED};
 use crate::policy::evidence::{MARGIN, SET_MARGIN};
 use crate::policy::extent::{FIRST_OF_PAIRS, KNOWN_IN_SETS};
@@ -139,10 +139,9 @@ fn with(problem: &Problem, now: &State, one: &Judged) -> Option<State> {
     State::settled(problem, components, &one.fit.noises)
 }
 
-/// Places and effects that were looked at before one was found.
+/// Places and names that were looked at before one was found.
 fn looks(one: &Judged) -> f64 {
-    let plain = chi_squared_tail(one.gain, count(one.component.width().max(1)));
-    (one.p_value / plain.max(f64::MIN_POSITIVE)).max(1.0)
+    one.looks.max(1.0) * count(CATALOGUE.len())
 }
 
 /// True where the noise of some sensor is so slow that a record is worth few samples.
