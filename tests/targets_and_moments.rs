@@ -233,7 +233,7 @@ fn a_late_reading_of_an_axis_that_goes_and_stands_is_no_vibration() {
 #[test]
 fn a_moment_is_as_uncertain_as_the_data_have_it() {
     let (mut square, mut told) = (0.0, 0.0);
-    for seed in 0..12 {
+    for seed in 0..8 {
         let slip = |t: f64, _: f64, _: f64| if t < 701.0 { 0.0 } else { 2.0 * 0.316_410_182_7 };
         let found = diagnose(&Passes::new(&slip, &mut white(seed, 0.7)).problem());
         for effect in &found.rounds[found.rounds.len() - 1].effects {
@@ -244,7 +244,7 @@ fn a_moment_is_as_uncertain_as_the_data_have_it() {
             (square, told) = (square + off * off, told + 1.0);
         }
     }
-    assert!(6.0 <= told && square / told < 4.0, "{told} moments, {square}");
+    assert!(4.0 <= told && square / told < 4.0, "{told} moments, {square}");
 }
 
 /// Two turns of a table, each from its own start, with a wave that only a clock would tell from an
