@@ -20,7 +20,7 @@ pub(crate) use columns::Columns;
 pub(crate) use component::Component;
 pub(crate) use designs::GridColumns;
 pub(crate) use fit::{Fit, noises_of, settle, settle_beside, with_noise};
-pub(crate) use holdout::{helps_unseen, holdout_beside, holdout_rms};
+pub(crate) use holdout::{helps_unseen, holdout_rms, holdout_rms_where};
 pub(crate) use judged::Judged;
 pub use problem::Problem;
 pub(crate) use stage::{Gain, Stage};

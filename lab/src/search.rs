@@ -12,6 +12,7 @@ mod polish;
 mod pruning;
 mod refusal;
 mod rivals;
+mod span;
 mod suspected;
 mod together;
 mod uneven;

@@ -67,9 +67,8 @@ pub(crate) fn candidates(stage: &Stage<'_>, found: &[Component]) -> Vec<Candidat
 
 /// True for an effect that beside one of the file's is that one in another size.
 fn is_another_size(problem: &Problem, card: &Card) -> bool {
-    let of_file = problem.model.effects.iter().filter(|term| term.kind() == card.kind);
     card.parameters.iter().all(|what| !what.is_nonlinear())
-        && of_file.into_iter().any(is_correctable)
+        && problem.model.effects.iter().any(|term| term.kind() == card.kind && is_correctable(term))
 }
 
 /// Adds the overtones of gears of which the model has a line already.

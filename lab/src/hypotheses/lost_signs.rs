@@ -46,13 +46,13 @@ fn share(
     if lost.is_empty() {
         return None;
     }
-    let found = likelihood(&rows, Row::turned, usual, &SIGNS_LOST);
+    let [none, found] = likelihoods(&rows, Row::turned, usual);
     let by_chance = |otherwise: f64| chi_squared_tail(2.0 * (found - otherwise), 1.0);
-    let chance = by_chance(likelihood(&rows, Row::turned, usual, &[0.0]));
+    let chance = by_chance(none);
     let about_one_value = |lost: &&Row| {
         let aside = lost.expected - lost.middle;
         let turned = |row: &Row| -row.off - 2.0 * (row.middle + aside);
-        by_chance(likelihood(&rows, turned, usual, &SIGNS_LOST))
+        by_chance(likelihoods(&rows, turned, usual)[1])
     };
     let chance = match chance {
         0.0..SIGNIFICANCE => {
@@ -102,20 +102,23 @@ const TAILS: [f64; 6] = [1.0, 1.5, 2.0, 3.0, 6.0, 200.0];
 /// Widths of the bulk that are tried, against the usual departure, which readings of the other sign widen.
 const WIDTHS: [f64; 6] = [0.5, 0.6, 0.72, 0.86, 1.0, 1.2];
 
-/// Logarithm of the likelihood of rows of which a share is turned, at the best share, tail and width.
-fn likelihood(rows: &[Row], turned: impl Fn(&Row) -> f64, usual: f64, shares: &[f64]) -> f64 {
+/// Logarithms of the likelihoods that no row is turned, and that a share of them is, at the best share, each at the
+/// best tail and width.
+fn likelihoods(rows: &[Row], turned: impl Fn(&Row) -> f64, usual: f64) -> [f64; 2] {
     let laws = TAILS.iter().flat_map(|tail| WIDTHS.iter().map(|width| (usual * width, *tail)));
     let of_law = |(width, tail): (f64, f64)| {
         let law = StudentsT::new(0.0, width, tail).ok()?;
         let density = |row: &Row| (law.pdf(row.off), law.pdf(turned(row)));
         let densities: Vec<(f64, f64)> = rows.iter().map(density).collect();
-        let of_share = |share: &f64| -> f64 {
+        let of_share = |share: f64| -> f64 {
             let rows = densities.iter();
             rows.map(|(off, turned)| libm::log((1.0 - share) * off + share * turned)).sum()
         };
-        shares.iter().map(of_share).max_by(f64::total_cmp)
+        let some = SIGNS_LOST.map(of_share).into_iter().fold(f64::NEG_INFINITY, f64::max);
+        Some([of_share(0.0), some])
     };
-    laws.filter_map(of_law).fold(f64::NEG_INFINITY, f64::max)
+    let best = |best: [f64; 2], one: [f64; 2]| [best[0].max(one[0]), best[1].max(one[1])];
+    laws.filter_map(of_law).fold([f64::NEG_INFINITY; 2], best)
 }
 
 #[cfg(test)]

@@ -16,7 +16,13 @@ use crate::policy::evidence::{PARTS, TOLD};
 /// held-out part may have its own zero, as a pass has.
 #[must_use]
 pub(crate) fn holdout_rms(problem: &Problem, columns: &Columns, noises: &[Noise]) -> f64 {
-    size(&unseen(problem, &folds(problem, columns), (columns, noises)), |part| part.rms)
+    holdout_rms_where(problem, columns, (columns, noises))
+}
+
+/// The same of a model on what is held out of another one's columns.
+#[must_use]
+pub(crate) fn holdout_rms_where(problem: &Problem, told: &Columns, model: Unseen<'_>) -> f64 {
+    size(&unseen(problem, &folds(problem, told), model), |part| part.rms)
 }
 
 /// A model as it is held out: its columns and its noise.
@@ -36,17 +42,6 @@ pub(crate) fn helps_unseen(problem: &Problem, model: Unseen<'_>, without: Unseen
     let (model, without) = (unseen(problem, &folds, model), unseen(problem, &folds, without));
     let better = |of: fn(&Part) -> f64| size(&model, of) < size(&without, of);
     better(|part| part.weighed_rms) || better(|part| part.swift_rms)
-}
-
-/// Root mean squares of what a model and another leave of the same unseen data, µm (arcsec).
-#[must_use]
-pub(crate) fn holdout_beside(
-    problem: &Problem,
-    model: Unseen<'_>,
-    without: Unseen<'_>,
-) -> [f64; 2] {
-    let folds = folds(problem, model.0);
-    [model, without].map(|one| size(&unseen(problem, &folds, one), |part| part.rms))
 }
 
 /// True when enough of what two models differ by lies in rows that are held out some time.

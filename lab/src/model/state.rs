@@ -46,6 +46,12 @@ impl State {
         Some(if likelier { Self { fit: anew, ..near } } else { near })
     }
 
+    /// The effects and one more.
+    #[must_use]
+    pub(crate) fn with(&self, one: &Component) -> Vec<Component> {
+        self.components.iter().chain([one]).cloned().collect()
+    }
+
     /// The effects that are in no group.
     #[must_use]
     pub(crate) fn without(&self, group: &[usize]) -> Vec<Component> {

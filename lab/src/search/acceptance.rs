@@ -8,7 +8,7 @@ use crate::hypotheses::{
     chance_in_noise, chance_with_tails, gain_at, least_above_hunting, turn_scan,
 };
 use crate::model::{
-    Columns, Component, Judged, Problem, Stage, State, helps_unseen, holdout_beside,
+    Columns, Component, Judged, Problem, Stage, State, helps_unseen, holdout_rms_where,
 };
 use crate::noise::{effective_samples, rms, swift_rms};
 use crate::numerics::least_squares::covariance_rows;
@@ -80,9 +80,9 @@ fn no_better_unseen(problem: &Problem, now: &State, judged: &Judged) -> Option<R
     let columns = now.columns.and(&own_columns(problem, judged)?);
     let model = (&columns, judged.fit.noises.as_slice());
     let without = (&now.columns, now.fit.noises.as_slice());
-    (!helps_unseen(problem, model, without)).then(|| {
-        let [with_um, without_um] = holdout_beside(problem, model, without);
-        Refusal::Unseen { with_um, without_um }
+    (!helps_unseen(problem, model, without)).then(|| Refusal::Unseen {
+        with_um: judged.holdout_rms_um,
+        without_um: holdout_rms_where(problem, &columns, without),
     })
 }
 
@@ -159,18 +159,22 @@ fn chance_without_one_sample(problem: &Problem, now: &State, judged: &Judged) ->
     chance_with_tails(problem, [&now.fit, &judged.fit], other_samples)
 }
 
+/// Samples that a record is worth under the noise of a model, of the sensor with the slowest.
+pub(super) fn worth(problem: &Problem, now: &State) -> f64 {
+    let of = |sensor: usize| {
+        let (layout, _) = problem.layout.of_sensor(sensor);
+        effective_samples(&layout, &now.fit.noises[sensor])
+    };
+    (0..problem.sensors.len()).map(of).fold(f64::INFINITY, f64::min)
+}
+
 /// Of a record that is worth few samples χ² promises too much: drawn noise says more, as far as it
 /// must to tell the chance from a limit.
 fn chance_in_slow_noise(problem: &Problem, now: &State, judged: &Judged, limit: f64) -> f64 {
-    let sensors = 0..problem.sensors.len();
-    let worth = sensors.map(|sensor| {
-        let (layout, _) = problem.layout.of_sensor(sensor);
-        effective_samples(&layout, &now.fit.noises[sensor])
-    });
     let Some(columns) = own_columns(problem, judged).filter(|one| !one.raw.is_empty()) else {
         return judged.p_value;
     };
-    if FEW_SAMPLES <= worth.fold(f64::INFINITY, f64::min) {
+    if FEW_SAMPLES <= worth(problem, now) {
         return judged.p_value;
     }
     let plain = chi_squared_tail(judged.gain, count(columns.raw.len())).max(f64::MIN_POSITIVE);

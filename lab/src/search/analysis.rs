@@ -70,14 +70,14 @@ pub(crate) fn take_for_a_shape(problem: &mut Problem, steps: &mut Vec<Step>) {
 /// `None`, and outliers marked as before, where one of them is dropped at once: it would only be found again.
 fn with_more(problem: &mut Problem, names: &[&str], now: &State, last: &Judged) -> Option<Step> {
     let marks = problem.layout.inflation.clone();
-    let components = [now.components.clone(), vec![last.component.clone()]].concat();
     problem.mark_outliers(&last.fit.left);
-    let (state, dropped) = pruned(problem, State::settled(problem, components, &last.fit.noises)?);
-    if dropped.iter().any(|one| names.contains(&one.name.as_str())) {
+    let state = State::settled(problem, now.with(&last.component), &last.fit.noises);
+    let stays = |dropped: &[Dropped]| dropped.iter().all(|one| !names.contains(&one.name.as_str()));
+    let next = state.map(|state| pruned(problem, state)).filter(|(_, dropped)| stays(dropped));
+    if next.is_none() {
         problem.layout.inflation = marks;
-        return None;
     }
-    Some(Step::to(state, Some(last.component.term.name.clone()), dropped))
+    next.map(|(state, dropped)| Step::to(state, Some(last.component.term.name.clone()), dropped))
 }
 
 /// The step from a model to the one with one effect more.
@@ -129,8 +129,7 @@ fn add_together(problem: &mut Problem, steps: &mut Vec<Step>, members: Vec<Compo
     let bare = State::bare(problem).fit.noises;
     for member in members {
         let before = &steps[steps.len() - 1].state;
-        let components = [before.components.clone(), vec![member.clone()]].concat();
-        let Some(state) = State::settled(problem, components, &bare) else { return };
+        let Some(state) = State::settled(problem, before.with(&member), &bare) else { return };
         let added = Some(member.term.name);
         steps.push(Step::to(state, added, Vec::new()));
     }

@@ -14,10 +14,10 @@ use rayon::prelude::*;
 use super::analysis::Step;
 use super::own_errors::paid;
 use super::pruning::no_counts;
+use super::span::{Span, shown};
 use crate::hypotheses::Structure;
 use crate::model::{Columns, Problem, State};
-use crate::noise::{about_means, rms};
-use crate::numerics::least_squares::{self, dot};
+use crate::noise::rms;
 use crate::policy::evidence::OWN_SHAPE;
 
 /// Places of the effects of a model that something left of it explains as well.
@@ -56,15 +56,10 @@ fn not_told_beside(problem: &Problem, state: &State, prices: &[f64]) -> Vec<usiz
 
 /// Places of the effects that are smaller than something left and have for most part its shape.
 fn parts(problem: &Problem, state: &State, rest: &Structure) -> Vec<usize> {
-    let about = |values: &[f64]| about_means(&problem.layout, values);
-    let columns: Vec<Vec<f64>> = rest.drawn_by.iter().map(|column| about(column)).collect();
-    let views: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+    let span = Span::of(problem, &rest.drawn_by);
     let is_part = |index: &usize| {
-        let (used, _) = state.coefficients(*index);
-        let Some(shown) = state.components[*index].shown_um(problem, used) else { return false };
-        let shown = about(&shown);
-        let left = || least_squares::fit(&views, &shown).residual_square;
-        rms(&problem.layout, &shown) < rest.rms_um && left() < OWN_SHAPE * dot(&shown, &shown)
+        let Some(shown) = shown(problem, state, *index) else { return false };
+        rms(&problem.layout, &shown) < rest.rms_um && span.has(&shown, OWN_SHAPE)
     };
     (0..state.components.len()).filter(is_part).collect()
 }

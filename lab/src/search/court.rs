@@ -14,14 +14,14 @@ use super::analysis::Step;
 use super::judging::plain_noises;
 use super::refusal::Refusal;
 use super::rivals::Rivals;
+use super::span::{Span, shown};
 use super::uneven;
 use crate::formulas::{Placed, Shape, nameless};
 use crate::hypotheses::{Structure, chance_with_tails, is_left};
 use crate::model::{
     Columns, Component, Fit, Judged, Problem, Stage, State, noises_of, settle, with_noise,
 };
-use crate::noise::{about_means, rms};
-use crate::numerics::least_squares::{self, dot};
+use crate::noise::rms;
 use crate::numerics::{Looks, chi_squared_tail, count};
 use crate::policy::chance::{NO_ALL_CLEAR, SIGNIFICANCE};
 use crate::policy::evidence::{MARGIN, SHAPE};
@@ -412,20 +412,13 @@ impl<'a> Court<'a> {
 
     /// True when the effects of a group are sums of the columns of a shape, which has more of them.
     fn contains(&self, placed: &Placed<'_>, group: &[usize]) -> bool {
-        let about = |values: &[f64]| about_means(&self.problem.layout, values);
-        let columns: Vec<Vec<f64>> = placed.columns.raw.iter().map(|raw| about(raw)).collect();
-        let views: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-        let is_sum = |&index: &usize| {
-            let (used, _) = self.state.coefficients(index);
-            let shown = self.state.components[index].shown_um(self.problem, used);
-            shown.is_some_and(|shown| {
-                let shown = about(&shown);
-                let left = least_squares::fit(&views, &shown).residual_square;
-                left < SHAPE * dot(&shown, &shown)
-            })
-        };
         let numbers: usize = group.iter().map(|&index| self.state.components[index].width()).sum();
-        !group.is_empty() && numbers < placed.columns.raw.len() && group.iter().all(is_sum)
+        if group.is_empty() || placed.columns.raw.len() <= numbers {
+            return false;
+        }
+        let span = Span::of(self.problem, &placed.columns.raw);
+        let shown = |&index: &usize| shown(self.problem, self.state, index);
+        group.iter().all(|index| shown(index).is_some_and(|shown| span.has(&shown, SHAPE)))
     }
 
     /// Chance of what a shape takes away beside all effects in noise, which may have tails.

@@ -5,11 +5,10 @@
 
 use helixlock_plant::{CATALOGUE, Role};
 
-use super::acceptance::refusal;
+use super::acceptance::{refusal, worth};
 use super::judging::{plain_noises, tried};
 use crate::hypotheses::{candidates, chance_in_noise};
 use crate::model::{Columns, Component, Judged, Problem, Stage, State, noises_of, with_noise};
-use crate::noise::effective_samples;
 use crate::numerics::count;
 use crate::policy::chance::{NAMED, SWALLOWED};
 use crate::policy::evidence::{MARGIN, SET_MARGIN};
@@ -118,7 +117,7 @@ impl Pair {
 /// The two effects that together explain most, where slow noise may hide each while the other is missing;
 /// `None` unless they beat every single one, every other two, and noise.
 pub(super) fn pair(problem: &Problem, now: &State, single: &[Judged]) -> Option<Pair> {
-    if !is_slow(problem, now) {
+    if SWALLOWED <= worth(problem, now) {
         return None;
     }
     let firsts = single.iter().take(FIRST_OF_PAIRS);
@@ -135,20 +134,10 @@ pub(super) fn pair(problem: &Problem, now: &State, single: &[Judged]) -> Option<
 
 /// A model with one effect more.
 fn with(problem: &Problem, now: &State, one: &Judged) -> Option<State> {
-    let components = [now.components.clone(), vec![one.component.clone()]].concat();
-    State::settled(problem, components, &one.fit.noises)
+    State::settled(problem, now.with(&one.component), &one.fit.noises)
 }
 
 /// Places and names that were looked at before one was found.
 fn looks(one: &Judged) -> f64 {
     one.looks.max(1.0) * count(CATALOGUE.len())
-}
-
-/// True where the noise of some sensor is so slow that a record is worth few samples.
-fn is_slow(problem: &Problem, now: &State) -> bool {
-    let worth = |sensor: usize| {
-        let (layout, _) = problem.layout.of_sensor(sensor);
-        effective_samples(&layout, &now.fit.noises[sensor])
-    };
-    (0..problem.sensors.len()).any(|sensor| worth(sensor) < SWALLOWED)
 }
