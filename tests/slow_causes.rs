@@ -150,6 +150,19 @@ fn what_swings_at_no_one_frequency_is_no_noise() {
 /// Samples that a scratch lifts by forty deviations, one in eleven: an outlier weighs little, but these
 /// all stand at one angle. As many at any angle are bad readings.
 #[test]
+fn waves_whose_frequency_changes_evenly_are_no_noise() {
+    let speeding_up = |nth: usize, mm: f64| {
+        let gone_by = ([0.0, 1.0, 2.0, 3.0, 4.0, 5.0][nth] + mm / 800.0) / 6.0;
+        0.13 * libm::sin(std::f64::consts::TAU * (10.0 + 24.0 * gone_by) * gone_by)
+    };
+    for seed in 0..4 {
+        let found = six_passes_at(seed, &|nth, row| OFF_MM[nth] + 3.0 * row, &speeding_up);
+        assert_eq!(found.verdict, Verdict::Unexplained, "{seed}");
+        assert!(tells(&found, "frequency changes evenly"), "{seed}: {:?}", found.residual);
+    }
+}
+
+#[test]
 fn a_scratch_of_the_grating_is_no_bad_reading() {
     let phase = |turns: f64| turns - libm::floor(turns);
     let places = |pass: usize, row: f64| 1.3 * row + OFF_MM[pass];

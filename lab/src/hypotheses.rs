@@ -4,6 +4,7 @@
 mod agreement;
 mod calibration;
 mod candidates;
+mod chirps;
 mod common_curve;
 mod corrections;
 mod drawn;

@@ -4,6 +4,7 @@
 //! noise fitted anew on both sides, says whether something is left, and its shape says what.
 
 use super::calibration;
+use super::chirps::chirps;
 use super::common_curve::common_curve;
 use super::excursions::excursions;
 use super::flaws::above_flaws;
@@ -143,6 +144,7 @@ pub(crate) fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> V
     all.extend(local_shapes(problem, fit));
     all.extend(waves::lines(problem, model, fit));
     all.extend(waves::bands(problem, fit));
+    all.extend(chirps(problem, model, fit));
     all.extend(step(problem, model, fit));
     all.extend(covariates(problem, model, fit));
     all.extend(curves_of_logs(problem, model, fit));

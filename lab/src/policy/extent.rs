@@ -338,6 +338,28 @@ pub(crate) const FEWEST_CUT_IN_TWO: usize = 12;
 /// Doubled: periods of four rows are not seen.
 pub(crate) const HALF_A_SWING: [usize; 8] = [2, 3, 4, 6, 8, 11, 16, 22];
 
+/// Bends of a coordinate at which waves of changing frequency are looked for, and the steepest: of what the frequency
+/// is in the middle, it is less by so much at one end and more at the other.
+///
+/// Derived: half a bend aside, a hundred waves lose a third of their square. Doubled: the same two hundred.
+pub(crate) const BENDS: usize = 64;
+pub(crate) const STEEPEST_BEND: f64 = 0.95;
+
+/// Waves of a record that are looked for so.
+///
+/// Chosen: fewer are a smooth curve. Doubled at the end: twice the time, and twice the price.
+pub(crate) const WAVES_OF_A_BEND: std::ops::RangeInclusive<f64> = 4.0..=100.0;
+
+/// Waves times bend from which on they are half a turn from any line of one frequency.
+///
+/// Derived: the bend is largest in the middle, where it is a quarter. Doubled: a turn.
+pub(crate) const NO_LINE: f64 = 2.0;
+
+/// Bends that are fitted: a scan takes what hardly changes between samples for strong.
+///
+/// Chosen. Doubled: twice the time.
+pub(crate) const SETTLED_BENDS: usize = 3;
+
 /// Rows that each of [`PREDICTED_BY`] needs.
 ///
 /// Chosen. Doubled: a record of 150 rows says nothing.

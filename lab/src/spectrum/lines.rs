@@ -3,7 +3,7 @@
 use helixlock_plant::Machine;
 
 use super::bands::{self, Band};
-use super::order_spectrum::{Line, Scan};
+use super::order_spectrum::{Line, Point, Scan};
 use crate::model::{Columns, Fit, Problem, State, settle};
 use crate::noise::Whitener;
 use crate::numerics::{median, spread};
@@ -66,6 +66,14 @@ impl LineSearch<'_> {
             scan.line(white, frequency)
         });
         Line { gain: found.gain, p_value: found.p_value, ..anew }
+    }
+
+    /// The highest peak of a scan from a frequency on.
+    #[must_use]
+    pub(crate) fn highest_peak(&self, lowest: f64) -> Option<Point> {
+        let points = self.with_scan(|scan, white| scan.spectrum(white));
+        let peaks = points.into_iter().filter(|point| lowest <= point.frequency);
+        peaks.max_by(|a, b| a.gain.total_cmp(&b.gain))
     }
 
     /// The clearest band of frequencies that is no line.

@@ -1,0 +1,91 @@
+//! Waves whose frequency changes evenly, over the travel or over time.
+//!
+//! A band as wide as they fill is what slow noise has too, and is fitted as such. Along a coordinate that is bent,
+//! `v = u + κ·(u² − u)` of the part `u` that has gone by, they are a line: so they are looked for as lines are, at
+//! every bend.
+
+use rayon::prelude::*;
+
+use super::probes::{Structure, probe};
+use crate::model::{Columns, Fit, Problem};
+use crate::numerics::{count, evenly, spread};
+use crate::policy::extent::{BENDS, NO_LINE, SETTLED_BENDS, STEEPEST_BEND, WAVES_OF_A_BEND};
+use crate::spectrum::{LineSearch, Point, wave};
+
+/// The clearest ones of every sensor.
+pub(super) fn chirps(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
+    let sensors = 0..problem.sensors.len();
+    let axes = axes(problem);
+    let all = sensors.flat_map(|sensor| axes.iter().map(move |axis| (sensor, axis)));
+    all.filter_map(|(sensor, axis)| Search { problem, model, fit, sensor, axis }.clearest())
+        .collect()
+}
+
+/// What goes by evenly, and the highest frequency that its samples resolve.
+struct Axis {
+    name: &'static str,
+    values: Vec<f64>,
+    highest: f64,
+}
+
+/// In a single pass, time is travel.
+fn axes(problem: &Problem) -> Vec<Axis> {
+    let values = problem.record.turns().collect();
+    let mut axes = vec![Axis { name: "position", values, highest: problem.highest_order() }];
+    if 1 < problem.record.passes().len() && problem.measurement.timed {
+        let values = problem.record.time_s.to_vec();
+        axes.push(Axis { name: "time", values, highest: problem.highest_hz() });
+    }
+    axes.retain(|axis| 0.0 < spread(&axis.values));
+    axes
+}
+
+struct Search<'a> {
+    problem: &'a Problem,
+    model: &'a Columns,
+    fit: &'a Fit,
+    sensor: usize,
+    axis: &'a Axis,
+}
+
+impl Search<'_> {
+    /// The scan puts bends in order; what is told is what the noise, fitted anew, leaves to them.
+    fn clearest(&self) -> Option<Structure> {
+        let bends = evenly(-STEEPEST_BEND, STEEPEST_BEND, BENDS);
+        let mut scanned: Vec<(f64, Point)> =
+            bends.into_par_iter().filter_map(|bend| Some((bend, self.highest_of(bend)?))).collect();
+        scanned.sort_by(|a, b| b.1.gain.total_cmp(&a.1.gain));
+        let likeliest = scanned.iter().take(SETTLED_BENDS);
+        let told = likeliest.map(|(bend, point)| self.told(*bend, point.frequency));
+        told.min_by(|a, b| a.p_value.total_cmp(&b.p_value))
+    }
+
+    /// The highest peak along a bent coordinate.
+    fn highest_of(&self, bend: f64) -> Option<Point> {
+        let coordinate = self.bent(bend);
+        let swiftest = self.axis.highest * spread(&self.axis.values) / (1.0 + bend.abs());
+        let highest = swiftest.min(*WAVES_OF_A_BEND.end());
+        let (problem, fit, sensor) = (self.problem, self.fit, self.sensor);
+        let search = LineSearch { problem, fit, sensor, coordinate: &coordinate, highest };
+        search.highest_peak(WAVES_OF_A_BEND.start().max(NO_LINE / bend.abs()))
+    }
+
+    /// From 0 to 1.
+    fn bent(&self, bend: f64) -> Vec<f64> {
+        let values = &self.axis.values;
+        let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let range = spread(values);
+        let gone_by = values.iter().map(|value| (value - low) / range);
+        gone_by.map(|u| u + bend * (u * u - u)).collect()
+    }
+
+    fn told(&self, bend: f64, waves: f64) -> Structure {
+        let columns = wave(self.problem, self.sensor, &self.bent(bend), waves).raw;
+        let (rms_um, chance) = probe(self.problem, self.model, self.fit, &columns);
+        let looks = count(BENDS) * 2.0 * WAVES_OF_A_BEND.end();
+        let shape = "waves whose frequency changes evenly";
+        let told =
+            Structure::without_place(self.axis.name, shape, rms_um, (looks * chance).min(1.0));
+        told.drawn_by(columns)
+    }
+}
