@@ -8,7 +8,8 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use crate::support::diagnosed::{diagnosed, names};
+use crate::support::diagnosed::{diagnosed, diagnosed_on, names};
+use crate::support::passes::white;
 
 /// Deviation, µm.
 const NOISE_UM: f64 = 0.05;
@@ -71,4 +72,25 @@ fn a_slip_between_long_pauses_is_a_slip() {
         assert_eq!(found.verdict, Verdict::Explained, "{seed}");
         assert_eq!(names(&found), ["fringe-slip"], "{seed}");
     }
+}
+
+/// Rows every 4 mm meet the second harmonic of a screw of 10 mm as a wave of 20 mm, the belt's; uneven ones
+/// tell the two apart.
+#[test]
+fn a_wave_too_swift_for_even_rows_is_a_rival_of_a_slow_one() {
+    let machine = "spindle.speed = '30 rpm'\nlead_screw.lead = '10 mm'\nworkpiece.lead = '10 mm'\n\
+                   gear = [{ name = 'belt', order = 0.5 }]";
+    let of = |off: f64| {
+        let mut noise = white(7, 1.0);
+        let mut columns = [const { Vec::new() }; 2];
+        for row in 0..200 {
+            let mm = 4.0 * f64::from(row) + off * libm::sin(2.4 * f64::from(row * row));
+            let error_um = 1.5 * libm::sin(TAU * mm / 20.0 + 0.3) + noise();
+            columns.iter_mut().zip([mm, error_um]).for_each(|(column, cell)| column.push(cell));
+        }
+        diagnosed_on(machine, ["position_mm", "error_um"].into_iter().zip(columns).collect())
+    };
+    let (even, uneven) = (of(0.0), of(1.0));
+    assert_eq!((even.verdict, names(&even)), (Verdict::Ambiguous, vec!["gear-error"]));
+    assert_eq!((uneven.verdict, names(&uneven)), (Verdict::Explained, vec!["gear-error"]));
 }

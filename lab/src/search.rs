@@ -2,6 +2,7 @@
 //! are superfluous, held against their rivals, and polished on all rows.
 
 mod acceptance;
+mod aliases;
 mod analysis;
 mod beside_the_rest;
 mod court;

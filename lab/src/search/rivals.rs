@@ -1,6 +1,7 @@
 //! Who explains the data as well as an effect that was found, so that no name is safe.
 
 use super::acceptance::plausible;
+use super::aliases::by_sampling;
 use super::judging::tried;
 use super::likeness::{by_physics, far_fetched};
 use super::pruning::counts;
@@ -38,7 +39,8 @@ pub(crate) fn rivals(problem: &Problem, state: &State, first: &[Judged]) -> Vec<
                 instead_of(problem, state, index)
             };
             let mut confused = confused(problem, state, index, &tried);
-            for name in by_physics(problem, state, index) {
+            let alike = by_physics(problem, state, index);
+            for name in alike.into_iter().chain(by_sampling(problem, state, index)) {
                 if !confused.contains(&name) {
                     confused.push(name);
                 }
@@ -82,7 +84,7 @@ fn confused(problem: &Problem, state: &State, index: usize, tried: &[Judged]) ->
                 || (behind < CLEAR_MARGIN
                     && judged.looks < COINCIDENCE * own.looks
                     && !is_exact(component)
-                    && INFLATION < inflation(problem, judged, &whitener, &shape))
+                    && INFLATION < inflation(problem, &judged.component, &whitener, &shape))
         })
         .map(|judged| judged.component.term.name.clone())
         .collect()
@@ -104,8 +106,13 @@ fn is_exact(component: &Component) -> bool {
 }
 
 /// Variance inflation of a pattern by another effect's fitted pattern: `1/(1 − R²)`.
-fn inflation(problem: &Problem, rival: &Judged, whitener: &Whitener, shape: &[f64]) -> f64 {
-    let Ok((design, _)) = rival.component.design(problem) else { return 1.0 };
+pub(super) fn inflation(
+    problem: &Problem,
+    rival: &Component,
+    whitener: &Whitener,
+    shape: &[f64],
+) -> f64 {
+    let Ok((design, _)) = rival.design(problem) else { return 1.0 };
     let columns: Vec<&[f64]> = design.columns.iter().map(|column| column.as_slice()).collect();
     let white = whitener.whiten_all(&columns);
     let views: Vec<&[f64]> = white.iter().map(Vec::as_slice).collect();
