@@ -17,6 +17,7 @@ mod doubt;
 mod factor;
 mod hypothesis;
 mod law;
+mod readings;
 mod shift;
 mod swap;
 mod view;
@@ -71,7 +72,8 @@ pub(crate) fn doubts_and_suspects(problem: &Problem) -> (Vec<Doubt>, Vec<Suspect
 fn contradicting(problem: &Problem) -> Vec<Doubt> {
     let measurement = &problem.measurement;
     let clock = clock::contradicted(measurement, &problem.model);
-    direction::denied(measurement).into_iter().chain(clock).collect()
+    let readings = readings::of_no_instrument(problem);
+    direction::denied(measurement).into_iter().chain(clock).chain(readings).collect()
 }
 
 fn hypotheses(problem: &Problem) -> Vec<Hypothesis> {

@@ -83,7 +83,9 @@ impl<'a> Court<'a> {
     fn suspect(&self, one: Hypothesis) -> Suspect {
         let both = one.mended.predicted.iter().zip(&self.problem.predicted);
         let change = both.map(|(after, before)| after - before).collect();
-        Suspect { doubt: one.doubt(), change, price: self.price(&one), mended: one.mended }
+        // A mistake is one of a list, as the name is in whose place it stands.
+        let price = self.price(&one) - self.looks;
+        Suspect { doubt: one.doubt(), change, price, mended: one.mended }
     }
 
     fn view(&self, noises: &[crate::noise::Noise]) -> View {

@@ -34,7 +34,7 @@ pub(super) fn factors(problem: &Problem) -> Vec<Hypothesis> {
         }
         let Some(known) = LoggedColumn::named(column) else { continue };
         if MACHINE_OF_EFFECTS <= problem.model.effects.len() {
-            all.extend(tens(problem, index, known));
+            all.extend(slips(problem, index, known));
         }
         for (unit, factor, _) in others(known) {
             for (sign, turned) in [(1.0, ""), (-1.0, ", with the opposite sign")] {
@@ -50,11 +50,18 @@ pub(super) fn factors(problem: &Problem) -> Vec<Hypothesis> {
     all
 }
 
-/// A decimal point that slipped, either way. One effect alone may have grown by so much.
-fn tens(problem: &Problem, sensor: usize, column: &LoggedColumn) -> [Hypothesis; 2] {
-    let written = column.units[0].0;
-    [10.0, 0.1].map(|factor| {
-        let says = format!("`{}` is written in units of {factor} {written}", column.name);
+/// A decimal point that slipped, a diameter for a radius, a beam that went there and back twice. One effect
+/// alone may have grown by so much.
+fn slips(problem: &Problem, sensor: usize, column: &LoggedColumn) -> [Hypothesis; 4] {
+    let (name, written) = (column.name, column.units[0].0);
+    let tens = |factor: f64| format!("`{name}` is written in units of {factor} {written}");
+    let all = [
+        (10.0, tens(10.0)),
+        (0.1, tens(0.1)),
+        (2.0, format!("`{name}` is half of what the file predicts: radii for diameters?")),
+        (0.5, format!("`{name}` is twice what the file predicts: diameters for radii?")),
+    ];
+    all.map(|(factor, says)| {
         let how = format!("unit = \"{factor} {written}\"");
         scaled(problem, sensor, ("unit", says, how), factor)
     })

@@ -88,6 +88,8 @@ fn shift(stage: &Stage<'_>, zero: Zero) -> Option<Hypothesis> {
         is_high && near.iter().all(|gain| *gain <= gains[at])
     };
     let mut tops: Vec<usize> = (0..gains.len()).filter(is_top).collect();
+    // Shifts by a period more are no other shift.
+    let looks = count(places.len()) / count(tops.len().max(1));
     tops.sort_by(|&a, &b| gains[b].total_cmp(&gains[a]));
     tops.truncate(TOPS);
     let refined = tops.into_par_iter().map(|at| {
@@ -97,7 +99,7 @@ fn shift(stage: &Stage<'_>, zero: Zero) -> Option<Hypothesis> {
     let shift = nearest_of_the_best(refined.collect())?;
     let shifted = zero.shifted(problem, shift);
     let one = Hypothesis::of_measurement(problem, &shifted, zero.words(problem, shift))?;
-    Some(Hypothesis { numbers: 1.0, looks: count(places.len()), usual: 0.0, ..one })
+    Some(Hypothesis { numbers: 1.0, looks, usual: 0.0, ..one })
 }
 
 /// The least shift of those that gain as much as the best: a wave comes back every turn.

@@ -198,6 +198,10 @@ fn a_slipped_decimal_point_is_told_where_every_effect_grew() {
     assert!(what == "unit" && mend.ends_with("unit = \"10 um\""), "{what} {mend}");
     let (what, mend) = of(&known, 10.0).expect("a doubt");
     assert!(what == "unit" && mend.ends_with("unit = \"0.1 um\""), "{what} {mend}");
+    for (factor, unit) in [(0.5, "2 um"), (2.0, "0.5 um")] {
+        let (what, mend) = of(&known, factor).expect("a doubt");
+        assert!(what == "unit" && mend.ends_with(&format!("\"{unit}\"")), "{what} {mend}");
+    }
     let (one, _) = WAVES.split_at(WAVES.rfind("[[effect]]").expect("two effects"));
     assert_eq!(of(&machine(150, one), 0.1), None, "one effect may shrink");
 }
@@ -270,21 +274,30 @@ fn another_zero_of_the_position_is_found() {
     assert!(what == "shift" && mend.starts_with("take 4.2"), "{what} {mend}");
 }
 
+/// The rows of a table once more behind it, as another pass a while later.
+fn twice(mut table: Table) -> Table {
+    let rows = table.columns[0].values.len();
+    for column in &mut table.columns {
+        let later = if column.name == "time_s" { 700.0 } else { 0.0 };
+        let again: Vec<f64> = column.values.iter().map(|value| value + later).collect();
+        column.values.extend(again);
+    }
+    let passes = (0..2 * rows).map(|row| if row < rows { 1.0 } else { 2.0 });
+    table.columns.push(Column { name: "pass".to_owned(), values: passes.collect() });
+    table
+}
+
 #[test]
 fn another_zero_of_one_pass_is_found() {
     let bump = "[[effect]]\nkind = 'screw-wear'\nheight = '2.5 um'\nposition = '140 mm'\n\
                 width = '9 mm'\n";
     let known = machine(150, &format!("{WAVES}{bump}"));
-    let mut twice = measured(&known);
-    let rows = twice.rows();
-    for column in &mut twice.columns {
-        let later = if column.name == "time_s" { 700.0 } else { 0.0 };
-        let again: Vec<f64> = column.values.iter().map(|value| value + later).collect();
-        column.values.extend(again);
-    }
+    let twice = twice(measured(&known));
+    let rows = twice.rows() / 2;
+    let mut chance = ChaCha8Rng::seed_from_u64(8);
+    let mut noise = || -> f64 { StandardNormal.sample(&mut chance) };
+    let twice = changed(twice, "error_um", |value| value + 0.01 * noise());
     let mut number = 0;
-    let pass = (0..2 * rows).map(|row| if row < rows { 1.0 } else { 2.0 }).collect();
-    twice.columns.push(Column { name: "pass".to_owned(), values: pass });
     assert_eq!(doubted(&known, &twice), None);
     let second = changed(twice, "position_mm", |place| {
         number += 1;
@@ -390,4 +403,46 @@ fn what_a_held_log_predicts_is_no_other_machine() {
     let holds = problem(&air, &held).measurement.holds("air_pressure_hpa");
     assert!(holds, "five readings settle no clock");
     assert_eq!(doubted(&air, &held), None);
+}
+
+#[test]
+fn copies_are_told_and_what_was_measured_again_is_none() {
+    let bare = machine(150, "");
+    let copied = twice(measured(&bare));
+    let (what, mend) = doubted(&bare, &copied).expect("a doubt");
+    assert_eq!((what, mend.as_str()), ("copy", "leave pass 2 out"));
+    let mut row = 0;
+    let again = changed(copied, "error_um", |value| {
+        row += 1;
+        value + 0.01 * libm::sin(f64::from(row))
+    });
+    assert_eq!(doubted(&bare, &again), None);
+    let mut doubled = measured(&bare);
+    for column in &mut doubled.columns {
+        column.values = column.values.iter().flat_map(|value| [*value; 2]).collect();
+    }
+    assert_eq!(doubted(&bare, &doubled).expect("a doubt").0, "copy");
+}
+
+/// A wave that ends at the instrument's range; one whose peaks the display rounds; runs that begin and end at zero.
+#[test]
+fn readings_cut_off_are_told_and_rounded_ones_are_none() {
+    let known = machine(150, WAVES);
+    let cut = changed(measured(&known), "error_um", |value| value.clamp(-5.0, 1.4));
+    let (what, mend) = doubted(&known, &cut).expect("a doubt");
+    assert!(what == "cut-off" && mend.ends_with("leave rows of 1.4 out"), "{what} {mend}");
+    for step in [0.4, 0.2, 0.1, 0.05, 0.01] {
+        let rounded = |value: f64| step * libm::round(value / step);
+        assert_eq!(
+            doubted(&known, &changed(measured(&known), "error_um", rounded)),
+            None,
+            "{step}"
+        );
+    }
+    let mut row = 0;
+    let zeroed = changed(measured(&known), "error_um", |value| {
+        row += 1;
+        if row % 30 < 2 { -4.0 } else { value }
+    });
+    assert_eq!(doubted(&known, &zeroed), None);
 }

@@ -119,3 +119,30 @@ pub(crate) const AT_A_UNIT: f64 = 0.01;
 /// Chosen: times and places are rounded. Doubled: where an axis dwells for a tenth of its time it may be
 /// doubted.
 pub(crate) const A_ROW_AT_A_UNIT: f64 = 0.05;
+
+/// Fewest rows that are another pass's to the last digit, or copies of their neighbours, and fewest different ones
+/// among them.
+///
+/// Chosen: of five values, ten rows are those of another pass by accident once in ten million. Doubled: short
+/// tables may be copied.
+pub(crate) const COPIED_ROWS: usize = 10;
+pub(crate) const DIFFERENT: usize = 5;
+
+/// Share of the rows that are there as often as any, from which on all of them were copied.
+///
+/// Chosen: a few are lost where passes were cut. Nearer to 1: these are not told.
+pub(crate) const MOST_ROWS_COPIED: f64 = 0.9;
+
+/// Rows on end that stand at a limit, and how often, of a column with so many values.
+///
+/// Chosen: a table that every run begins and ends at zero has one row there, and noise on a lattice of few values
+/// stays at any of them. Doubled: waves of few rows are cut off unnoticed.
+pub(crate) const CUT_OFF_RUN: usize = 3;
+pub(crate) const CUT_OFF_RUNS: usize = 3;
+pub(crate) const CUT_OFF_VALUES: usize = 20;
+
+/// How many times as often as the oftenest of the next values.
+///
+/// Derived: noise on a lattice is there less often, a sine up to 1/(√2 − 1) = 2.4 times. Doubled: waves that are cut
+/// off near their peaks are not told.
+pub(crate) const OFTENER_THAN_BEFORE: usize = 3;

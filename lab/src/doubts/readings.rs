@@ -1,0 +1,130 @@
+//! Readings that no instrument gives: copied ones, and those cut off at the end of its range.
+
+use std::ops::Range;
+
+use super::doubt::{Doubt, said_by};
+use crate::measurement::{Measurement, sensor_column};
+use crate::model::Problem;
+use crate::numerics::count;
+use crate::policy::mistakes::{
+    COPIED_ROWS, CUT_OFF_RUN, CUT_OFF_RUNS, CUT_OFF_VALUES, DIFFERENT, MOST_ROWS_COPIED,
+    OFTENER_THAN_BEFORE,
+};
+
+/// All of them that a measurement has.
+pub(super) fn of_no_instrument(problem: &Problem) -> Vec<Doubt> {
+    let passes = problem.record.passes();
+    let measurement = &problem.measurement;
+    let mut doubts: Vec<Doubt> = copied_pass(measurement, &passes).into_iter().collect();
+    doubts.extend(copied_rows(measurement, &passes));
+    doubts.extend(cut_off(measurement, &passes));
+    doubts
+}
+
+/// What every sensor shows in a row, to the bit.
+fn readings(measurement: &Measurement, row: usize) -> Vec<u64> {
+    measurement.observations.values().map(|values| values[row].to_bits()).collect()
+}
+
+/// A pass whose readings are those of an earlier one, in the same order.
+fn copied_pass(measurement: &Measurement, passes: &[Range<usize>]) -> Option<Doubt> {
+    let all = |rows: &Range<usize>| -> Vec<Vec<u64>> {
+        rows.clone().map(|row| readings(measurement, row)).collect()
+    };
+    let all: Vec<Vec<Vec<u64>>> = passes.iter().map(all).collect();
+    let (first, again) = all.iter().enumerate().find_map(|(again, rows)| {
+        let first = all[..again].iter().position(|earlier| earlier == rows)?;
+        (COPIED_ROWS <= rows.len() && DIFFERENT <= different(rows)).then_some((first, again))
+    })?;
+    let name = |pass: usize| measurement.pass_names[measurement.pass[passes[pass].start]];
+    let (first, name) = (name(first), name(again));
+    Some(Doubt {
+        what: "copy",
+        evidence: said_by(all[again].len()),
+        says: format!("the readings of pass {name} are those of pass {first} to the last digit"),
+        mend: format!("leave pass {name} out"),
+    })
+}
+
+fn different(rows: &[Vec<u64>]) -> usize {
+    let mut rows = rows.to_vec();
+    rows.sort_unstable();
+    rows.dedup();
+    rows.len()
+}
+
+/// Rows that are each there as often.
+fn copied_rows(measurement: &Measurement, passes: &[Range<usize>]) -> Option<Doubt> {
+    if !measurement.timed {
+        return None;
+    }
+    let same = |row: usize, before: usize| {
+        let alike = |values: &[f64]| values[row].to_bits() == values[before].to_bits();
+        alike(&measurement.time_s)
+            && alike(&measurement.angle_rev)
+            && readings(measurement, row) == readings(measurement, before)
+    };
+    let mut groups: Vec<usize> = Vec::new();
+    for rows in passes {
+        for row in rows.clone() {
+            match groups.last_mut() {
+                Some(group) if row != rows.start && same(row, row - 1) => *group += 1,
+                _ => groups.push(1),
+            }
+        }
+    }
+    let times = groups.iter().copied().max().filter(|times| 1 < *times)?;
+    let so = groups.iter().filter(|group| **group == times).count();
+    let most = MOST_ROWS_COPIED * count(groups.len()) <= count(so);
+    (most && COPIED_ROWS <= so).then(|| Doubt {
+        what: "copy",
+        evidence: said_by(so),
+        says: format!("every row is there {times} times, to the last digit"),
+        mend: "leave the copies out".to_owned(),
+    })
+}
+
+/// A column whose largest or smallest reading comes again and again, several rows on end.
+fn cut_off(measurement: &Measurement, passes: &[Range<usize>]) -> Vec<Doubt> {
+    let mut doubts = Vec::new();
+    for (sensor, values) in &measurement.observations {
+        for sign in [1.0, -1.0] {
+            let values: Vec<f64> = values.iter().map(|value| sign * value).collect();
+            let Some((most, rows)) = upper_limit(&values, passes) else { continue };
+            let (column, limit) = (sensor_column(*sensor, measurement.rotary), sign * most);
+            doubts.push(Doubt {
+                what: "cut-off",
+                evidence: said_by(rows),
+                says: format!("`{column}` is cut off at {limit}: {rows} readings are just that"),
+                mend: format!("measure with a wider range, or leave rows of {limit} out"),
+            });
+        }
+    }
+    doubts
+}
+
+/// The largest value and its rows, where they stand in several runs and are more than those of the next values:
+/// noise on a lattice has fewer of its largest. A zero that each pass begins at is no run.
+fn upper_limit(values: &[f64], passes: &[Range<usize>]) -> Option<(f64, usize)> {
+    let mut sorted: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
+    sorted.sort_by(|a, b| b.total_cmp(a));
+    let mut numbers: Vec<(f64, usize)> = Vec::new();
+    for value in sorted {
+        match numbers.last_mut() {
+            Some((last, number)) if last.to_bits() == value.to_bits() => *number += 1,
+            _ => numbers.push((value, 1)),
+        }
+    }
+    let (&(most, rows), next) = numbers.split_first()?;
+    let oftenest_next = next.iter().take(CUT_OFF_RUNS).map(|(_, number)| *number).max()?;
+    let at = |row: &usize| values[*row].to_bits() == most.to_bits();
+    let runs = passes.iter().flat_map(|rows| {
+        let ends = rows.clone().filter(|row| at(row) && (row + 1 == rows.end || !at(&(row + 1))));
+        ends.map(|end| (rows.start..=end).rev().take_while(at).count()).collect::<Vec<_>>()
+    });
+    let long = runs.filter(|run| CUT_OFF_RUN <= *run).count();
+    let cut = CUT_OFF_VALUES <= numbers.len()
+        && CUT_OFF_RUNS <= long
+        && OFTENER_THAN_BEFORE * oftenest_next < rows;
+    cut.then_some((most, rows))
+}
