@@ -30,6 +30,7 @@ mod swings;
 mod tails;
 mod time_reversal;
 mod trial;
+mod uneven_slowness;
 mod unfolding;
 mod waves;
 

@@ -2,9 +2,10 @@
 
 use helixlock_plant::Column;
 
-use super::probes::{Structure, matters, probe, varies_inside_a_pass};
+use super::probes::{Structure, asked, is_large, varies_inside_a_pass};
 use crate::model::{Problem, State};
 use crate::numerics::count;
+use crate::policy::chance::DISAGREES;
 use crate::policy::extent::COLUMNS_OF_PASSES;
 
 /// Effects of which some passes show another size or phase than others, each with its chance.
@@ -22,10 +23,10 @@ pub(crate) fn disagreements(problem: &Problem, state: &State) -> Vec<Structure> 
         if raw.is_empty() || COLUMNS_OF_PASSES < raw.len() || component.term.nature().is_setting() {
             return None;
         }
-        let (rms_um, p_value) = probe(problem, &state.columns, &state.fit, &raw);
-        let p_value = (effects * p_value).min(1.0);
+        let model = (&state.columns, &state.fit);
+        let (rms_um, p_value) = asked(problem, model, &raw, (effects, DISAGREES));
         let shape = format!("{} of another size or phase in some passes", component.term.name);
-        matters(problem, &state.fit, rms_um, p_value)
+        (p_value < DISAGREES && is_large(problem, &state.fit, rms_um))
             .then(|| Structure::without_place("passes", &shape, rms_um, p_value))
     };
     (0..state.components.len()).filter_map(of).collect()

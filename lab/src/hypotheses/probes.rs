@@ -20,6 +20,7 @@ use super::slow_noise::taken_for_noise;
 use super::swings::swings;
 use super::tails::chance_with_tails;
 use super::time_reversal::one_way;
+use super::uneven_slowness::uneven_slowness;
 use super::waves;
 use helixlock_plant::Column;
 
@@ -102,7 +103,12 @@ pub(super) fn of_all(problem: &Problem, chance: f64) -> f64 {
 /// part of what a fit leaves as an effect must have to be taken, since slow noise covers no wave.
 #[must_use]
 pub(crate) fn matters(problem: &Problem, fit: &Fit, size_um: f64, p_value: f64) -> bool {
-    p_value < SIGNIFICANCE && SHARE_OF_NOISE * swift_rms(&problem.layout, &fit.left) < size_um
+    p_value < SIGNIFICANCE && is_large(problem, fit, size_um)
+}
+
+/// True for something large enough to change a figure.
+pub(super) fn is_large(problem: &Problem, fit: &Fit, size_um: f64) -> bool {
+    SHARE_OF_NOISE * swift_rms(&problem.layout, &fit.left) < size_um
 }
 
 /// Everything a fit leaves that is not noise, clearest first.
@@ -137,6 +143,7 @@ pub(crate) fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> V
     all.extend(predicted(problem, model, fit));
     all.extend(keeping(problem, fit));
     all.extend(swinging(problem, fit));
+    all.extend(slow_in_some_passes(problem, fit));
     all.extend(standing_apart(problem, fit));
     all.extend(on_the_other_side(problem, fit));
     all.extend(jumping(problem, fit));
@@ -163,8 +170,18 @@ pub(super) fn varies_inside_a_pass(problem: &Problem, column: &[f64]) -> bool {
     blocks.any(|block| ROUNDING * size < spread(&column[block.rows.clone()]))
 }
 
-/// Structure explained by free columns: its size and chance.
+/// Structure explained by free columns: its size, and its chance with all probes counted.
 pub(super) fn probe(problem: &Problem, model: &Columns, fit: &Fit, raw: &[Column]) -> (f64, f64) {
+    asked(problem, (model, fit), raw, (probes(problem), SIGNIFICANCE))
+}
+
+/// The same as one of so many looks, of a chance that is beyond noise below a limit.
+pub(super) fn asked(
+    problem: &Problem,
+    (model, fit): (&Columns, &Fit),
+    raw: &[Column],
+    (looks, limit): (f64, f64),
+) -> (f64, f64) {
     let varying = raw.iter().filter(|column| varies_inside_a_pass(problem, column));
     let raw: &[Column] = &varying.cloned().collect::<Vec<_>>();
     if raw.is_empty() {
@@ -177,13 +194,11 @@ pub(super) fn probe(problem: &Problem, model: &Columns, fit: &Fit, raw: &[Column
     let before = weighed_rms(&problem.layout, &fit.left);
     let after = weighed_rms(&problem.layout, &wider.left);
     let size = (before * before - after * after).max(0.0).sqrt();
-    let mut p_value = of_all(problem, chi_squared_tail(gain, width));
-    if MANY_COLUMNS <= raw.len() && matters(problem, fit, size, p_value) {
-        let limit = SIGNIFICANCE / probes(problem);
-        let chance = calibration::chance(problem, (model, fit), raw, gain, limit);
-        p_value = of_all(problem, chance);
+    let mut chance = chi_squared_tail(gain, width);
+    if MANY_COLUMNS <= raw.len() && looks * chance < limit && is_large(problem, fit, size) {
+        chance = calibration::chance(problem, (model, fit), raw, gain, limit / looks);
     }
-    (size, p_value)
+    (size, (looks * chance).min(1.0))
 }
 
 /// True for a shape that stands far above the rest: many columns also follow slow noise.
@@ -322,6 +337,13 @@ fn keeping(problem: &Problem, fit: &Fit) -> Option<Structure> {
 fn swinging(problem: &Problem, fit: &Fit) -> Option<Structure> {
     let (rms_um, chance) = swings(problem, fit)?;
     let shape = "swings there and back, of changing length";
+    Some(Structure::without_place("time", shape, rms_um, of_all(problem, chance)))
+}
+
+/// What moves in some passes, where others are still.
+fn slow_in_some_passes(problem: &Problem, fit: &Fit) -> Option<Structure> {
+    let (rms_um, chance) = uneven_slowness(problem, fit)?;
+    let shape = "slow in some passes or stretches, and not in others";
     Some(Structure::without_place("time", shape, rms_um, of_all(problem, chance)))
 }
 

@@ -6,6 +6,12 @@
 /// five thousand, and a wave needs a gain of 17.0 instead of 18.4.
 pub(crate) const SIGNIFICANCE: f64 = 1e-4;
 
+/// A chance smaller than this, of as many as there are effects, says that passes do not agree on one.
+///
+/// Chosen: it is one question of each effect that was found, and no list of shapes; one in a thousand is left open
+/// that is right. Doubled: one in five hundred.
+pub(crate) const DISAGREES: f64 = 1e-3;
+
 /// An effect must have a smaller chance than this to be named, all effects and places that were
 /// tried counted.
 ///

@@ -360,6 +360,13 @@ pub(crate) const NO_LINE: f64 = 2.0;
 /// Chosen. Doubled: twice the time.
 pub(crate) const SETTLED_BENDS: usize = 3;
 
+/// Stretches of a pass that may be slow or not, each number of them a look, and their fewest rows.
+///
+/// Chosen: passes, halves and quarters; a stretch of fewer rows has less than eight frequencies. Doubled: passes of
+/// twenty rows over targets say nothing.
+pub(crate) const STRETCHES_OF_A_PASS: [usize; 3] = [1, 2, 4];
+pub(crate) const FEWEST_ROWS_OF_A_STRETCH: usize = 16;
+
 /// Rows that each of [`PREDICTED_BY`] needs.
 ///
 /// Chosen. Doubled: a record of 150 rows says nothing.
