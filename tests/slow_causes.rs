@@ -155,7 +155,7 @@ fn waves_whose_frequency_changes_evenly_are_no_noise() {
         let gone_by = ([0.0, 1.0, 2.0, 3.0, 4.0, 5.0][nth] + mm / 800.0) / 6.0;
         0.13 * libm::sin(std::f64::consts::TAU * (10.0 + 24.0 * gone_by) * gone_by)
     };
-    for seed in 0..4 {
+    for seed in 0..2 {
         let found = six_passes_at(seed, &|nth, row| OFF_MM[nth] + 3.0 * row, &speeding_up);
         assert_eq!(found.verdict, Verdict::Unexplained, "{seed}");
         assert!(tells(&found, "frequency changes evenly"), "{seed}: {:?}", found.residual);

@@ -23,7 +23,7 @@ const RANDOM_BITS: u64 = 4;
 const RANDOM_WAITING: u64 = 8;
 
 /// How many of the first, and of the first that wait, run in lanes too, which take longest to compile.
-const RANDOM_LANES: u64 = 6;
+const RANDOM_LANES: u64 = 4;
 
 #[expect(clippy::print_stdout, reason = "a build script speaks to Cargo so")]
 fn main() -> Result<(), Box<dyn Error>> {

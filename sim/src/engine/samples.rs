@@ -161,6 +161,6 @@ fn lanes_of_random_designs_agree_with_the_reference() {
         }
     }
     let count = |has: fn(&LaneTraits) -> bool| traits.iter().filter(|of| has(of)).count() / 4;
-    assert!(4 <= count(|traits| 0 < traits.kept), "designs that keep gates");
-    assert!(4 <= count(|traits| 0 < traits.following), "designs with registers that follow inputs");
+    assert!(3 <= count(|traits| 0 < traits.kept), "designs that keep gates");
+    assert!(3 <= count(|traits| 0 < traits.following), "designs with registers that follow inputs");
 }
