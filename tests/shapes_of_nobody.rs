@@ -6,7 +6,8 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use crate::support::diagnosed::{self, names};
+use crate::support::diagnosed::{self, diagnosed_on, names};
+use crate::support::passes::white;
 
 const COLUMNS: [&str; 4] = ["pass", "time_s", "position_mm", "error_um"];
 const PASSES: usize = 3;
@@ -169,4 +170,24 @@ fn gusts_are_hardly_slips() {
 #[test]
 fn a_flat_top_with_edges_is_no_wear() {
     is_nobodys(&|_, mm| if (180.0..290.0).contains(&mm) { 0.15 } else { 0.0 });
+}
+
+/// A scratch that a worm meets with every turn, five of them, is no wave of a shaft, and no slow noise.
+#[test]
+fn a_scratch_of_a_worm_is_told_by_its_turns() {
+    let telescope = "output.rotary = true\nspindle.speed = '0.000696346 rpm'\n\
+                     gear = [{ name = 'worm', order = 359 }]";
+    for seed in 0..SEEDS {
+        let mut noise = white(seed, 0.45);
+        let times: Vec<f64> = (0..600).map(|row| 2.0 * f64::from(row)).collect();
+        let scratched = times.iter().map(|time_s| {
+            let turns = 0.000_696_346 * 359.0 / 60.0 * time_s;
+            bell((turns - libm::floor(turns) - 0.4) / 0.05) + noise()
+        });
+        let columns = vec![("error_arcsec", scratched.collect()), ("time_s", times.clone())];
+        let found = diagnosed_on(telescope, columns);
+        assert_eq!(found.verdict, Verdict::Unexplained, "{seed}");
+        let told = |along: &str| found.residual.iter().any(|one| one.along == along);
+        assert!(told("angle of `worm`"), "{seed}: {:?}", found.residual);
+    }
 }

@@ -5,7 +5,7 @@ use super::expression::{Expression, Unknown};
 use super::quantities::Quantities;
 use super::shape::{Part, Shape};
 use super::{logged, moving, turning};
-use crate::model::Problem;
+use crate::model::{Problem, Shaft};
 use crate::numerics::{evenly, spread};
 
 /// The plain shapes: what stands in the place of effects whenever a model is judged.
@@ -26,10 +26,7 @@ pub(crate) fn nameless(problem: &Problem) -> Vec<Shape> {
     }
     all.extend(moving::since_a_reversal(&quantities));
     all.extend(moving::late(&quantities));
-    for (name, order) in quantities.shafts(problem) {
-        all.extend(turning::each_turn(&quantities, &name, order));
-        all.extend(turning::each_way(&quantities, &name, order));
-    }
+    all.extend(of_shafts(&quantities, problem, false));
     for column in &quantities.columns {
         all.extend(logged::of_a_column(&quantities, column));
         all.extend(logged::beyond_a_line(&quantities, column));
@@ -44,6 +41,7 @@ pub(crate) fn nameless(problem: &Problem) -> Vec<Shape> {
 pub(crate) fn formulas(problem: &Problem) -> Vec<Shape> {
     let quantities = Quantities::of(problem);
     let mut all = nameless(problem);
+    all.extend(of_shafts(&quantities, problem, true));
     all.extend(turning::waves(&quantities, problem));
     all.extend(turning::swelling(&quantities, problem));
     all.extend(turning::resonances(&quantities, problem));
@@ -52,6 +50,16 @@ pub(crate) fn formulas(problem: &Problem) -> Vec<Shape> {
     }
     all.extend(moving::of_the_way(&quantities));
     all
+}
+
+/// What comes with every turn of shafts, those of gears or the others.
+fn of_shafts(all: &Quantities, problem: &Problem, of_a_gear: bool) -> Vec<Shape> {
+    let shafts = problem.shafts().into_iter().filter(|shaft| shaft.of_a_gear == of_a_gear);
+    let of = |Shaft { name, order, .. }: Shaft| {
+        let each_turn = turning::each_turn(all, &name, order);
+        each_turn.into_iter().chain(turning::each_way(all, &name, order)).collect::<Vec<_>>()
+    };
+    shafts.flat_map(of).collect()
 }
 
 /// A shape without unknowns, to be filled.

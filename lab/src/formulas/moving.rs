@@ -11,7 +11,7 @@ use crate::numerics::{by_factors, count, evenly, spread};
 use crate::policy::extent::RUN_IN;
 
 /// First width of a knock, against the distance of two; it is refined.
-const KNOCK: f64 = 0.07;
+pub(super) const KNOCK: f64 = 0.07;
 
 /// Moments of a pass at which a knock is looked for, and the passes beyond which they lie wider.
 const PLACES_A_PASS: usize = 130;
@@ -32,7 +32,7 @@ fn ramp(from: Expression) -> Expression {
 }
 
 /// A pulse where the share of a period is a half, of so wide a bell.
-fn knock(share: Expression, width: Expression) -> Expression {
+pub(super) fn knock(share: Expression, width: Expression) -> Expression {
     bell((share - number(0.5)) / width)
 }
 

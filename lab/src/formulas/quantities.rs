@@ -8,7 +8,6 @@ use super::dimension::Dimension;
 use super::expression::{Expression, Quantity, number};
 use crate::model::{Problem, distinct};
 use crate::numerics::{count, mean, spread};
-use crate::policy::extent::TURNS;
 
 /// Logged columns up to which every one is put together with others, for the time it takes.
 const MOST_TOGETHER: usize = 12;
@@ -116,19 +115,6 @@ impl Quantities {
     /// Logged columns, if they are few enough to be put together with others.
     pub(crate) fn few_columns(&self) -> &[Arc<Quantity>] {
         if self.columns.len() <= MOST_TOGETHER { &self.columns } else { &[] }
-    }
-
-    /// Shafts whose turns the samples resolve, by name and turns a turn of the spindle.
-    pub(crate) fn shafts(&self, problem: &Problem) -> Vec<(String, f64)> {
-        let mut shafts = vec![("spindle angle".to_owned(), 1.0)];
-        if let Some(screw) = problem.model.lead_screw.as_ref().filter(|_| !problem.model.rotary) {
-            let order = problem.model.workpiece.lead.mm() / screw.mm();
-            shafts.push(("machine screw angle".to_owned(), order));
-        }
-        shafts.retain(|(_, order)| {
-            *order < problem.highest_order() && TURNS < order * spread(&self.turns.values)
-        });
-        shafts
     }
 }
 

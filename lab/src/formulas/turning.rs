@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::dimension::Dimension;
 use super::expression::{Expression, Function, Quantity, call, number, turns};
 use super::grammar::{shape, unknown};
-use super::moving::triangle;
+use super::moving::{KNOCK, knock, triangle};
 use super::quantities::{Quantities, about_mean, of, shaft_turns};
 use super::shape::{Band, Shape};
 use crate::model::Problem;
@@ -33,6 +33,13 @@ pub(super) fn each_turn(all: &Quantities, shaft: &str, order: f64) -> Vec<Shape>
             .curve("size", triangle(turn.clone())),
         each("half wave each turn", "contact over half of a turn only", 1.0, 24)
             .curve("size", call(Function::Ramp, call(Function::Sin, turns(turn.clone())))),
+        each(
+            "knock each turn",
+            "a scratch, a chipped tooth, a ball or roller with a spot",
+            1.0,
+            36,
+        )
+        .curve("size", knock(call(Function::Fract, turn.clone()), number(KNOCK))),
         each("sawtooth each turn", "a cam with an edge, one lost count a turn", 1.0, 24)
             .curve("size", fract()),
     ]

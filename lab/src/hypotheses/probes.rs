@@ -24,13 +24,13 @@ use super::uneven_slowness::uneven_slowness;
 use super::waves;
 use helixlock_plant::Column;
 
-use crate::model::{Columns, Fit, Problem, Stage, settle};
+use crate::model::{Columns, Fit, Problem, Shaft, Stage, settle};
 use crate::noise::{Whitener, rms, swift_rms, weighed_rms};
 use crate::numerics::{chi_squared_tail, count, spread};
 use crate::policy::chance::{MANY_COLUMNS, NAMED, PROBES, SIGNIFICANCE};
 use crate::policy::extent::{
     BUMP_ORDER, COLUMNS_OF_PASSES, CURVE_OF_A_LOG, CURVE_OF_A_PASS, CURVE_ORDER, HARMONICS,
-    ROWS_A_COLUMN, TURNS, WAVE_ORDER,
+    ROWS_A_COLUMN, WAVE_ORDER,
 };
 use crate::policy::size::{FAR_ABOVE, LOOP_JUMP, SHARE_OF_NOISE};
 use crate::spectrum::Line;
@@ -87,11 +87,12 @@ pub(crate) fn no_larger_than(left_um: f64, told: &mut [Structure]) {
 /// Words for what targets show.
 const AT_TARGETS: &str = "own error of each target, at every visit";
 
-/// Number of probes, for they are counted together: every logged column is two more, and a speed
-/// that changes within a pass one.
+/// Number of probes, for they are counted together: every logged column is two more, a speed that
+/// changes within a pass one, and so is every shaft beside the spindle and the screw.
 pub(super) fn probes(problem: &Problem) -> f64 {
-    let columns = problem.measurement.covariates.len();
-    PROBES + count(2 * columns + usize::from(problem.velocity_rpm().is_some()))
+    let columns = 2 * problem.measurement.covariates.len();
+    let speeds = usize::from(problem.velocity_rpm().is_some());
+    PROBES + count(columns + speeds + problem.shafts().len().saturating_sub(2))
 }
 
 /// Chance of one probe with all of them counted.
@@ -392,23 +393,16 @@ fn local_shapes(problem: &Problem, fit: &Fit) -> Vec<Structure> {
     everywhere.into_iter().chain(several.then(once).flatten()).collect()
 }
 
-/// A shape that comes back with every turn of the spindle or of the machine's screw.
+/// A shape that comes back with every turn of a shaft.
 fn cyclic_shapes(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
     let turns: Vec<f64> = problem.record.turns().collect();
-    let mut axes = vec![("spindle angle", 1.0)];
-    if let Some(screw) = problem.model.lead_screw.as_ref().filter(|_| !problem.model.rotary) {
-        axes.push(("machine screw angle", problem.model.workpiece.lead.mm() / screw.mm()));
-    }
-    let enough = |order: &f64| TURNS < order * spread(&turns);
-    axes.into_iter()
-        .filter(|(_, order)| enough(order))
-        .map(|(along, order)| {
-            let raw = stacked(problem, &turning(&turns, order));
-            let (rms_um, p_value) = probe(problem, model, fit, &raw);
-            Structure::without_place(along, "shape that repeats each turn", rms_um, p_value)
-                .drawn_by(raw)
-        })
-        .collect()
+    let of = |shaft: Shaft| {
+        let raw = stacked(problem, &turning(&turns, shaft.order));
+        let (rms_um, p_value) = probe(problem, model, fit, &raw);
+        Structure::without_place(&shaft.name, "shape that repeats each turn", rms_um, p_value)
+            .drawn_by(raw)
+    };
+    problem.shafts().into_iter().map(of).collect()
 }
 
 /// Sines and cosines of the first harmonics.

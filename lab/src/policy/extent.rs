@@ -218,6 +218,11 @@ pub(crate) const CURVE_OF_A_PASS: std::ops::RangeInclusive<usize> = 3..=8;
 /// Derived: what is there once repeats nothing. Doubled: four turns.
 pub(crate) const TURNS: f64 = 2.0;
 
+/// Most shafts that a shape may repeat with, the spindle and the machine's screw first, then the slowest.
+///
+/// Chosen: a worm and what drives it. Doubled: twice the time, and every shape pays for more places.
+pub(crate) const MOST_SHAFTS: usize = 4;
+
 /// Harmonics of a shape that repeats each turn.
 ///
 /// Chosen. Doubled: sharper shapes are seen, and sixteen columns follow slow noise.
