@@ -13,7 +13,7 @@ const ROWS: usize = 320;
 const SPACING_MM: f64 = 2.0;
 /// Deviation, µm.
 const NOISE_UM: f64 = 0.05;
-const SEEDS: u64 = 6;
+const SEEDS: u64 = 4;
 
 fn diagnosed(error_um: Vec<f64>) -> Diagnosis {
     let places =

@@ -8,7 +8,7 @@ use crate::model::Problem;
 use crate::numerics::count;
 use crate::policy::mistakes::{
     COPIED_ROWS, CUT_OFF_RUN, CUT_OFF_RUNS, CUT_OFF_VALUES, DIFFERENT, MOST_ROWS_COPIED,
-    OFTENER_THAN_BEFORE,
+    NEXT_VALUES, OFTENER_THAN_BEFORE,
 };
 
 /// All of them that a measurement has.
@@ -116,7 +116,7 @@ fn upper_limit(values: &[f64], passes: &[Range<usize>]) -> Option<(f64, usize)> 
         }
     }
     let (&(most, rows), next) = numbers.split_first()?;
-    let oftenest_next = next.iter().take(CUT_OFF_RUNS).map(|(_, number)| *number).max()?;
+    let oftenest_next = next.iter().take(NEXT_VALUES).map(|(_, number)| *number).max()?;
     let at = |row: &usize| values[*row].to_bits() == most.to_bits();
     let runs = passes.iter().flat_map(|rows| {
         let ends = rows.clone().filter(|row| at(row) && (row + 1 == rows.end || !at(&(row + 1))));

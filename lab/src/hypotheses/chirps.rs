@@ -7,6 +7,7 @@
 use rayon::prelude::*;
 
 use super::probes::{Structure, probe};
+use super::waves::{Cyclic, cyclic};
 use crate::model::{Columns, Fit, Problem};
 use crate::numerics::{count, evenly, spread};
 use crate::policy::extent::{BENDS, NO_LINE, SETTLED_BENDS, STEEPEST_BEND, WAVES_OF_A_BEND};
@@ -15,29 +16,11 @@ use crate::spectrum::{LineSearch, Point, wave};
 /// The clearest ones of every sensor.
 pub(super) fn chirps(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
     let sensors = 0..problem.sensors.len();
-    let axes = axes(problem);
+    let mut axes = cyclic(problem);
+    axes.retain(|axis| 0.0 < spread(&axis.values));
     let all = sensors.flat_map(|sensor| axes.iter().map(move |axis| (sensor, axis)));
     all.filter_map(|(sensor, axis)| Search { problem, model, fit, sensor, axis }.clearest())
         .collect()
-}
-
-/// What goes by evenly, and the highest frequency that its samples resolve.
-struct Axis {
-    name: &'static str,
-    values: Vec<f64>,
-    highest: f64,
-}
-
-/// In a single pass, time is travel.
-fn axes(problem: &Problem) -> Vec<Axis> {
-    let values = problem.record.turns().collect();
-    let mut axes = vec![Axis { name: "position", values, highest: problem.highest_order() }];
-    if 1 < problem.record.passes().len() && problem.measurement.timed {
-        let values = problem.record.time_s.to_vec();
-        axes.push(Axis { name: "time", values, highest: problem.highest_hz() });
-    }
-    axes.retain(|axis| 0.0 < spread(&axis.values));
-    axes
 }
 
 struct Search<'a> {
@@ -45,7 +28,7 @@ struct Search<'a> {
     model: &'a Columns,
     fit: &'a Fit,
     sensor: usize,
-    axis: &'a Axis,
+    axis: &'a Cyclic,
 }
 
 impl Search<'_> {
@@ -85,7 +68,7 @@ impl Search<'_> {
         let looks = count(BENDS) * 2.0 * WAVES_OF_A_BEND.end();
         let shape = "waves whose frequency changes evenly";
         let told =
-            Structure::without_place(self.axis.name, shape, rms_um, (looks * chance).min(1.0));
+            Structure::without_place(self.axis.along, shape, rms_um, (looks * chance).min(1.0));
         told.drawn_by(columns)
     }
 }

@@ -18,6 +18,13 @@ use crate::numerics::{by_factors, chi_squared_tail, count, mean, median};
 use crate::policy::extent::{FEWEST_ROWS_OF_A_STRETCH, STRETCHES_OF_A_PASS};
 use crate::policy::reading::FAR_OUT;
 
+/// Variances of a slow part against the white one that are tried, by factors of one and a half: less is none, more
+/// hides the white part.
+const RATIOS: [f64; 2] = [3e-3, 3e2];
+
+/// What it forgets a row: as long as a stretch of two hundred rows, to hardly longer than a row.
+const FORGETS: [f64; 2] = [5e-3, 0.7];
+
 /// Root mean square of what is slow in some stretches alone, µm (arcsec), and the chance of as much in noise; `None`
 /// where there are no two stretches, or the file says how sure each reading is.
 #[must_use]
@@ -61,24 +68,29 @@ fn against_one_ratio(stretches: &[Spectrum]) -> f64 {
     if stretches.len() < 2 {
         return 0.0;
     }
-    let ratios: Vec<f64> = std::iter::once(0.0).chain(by_factors(3e-3, 3e2, 24)).collect();
+    let [least, most] = RATIOS;
+    let ratios: Vec<f64> = std::iter::once(0.0).chain(by_factors(least, most, 24)).collect();
     let (mut one_for_all, mut each_its_own) = (f64::INFINITY, f64::INFINITY);
-    for forgets in by_factors(5e-3, 0.7, 10) {
+    let [slowest, swiftest] = FORGETS;
+    for forgets in by_factors(slowest, swiftest, 10) {
         let mut sums = vec![0.0; ratios.len()];
-        let mut least = 0.0;
+        let mut best = 0.0;
         for stretch in stretches {
             let losses: Vec<f64> =
                 ratios.iter().map(|ratio| stretch.loss(forgets, *ratio)).collect();
             sums.iter_mut().zip(&losses).for_each(|(sum, loss)| *sum += loss);
-            least += losses.into_iter().fold(f64::INFINITY, f64::min);
+            best += losses.into_iter().fold(f64::INFINITY, f64::min);
         }
         one_for_all = sums.into_iter().fold(one_for_all, f64::min);
-        each_its_own = each_its_own.min(least);
+        each_its_own = each_its_own.min(best);
     }
     2.0 * (one_for_all - each_its_own)
 }
 
-/// The periodogram of a stretch about its mean, in bands that widen by a sixth.
+/// A band of frequencies is wider by one in so many before it: over less than a sixth no slow part changes.
+const WIDENS: usize = 6;
+
+/// The periodogram of a stretch about its mean, in bands.
 struct Spectrum {
     /// Per band: frequencies in it, mean power, `2 − 2·cos` of its middle.
     numbers: Vec<f64>,
@@ -107,7 +119,7 @@ impl Spectrum {
         spectrum.square = 2.0 * powers.iter().sum::<f64>() / rows;
         let mut from = 0;
         while from < powers.len() {
-            let to = (from + 1 + from / 6).min(powers.len());
+            let to = (from + 1 + from / WIDENS).min(powers.len());
             let middle = 0.5 * count(from + to + 1) / rows;
             spectrum.numbers.push(count(to - from));
             spectrum.powers.push(mean(&powers[from..to]));

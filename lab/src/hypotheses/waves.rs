@@ -12,12 +12,12 @@ use crate::spectrum::{Line, LineSearch, wave};
 pub(super) fn lines(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
     let mut found = Vec::new();
     for sensor in 0..problem.sensors.len() {
-        for (along, coordinate, highest) in cyclic(problem) {
+        for Cyclic { frequency, values, highest, .. } in cyclic(problem) {
             let of = |fit: &Fit| {
-                let search = LineSearch { problem, fit, sensor, coordinate: &coordinate, highest };
+                let search = LineSearch { problem, fit, sensor, coordinate: &values, highest };
                 let line = search.strongest()?;
-                let drawn_by = wave(problem, sensor, &coordinate, line.frequency).raw;
-                Some(of_line(problem, along, line).drawn_by(drawn_by))
+                let drawn_by = wave(problem, sensor, &values, line.frequency).raw;
+                Some(of_line(problem, frequency, line).drawn_by(drawn_by))
             };
             found.extend(clearest_that_matters(problem, (model, fit), &of));
         }
@@ -58,25 +58,44 @@ fn of_line(problem: &Problem, along: &str, line: Line) -> Structure {
 pub(super) fn bands(problem: &Problem, fit: &Fit) -> Vec<Structure> {
     let mut found = Vec::new();
     for sensor in 0..problem.sensors.len() {
-        for (along, coordinate, highest) in cyclic(problem) {
-            let search = LineSearch { problem, fit, sensor, coordinate: &coordinate, highest };
+        for Cyclic { frequency, values, highest, .. } in cyclic(problem) {
+            let search = LineSearch { problem, fit, sensor, coordinate: &values, highest };
             let Some(band) = search.band() else { continue };
             let p_value = of_all(problem, band.p_value);
             let shape =
                 format!("uneven waves, or of changing length, in a band {:.3} wide", band.width);
-            let told = Structure::without_place(along, &shape, band.rms, p_value);
+            let told = Structure::without_place(frequency, &shape, band.rms, p_value);
             found.push(Structure { at: Some(band.frequency), ..told });
         }
     }
     found
 }
 
-/// Name, values and highest frequency of every coordinate that lines are looked for in.
-fn cyclic(problem: &Problem) -> Vec<(&'static str, Column, f64)> {
-    let mut axes =
-        vec![("spindle order", problem.record.turns().collect(), problem.highest_order())];
+/// A coordinate that waves are looked for in.
+pub(super) struct Cyclic {
+    /// What it is, and what a frequency over it is called.
+    pub(super) along: &'static str,
+    pub(super) frequency: &'static str,
+    pub(super) values: Column,
+    /// Highest frequency that its samples resolve.
+    pub(super) highest: f64,
+}
+
+/// The spindle's turns, and time, which is travel in a single pass.
+pub(super) fn cyclic(problem: &Problem) -> Vec<Cyclic> {
+    let mut axes = vec![Cyclic {
+        along: "position",
+        frequency: "spindle order",
+        values: problem.record.turns().collect(),
+        highest: problem.highest_order(),
+    }];
     if 1 < problem.record.passes().len() && problem.measurement.timed {
-        axes.push(("frequency in time", problem.record.time_s.clone(), problem.highest_hz()));
+        axes.push(Cyclic {
+            along: "time",
+            frequency: "frequency in time",
+            values: problem.record.time_s.clone(),
+            highest: problem.highest_hz(),
+        });
     }
     axes
 }

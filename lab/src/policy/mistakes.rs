@@ -141,8 +141,9 @@ pub(crate) const CUT_OFF_RUN: usize = 3;
 pub(crate) const CUT_OFF_RUNS: usize = 3;
 pub(crate) const CUT_OFF_VALUES: usize = 20;
 
-/// How many times as often as the oftenest of the next values.
+/// How many times as often as the oftenest of so many next values.
 ///
 /// Derived: noise on a lattice is there less often, a sine up to 1/(√2 − 1) = 2.4 times. Doubled: waves that are cut
 /// off near their peaks are not told.
 pub(crate) const OFTENER_THAN_BEFORE: usize = 3;
+pub(crate) const NEXT_VALUES: usize = 3;
