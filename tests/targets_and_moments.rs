@@ -59,8 +59,8 @@ fn a_reversal_at_targets_without_errors_is_explained() {
 /// make, it is nobody's.
 #[test]
 fn a_curve_that_few_targets_make_by_chance_has_no_name() {
-    for seed in 0..24_u8 {
-        let mut own = white(100 + u64::from(seed), f64::from(seed) / 8.0);
+    for seed in 0..16_u8 {
+        let mut own = white(100 + u64::from(seed), f64::from(seed) / 5.0);
         let own_um: Vec<f64> = (0..9).map(|_| own()).collect();
         let found = targets(|_, target, _| own_um[target]);
         assert_ne!(found.verdict, Verdict::Explained, "{seed}: {:?}", names(&found));
@@ -233,7 +233,7 @@ fn a_late_reading_of_an_axis_that_goes_and_stands_is_no_vibration() {
 #[test]
 fn a_moment_is_as_uncertain_as_the_data_have_it() {
     let (mut square, mut told) = (0.0, 0.0);
-    for seed in 0..8 {
+    for seed in 0..6 {
         let slip = |t: f64, _: f64, _: f64| if t < 701.0 { 0.0 } else { 2.0 * 0.316_410_182_7 };
         let found = diagnose(&Passes::new(&slip, &mut white(seed, 0.7)).problem());
         for effect in &found.rounds[found.rounds.len() - 1].effects {
@@ -244,7 +244,7 @@ fn a_moment_is_as_uncertain_as_the_data_have_it() {
             (square, told) = (square + off * off, told + 1.0);
         }
     }
-    assert!(4.0 <= told && square / told < 4.0, "{told} moments, {square}");
+    assert!(3.0 <= told && square / told < 4.0, "{told} moments, {square}");
 }
 
 /// Two turns of a table, each from its own start, with a wave that only a clock would tell from an
