@@ -147,8 +147,7 @@ fn what_swings_at_no_one_frequency_is_no_noise() {
     }
 }
 
-/// Samples that a scratch lifts by forty deviations, one in eleven: an outlier weighs little, but these
-/// all stand at one angle. As many at any angle are bad readings.
+/// From ten waves a record to nearly sixty, through all six passes.
 #[test]
 fn waves_whose_frequency_changes_evenly_are_no_noise() {
     let speeding_up = |nth: usize, mm: f64| {
@@ -162,6 +161,8 @@ fn waves_whose_frequency_changes_evenly_are_no_noise() {
     }
 }
 
+/// Samples that a scratch lifts by forty deviations, one in eleven: an outlier weighs little, but these
+/// all stand at one angle. As many at any angle are bad readings.
 #[test]
 fn a_scratch_of_the_grating_is_no_bad_reading() {
     let phase = |turns: f64| turns - libm::floor(turns);
