@@ -233,7 +233,7 @@ fn a_late_reading_of_an_axis_that_goes_and_stands_is_no_vibration() {
 #[test]
 fn a_moment_is_as_uncertain_as_the_data_have_it() {
     let (mut square, mut told) = (0.0, 0.0);
-    for seed in 0..6 {
+    for seed in 0..8 {
         let slip = |t: f64, _: f64, _: f64| if t < 701.0 { 0.0 } else { 2.0 * 0.316_410_182_7 };
         let found = diagnose(&Passes::new(&slip, &mut white(seed, 0.7)).problem());
         for effect in &found.rounds[found.rounds.len() - 1].effects {
