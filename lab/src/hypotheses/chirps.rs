@@ -4,8 +4,6 @@
 //! `v = u + κ·(u² − u)` of the part `u` that has gone by, they are a line: so they are looked for as lines are, at
 //! every bend.
 
-use rayon::prelude::*;
-
 use super::probes::{Structure, probe};
 use super::waves::{Cyclic, cyclic};
 use crate::model::{Columns, Fit, Problem};
@@ -35,22 +33,25 @@ impl Search<'_> {
     /// The scan puts bends in order; what is told is what the noise, fitted anew, leaves to them.
     fn clearest(&self) -> Option<Structure> {
         let bends = evenly(-STEEPEST_BEND, STEEPEST_BEND, BENDS);
+        let along: Vec<_> =
+            bends.iter().map(|bend| (self.bent(*bend), self.resolved(*bend))).collect();
+        let (problem, fit, sensor) = (self.problem, self.fit, self.sensor);
+        let (coordinate, highest) = (&self.axis.values, self.axis.highest);
+        let search = LineSearch { problem, fit, sensor, coordinate, highest };
+        let peaks = bends.into_iter().zip(search.highest_peaks(&along));
         let mut scanned: Vec<(f64, Point)> =
-            bends.into_par_iter().filter_map(|bend| Some((bend, self.highest_of(bend)?))).collect();
+            peaks.filter_map(|(bend, peak)| Some((bend, peak?))).collect();
         scanned.sort_by(|a, b| b.1.gain.total_cmp(&a.1.gain));
         let likeliest = scanned.iter().take(SETTLED_BENDS);
         let told = likeliest.map(|(bend, point)| self.told(*bend, point.frequency));
         told.min_by(|a, b| a.p_value.total_cmp(&b.p_value))
     }
 
-    /// The highest peak along a bent coordinate.
-    fn highest_of(&self, bend: f64) -> Option<Point> {
-        let coordinate = self.bent(bend);
+    /// Waves that are no line and that the samples resolve where they are swiftest.
+    fn resolved(&self, bend: f64) -> [f64; 2] {
         let swiftest = self.axis.highest * spread(&self.axis.values) / (1.0 + bend.abs());
-        let highest = swiftest.min(*WAVES_OF_A_BEND.end());
-        let (problem, fit, sensor) = (self.problem, self.fit, self.sensor);
-        let search = LineSearch { problem, fit, sensor, coordinate: &coordinate, highest };
-        search.highest_peak(WAVES_OF_A_BEND.start().max(NO_LINE / bend.abs()))
+        let (fewest, most) = (*WAVES_OF_A_BEND.start(), *WAVES_OF_A_BEND.end());
+        [fewest.max(NO_LINE / bend.abs()), swiftest.min(most)]
     }
 
     /// From 0 to 1.

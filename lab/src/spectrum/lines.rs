@@ -1,6 +1,7 @@
 //! All lines of a residual, one after the other, with the names the machine file gives them.
 
 use helixlock_plant::Machine;
+use rayon::prelude::*;
 
 use super::bands::{self, Band};
 use super::order_spectrum::{Line, Point, Scan};
@@ -68,12 +69,21 @@ impl LineSearch<'_> {
         Line { gain: found.gain, p_value: found.p_value, ..anew }
     }
 
-    /// The highest peak of a scan from a frequency on.
+    /// The highest peak along each of some other coordinates of all samples, between two frequencies over it.
     #[must_use]
-    pub(crate) fn highest_peak(&self, lowest: f64) -> Option<Point> {
-        let points = self.with_scan(|scan, white| scan.spectrum(white));
-        let peaks = points.into_iter().filter(|point| lowest <= point.frequency);
-        peaks.max_by(|a, b| a.gain.total_cmp(&b.gain))
+    pub(crate) fn highest_peaks(&self, others: &[(Vec<f64>, [f64; 2])]) -> Vec<Option<Point>> {
+        let (_, rows) = self.problem.layout.of_sensor(self.sensor);
+        let samples = &self.problem.samples[rows];
+        self.with_scan(|scan, white| {
+            let along = |(coordinate, [lowest, highest]): &(Vec<f64>, [f64; 2])| {
+                let turns: Vec<f64> = samples.iter().map(|&sample| coordinate[sample]).collect();
+                let slowest = SLOWEST_WAVES / spread(&turns).max(f64::MIN_POSITIVE);
+                let (lowest, highest) = (lowest.max(slowest), *highest);
+                let scan = Scan { turns: &turns, lowest, highest, ..scan.clone() };
+                scan.spectrum(white).into_iter().max_by(|a, b| a.gain.total_cmp(&b.gain))
+            };
+            others.par_iter().map(along).collect()
+        })
     }
 
     /// The clearest band of frequencies that is no line.
