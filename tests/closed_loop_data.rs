@@ -13,9 +13,9 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, Normal};
 
-/// 120 mm of the 6 mm screw; the drift of its own screw is known.
+/// 72 mm of the 6 mm screw; the drift of its own screw is known.
 const MACHINE: &str = r#"
-workpiece = { lead = "6 mm", length = "120 mm", expansion = "11.5 ppm/K" }
+workpiece = { lead = "6 mm", length = "72 mm", expansion = "11.5 ppm/K" }
 spindle.speed = "6 rpm"
 lead_screw.lead = "12 mm"
 gear = [{ name = "change gear 1", order = 2.5, teeth = 48 }, { name = "change gear 2", order = 0.8 }]

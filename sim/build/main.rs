@@ -14,7 +14,7 @@ mod random_design;
 mod rust_source;
 
 /// Random designs compiled into the tests: they take a minute to compile.
-const RANDOM_DESIGNS: u64 = 24;
+const RANDOM_DESIGNS: u64 = 16;
 
 /// Designs of flip-flops alone, besides.
 const RANDOM_BITS: u64 = 4;

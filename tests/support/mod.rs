@@ -4,3 +4,4 @@ pub(crate) mod bench;
 pub(crate) mod command;
 pub(crate) mod diagnosed;
 pub(crate) mod passes;
+pub(crate) mod seeds;
