@@ -74,6 +74,22 @@ fn a_slip_between_long_pauses_is_a_slip() {
     }
 }
 
+/// An arc that lacks a twentieth of a turn shows what comes with every turn; one that lacks a fifth does not.
+#[test]
+fn nine_tenths_of_a_turn_show_what_comes_with_every_turn() {
+    let table = "output.rotary = true\nspindle.speed = '1 rpm'\n\
+                 grating = { lines = 36000, diameter = '150 mm' }";
+    let of = |arc: f64| {
+        let mut noise = white(5, 1.0);
+        let turns: Vec<f64> = (0..400).map(|row| arc / 400.0 * f64::from(row)).collect();
+        let error = turns.iter().map(|turn| 8.0 * libm::sin(TAU * turn + 0.4) + noise());
+        diagnosed_on(table, vec![("error_arcsec", error.collect()), ("angle_rev", turns.clone())])
+    };
+    let (long, short) = (of(0.95), of(0.8));
+    assert_eq!((long.verdict, names(&long)), (Verdict::Explained, vec!["grating-eccentricity"]));
+    assert_eq!((short.verdict, names(&short)), (Verdict::Unexplained, vec![]));
+}
+
 /// Rows every 4 mm meet the second harmonic of a screw of 10 mm as a wave of 20 mm, the belt's; uneven ones
 /// tell the two apart.
 #[test]

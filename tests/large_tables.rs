@@ -5,9 +5,12 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
+use helixlock_lab::Verdict;
 use serde_json::Value;
 
 use crate::support::command::{helixlock, put, repository, scratch, word};
+use crate::support::diagnosed::diagnosed;
+use crate::support::passes::white;
 
 /// Something like noise between 0 and 1.
 fn scatter(row: i32) -> f64 {
@@ -63,6 +66,23 @@ fn a_million_rows_are_held_in_a_third_of_a_gigabyte() {
 }
 
 /// Means of neighbours, which are searched, scatter less than the samples of which a user reads.
+/// A motor that shakes a long log by a seventh of its noise, three rows a wave, is not in means of neighbours, and in
+/// one row of three not beyond chance.
+#[test]
+fn a_swift_wave_in_many_rows_gets_no_all_clear() {
+    let mut noise = white(8, 0.5);
+    let mut columns = [const { Vec::new() }; 3];
+    for row in 0..20_000 {
+        let time_s = 0.0187 * f64::from(row);
+        let error_um = 0.07 * libm::sin(std::f64::consts::TAU * 17.6 * time_s) + noise();
+        let cells = [time_s, 4.0 * time_s, error_um];
+        columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+    }
+    let names = ["time_s", "position_mm", "error_um"];
+    let found = diagnosed(names.into_iter().zip(columns).collect());
+    assert_eq!(found.verdict, Verdict::Unexplained, "{:?}", found.residual);
+}
+
 #[test]
 fn what_was_tried_is_told_with_the_scatter_of_the_samples() {
     let folder = scratch();

@@ -10,6 +10,7 @@ use helixlock_traces::{parquet::write_parquet, read_table};
 use serde_json::Value;
 
 use crate::support::command::{Run, helixlock, put, repository, scratch, word};
+use crate::support::passes::white;
 
 fn example(file: &str) -> String {
     fs::read_to_string(repository().join("examples").join(file)).expect("the example is there")
@@ -198,6 +199,29 @@ fn what_is_unexplained_leaves_the_machine_file_alone() {
     let standing = |round: &&Value| round["taken_back"] != true;
     let book = ledger(&out);
     assert_eq!(book["rounds"].as_array().expect("rounds").iter().filter(standing).count(), 1);
+}
+
+/// A slope that four effects draw alike is added when the user says so, and no sooner.
+#[test]
+fn what_is_ambiguous_is_added_when_accepted() {
+    let folder = scratch();
+    let (path, data) = word(&folder, "data.csv");
+    let mut noise = white(4, 0.05);
+    let row = |row: i32| format!("{row},{:.5}", 0.002 * f64::from(row) + noise());
+    let rows: Vec<String> = (0..400).map(row).collect();
+    put(&path, &format!("position_mm,error_um\n{}\n", rows.join("\n")));
+    let (out, out_word) = word(&folder, "learned");
+    let words = ["learn", "templates/screw-axis.toml", &data, "-o", &out_word];
+    let first = helixlock(&words);
+    assert!(first.stdout.contains("verdict: ambiguous"), "{}", first.stdout);
+    assert!(first.stdout.contains("offered, not added: "), "{}", first.stdout);
+    assert!(first.stdout.contains(" --accept -o learned"), "{}", first.stdout);
+    let bytes = |path: &Path| fs::read(path).expect("a machine file");
+    let before = bytes(&repository().join(words[1]));
+    assert_eq!(bytes(&out.join("machine.toml")), before);
+    let accepted = json(&helixlock(&[&words[..], &["--accept", "--json"]].concat()));
+    assert_eq!((&accepted["verdict"], &accepted["accepted"]), (&"ambiguous".into(), &true.into()));
+    assert_ne!(bytes(&out.join("machine.toml")), before);
 }
 
 /// Data with the wrong sign are doubted: exit status 1, no effect, the file as it was.

@@ -7,8 +7,8 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal, StudentT};
 
-use crate::support::diagnosed::names;
-use crate::support::passes::{Passes, noise};
+use crate::support::diagnosed::{diagnosed, names};
+use crate::support::passes::{Passes, noise, white};
 
 /// Half the wavelength of the machine's laser.
 const FRINGE_UM: f64 = 0.316_410_182_654_969;
@@ -89,6 +89,25 @@ fn a_gear_is_found_under_a_slow_error_ten_times_its_size() {
     };
     let diagnosis = diagnose(&Passes::new(&error, &mut noise(12, 1.0)).problem());
     assert!(names(&diagnosis).contains(&"gear-error"), "{:?}", names(&diagnosis));
+}
+
+/// A guide that tilts by nearly as much as it goes on, met by an arm, and a slope: the two have a number less
+/// than the cubic of a screw, and draw the same.
+#[test]
+fn a_tilted_guide_beside_a_slope_is_a_rival_of_a_cubic() {
+    let mut noise = white(6, 0.05);
+    let mm: Vec<f64> = (0..480).map(|row| 1.3 * f64::from(row)).collect();
+    let tilt = |mm: f64| 1.5 * libm::sin(mm / 420.0) - 0.4;
+    let error = mm.iter().map(|&mm| tilt(mm) - 0.002 * mm + noise());
+    let found = diagnosed(vec![
+        ("error_um", error.collect()),
+        ("bed_pitch_arcsec", mm.iter().map(|mm| tilt(*mm)).collect()),
+        ("position_mm", mm.clone()),
+    ]);
+    assert_ne!(found.verdict, Verdict::Explained, "{:?}", names(&found));
+    let rivals = found.candidates.iter().filter(|one| one.accepted);
+    let told = |name: &String| name == "abbe";
+    assert!(rivals.flat_map(|one| &one.confounded_with).any(told), "{:?}", found.candidates);
 }
 
 /// Whole waves of a turn come in numbers: a resolver shows six of its own and more.

@@ -55,7 +55,7 @@ pub(crate) struct Learn {
     /// TOML file with custom effects to try beside the catalogue
     #[arg(long = "with", visible_alias = "custom", value_name = "EFFECTS")]
     custom: Option<PathBuf>,
-    /// Add what was found even if something is left that no effect accounts for
+    /// Add what was found even if others explain it alike, or something is left that none accounts for
     #[arg(long)]
     accept: bool,
     /// Let the new machine file replace the old one
@@ -126,19 +126,20 @@ impl Learn {
         out: &mut impl Write,
     ) -> anyhow::Result<()> {
         let better = self.output.as_ref().map(|folder| folder.join(MACHINE));
-        let (command, machine, output) = match (learned.diagnosis.verdict, &better) {
+        let left = !learned.book.accepted;
+        let (command, machine) = match (learned.diagnosis.verdict, &better) {
             (Verdict::NothingMissing | Verdict::DoubtfulInput, _) => return Ok(()),
-            (Verdict::Unexplained, _) if !learned.book.accepted => {
-                ("discover", machine, Some("proposed.toml"))
-            }
-            (_, Some(better)) => ("compare", better.as_path(), None),
-            (_, None) => ("learn", machine, Some("learned")),
+            (Verdict::Unexplained, _) if left => ("discover", machine),
+            (Verdict::Ambiguous, _) if left => ("learn", machine),
+            (_, Some(better)) => ("compare", better.as_path()),
+            (_, None) => ("learn", machine),
         };
-
         let next = Next::command(command).words([machine, data]).words(self.signals.words());
-        match output {
-            Some(output) => next.output(output).print(out),
-            None => next.print(out),
+        match command {
+            "discover" => next.output("proposed.toml").print(out),
+            "learn" if left => next.words(["--accept"]).output("learned").print(out),
+            "learn" => next.output("learned").print(out),
+            _ => next.print(out),
         }
     }
 
@@ -157,11 +158,11 @@ impl Learn {
         Ok(Learned { file, text, problem, diagnosis, check, book })
     }
 
-    /// Whether what was found goes into the machine file: not beside something unexplained, unless
-    /// the user says so, and never on doubtful input.
+    /// Whether what was found goes into the machine file: not where other effects explain it alike, nor
+    /// beside something unexplained, unless the user says so, and never on doubtful input.
     fn accepts(&self, diagnosis: &Diagnosis) -> bool {
         match diagnosis.verdict {
-            Verdict::Unexplained => self.accept,
+            Verdict::Ambiguous | Verdict::Unexplained => self.accept,
             Verdict::DoubtfulInput => false,
             _ => true,
         }

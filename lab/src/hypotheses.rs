@@ -40,7 +40,9 @@ pub(crate) use candidates::{Candidate, as_it_stands, candidate, candidates, turn
 pub(crate) use flaws::{above_hunting, least_above_hunting};
 pub(crate) use likelihood::Likelihood;
 pub use probes::Structure;
-pub(crate) use probes::{all_structures, at_targets, is_left, matters, no_larger_than, structures};
+pub(crate) use probes::{
+    all_structures, at_targets, is_left, matters, no_larger_than, structures, waves_left,
+};
 pub(crate) use setting_trial::setting_trials;
 pub(crate) use slow_noise::{no_all_clear, samples_a_pass, slow_without, taken_for_noise};
 pub(crate) use tails::chance_with_tails;

@@ -9,7 +9,7 @@ use super::experiment::{self, Advice};
 use crate::doubts::{Doubt, Suspect, doubts_and_suspects};
 use crate::hypotheses::{
     Likelihood, Structure, at_targets, disagreements, is_left, no_all_clear, no_larger_than,
-    samples_a_pass, slow_without, structures,
+    samples_a_pass, slow_without, structures, waves_left,
 };
 use crate::model::{
     Component, JointCovariance, Judged, Problem, State, covariance_of_all_values, holdout_rms,
@@ -18,7 +18,7 @@ use crate::model::{
 use crate::noise::rms;
 use crate::numerics::least_squares::covariance_rows;
 use crate::policy::chance::{AT_AN_END, STANDARD_ERRORS};
-use crate::policy::extent::SEARCHED_ROWS;
+use crate::policy::extent::{COMPARED_ROWS, SEARCHED_ROWS};
 use crate::search::{
     Dropped, Refusal, Rivals, Step, hear, nobodys, not_told, own_errors, polished, pruned,
     pruned_in_doubt, rivals, search, suspected, take_for_a_shape,
@@ -239,6 +239,9 @@ fn searched(problem: &Problem, suspects: &[Suspect]) -> Diagnosis {
     let noise_um = rms(&problem.layout, &state.fit.left);
     let mut candidates = ranked(state, &found, &steps[0].tried, &experiments);
     let of_means_um = rms(&small.layout, &last.fit.left);
+    if residual.is_empty() {
+        residual.extend(thinned_away(&problem, &small, last));
+    }
     no_larger_than(noise_um, &mut residual);
     residual.extend(of_targets);
     residual.extend(no_all_clear(&problem, state, &residual));
@@ -255,6 +258,17 @@ fn searched(problem: &Problem, suspects: &[Suspect]) -> Diagnosis {
         before: problem.residual(),
         left: states.pop().map(|state| state.fit.left).unwrap_or_default(),
     }
+}
+
+/// Waves that a comparison finds in so many more rows than were searched.
+fn thinned_away(problem: &Problem, small: &Problem, last: &State) -> Vec<Structure> {
+    if small.has_rows_of(problem) {
+        return Vec::new();
+    }
+    let thinned = problem.thinned(COMPARED_ROWS);
+    let compared = thinned.as_ref().unwrap_or(problem);
+    let state = last.on(compared);
+    state.map_or_else(Vec::new, |state| waves_left(compared, &state.columns, &state.fit))
 }
 
 /// What was tried beside the effects of the last model, though others may have come and gone since.

@@ -11,6 +11,9 @@ use crate::policy::mistakes::{
     NEXT_VALUES, OFTENER_THAN_BEFORE,
 };
 
+/// Rounding of the difference of two numbers, a few units of the last place, against their size.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
 /// All of them that a measurement has.
 pub(super) fn of_no_instrument(problem: &Problem) -> Vec<Doubt> {
     let passes = problem.record.passes();
@@ -26,24 +29,61 @@ fn readings(measurement: &Measurement, row: usize) -> Vec<u64> {
     measurement.observations.values().map(|values| values[row].to_bits()).collect()
 }
 
-/// A pass whose readings are those of an earlier one, in the same order.
+/// A pass whose readings are those of an earlier one, in the same order, or those and a constant.
 fn copied_pass(measurement: &Measurement, passes: &[Range<usize>]) -> Option<Doubt> {
-    let all = |rows: &Range<usize>| -> Vec<Vec<u64>> {
-        rows.clone().map(|row| readings(measurement, row)).collect()
+    let is_long = |rows: &Range<usize>| {
+        let all: Vec<_> = rows.clone().map(|row| readings(measurement, row)).collect();
+        COPIED_ROWS <= all.len() && DIFFERENT <= different(&all)
     };
-    let all: Vec<Vec<Vec<u64>>> = passes.iter().map(all).collect();
-    let (first, again) = all.iter().enumerate().find_map(|(again, rows)| {
-        let first = all[..again].iter().position(|earlier| earlier == rows)?;
-        (COPIED_ROWS <= rows.len() && DIFFERENT <= different(rows)).then_some((first, again))
+    let (first, again, apart) = passes.iter().enumerate().find_map(|(place, again)| {
+        let mut earlier = passes[..place].iter();
+        let found = earlier.find_map(|first| Some((first, apart(measurement, first, again)?)));
+        found.filter(|_| is_long(again)).map(|(first, apart)| (first, again, apart))
     })?;
-    let name = |pass: usize| measurement.pass_names[measurement.pass[passes[pass].start]];
+    let name = |rows: &Range<usize>| measurement.pass_names[measurement.pass[rows.start]];
     let (first, name) = (name(first), name(again));
     Some(Doubt {
         what: "copy",
-        evidence: said_by(all[again].len()),
-        says: format!("the readings of pass {name} are those of pass {first} to the last digit"),
+        evidence: said_by(again.len()),
+        says: match apart {
+            Apart::Nothing => {
+                format!("the readings of pass {name} are those of pass {first} to the last digit")
+            }
+            Apart::Constant => {
+                format!("the readings of pass {name} are those of pass {first} and a constant")
+            }
+        },
         mend: format!("leave pass {name} out"),
     })
+}
+
+/// By what the readings of a pass are off those of another.
+enum Apart {
+    Nothing,
+    Constant,
+}
+
+/// That of two passes, to within what numbers of a table are rounded by; `None` where it varies.
+fn apart(measurement: &Measurement, first: &Range<usize>, again: &Range<usize>) -> Option<Apart> {
+    if first.len() != again.len() {
+        return None;
+    }
+    let mut by = Apart::Nothing;
+    for values in measurement.observations.values() {
+        let (first, again) = (&values[first.clone()], &values[again.clone()]);
+        let offset = again.first()? - first.first()?;
+        let is_off = |(first, again): (&f64, &f64)| {
+            let rounding = ROUNDING * (first.abs() + again.abs());
+            (again - first - offset).abs() <= rounding
+        };
+        if !first.iter().zip(again).all(is_off) {
+            return None;
+        }
+        if offset != 0.0 {
+            by = Apart::Constant;
+        }
+    }
+    Some(by)
 }
 
 fn different(rows: &[Vec<u64>]) -> usize {

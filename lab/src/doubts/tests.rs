@@ -112,6 +112,25 @@ fn a_direction_against_the_travel_is_doubted_whatever_fits() {
     }
 }
 
+/// Two passes there and back, the direction of the second turned.
+#[test]
+fn a_direction_against_the_travel_of_one_pass_is_doubted() {
+    let known = machine(150, WAVES);
+    let of = |second: f64| {
+        let mut table = there_and_back(&[0.0; 600], 1.0);
+        let pass = |row: u32| if row < 300 { 1.0 } else { 2.0 };
+        table
+            .columns
+            .push(Column { name: "pass".to_owned(), values: (0..600).map(pass).collect() });
+        let direction = table.columns.iter_mut().find(|one| one.name == "direction");
+        let turned = direction.expect("a column").values.iter_mut().skip(300);
+        turned.for_each(|value| *value *= second);
+        doubted(&known, &table)
+    };
+    assert_eq!(of(1.0), None);
+    assert_eq!(of(-1.0), Some(("sign", "turn `direction` in pass 2".to_owned())));
+}
+
 /// Without a clock, a way back may be listed as one likes.
 #[test]
 fn one_way_without_a_clock_denies_nothing() {
@@ -411,6 +430,13 @@ fn copies_are_told_and_what_was_measured_again_is_none() {
     let copied = twice(measured(&bare));
     let (what, mend) = doubted(&bare, &copied).expect("a doubt");
     assert_eq!((what, mend.as_str()), ("copy", "leave pass 2 out"));
+    let rows = measured(&bare).rows();
+    let mut nth = 0;
+    let and_a_constant = changed(copied.clone(), "error_um", |value| {
+        nth += 1;
+        if nth <= rows { value } else { value + 0.37 }
+    });
+    assert_eq!(doubted(&bare, &and_a_constant), Some((what, mend)));
     let mut row = 0;
     let again = changed(copied, "error_um", |value| {
         row += 1;

@@ -123,6 +123,14 @@ pub(crate) fn structures(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<S
     found
 }
 
+/// Waves that a fit leaves, beyond chance.
+#[must_use]
+pub(crate) fn waves_left(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
+    let mut found = waves::lines(problem, model, fit);
+    found.retain(|structure| is_left(problem, fit, structure));
+    found
+}
+
 /// True for structure beyond chance, and larger than flaws of the noise, of the formulas and of a
 /// loop may make.
 #[must_use]

@@ -141,6 +141,21 @@ impl Component {
         Ok((Design { columns, fixed }, priors))
     }
 
+    /// The effect with its first numbers alone, fewer by one and more, where each scales a shape of its own.
+    pub(crate) fn parts(&self) -> impl Iterator<Item = Self> {
+        let each = self.term.parameters.iter().all(|what| what.role == Role::Linear);
+        let last = if each { self.width() } else { 0 };
+        (1..last).map(|width| {
+            let mut part = self.clone();
+            let mut kept = 0;
+            for keeps in &mut part.kept {
+                kept += usize::from(*keeps);
+                *keeps &= kept <= width;
+            }
+            part
+        })
+    }
+
     /// Coefficients of the whole basis from those in use; the others are 0.
     #[must_use]
     pub(crate) fn spread(&self, used: &[f64]) -> Vec<f64> {

@@ -83,6 +83,12 @@ pub(crate) const MOST_BETWEEN: usize = 1 << 16;
 /// twice the time.
 pub(crate) const BETWEEN_A_TURN: f64 = 128.0;
 
+/// Share of a turn that a record must have for what comes with every turn to be named.
+///
+/// Chosen: the arc that is missing turns a wave by a tenth of its length, less than what a wave of one and a
+/// half is turned by against one of two. Its double is two turns, which no rotary table's record has.
+pub(crate) const MOST_OF_A_TURN: f64 = 0.9;
+
 /// Waves over the record of the slowest line that is one.
 ///
 /// Derived: one wave and a half has two turning points inside, a parabola one. Doubled: lines of

@@ -108,6 +108,11 @@ pub(crate) const RUNS_ALONG_SHARE: f64 = 0.9;
 /// records that reverse every few rows are not doubted.
 pub(crate) const DENIED: f64 = 0.9;
 
+/// Rows that must say so where one pass alone does.
+///
+/// Chosen: evidence of 28. Doubled: a pass of 21 targets is not doubted.
+pub(crate) const DENIED_ROWS: usize = 20;
+
 /// Logarithm by which the usual speed may be off that which is told, times the factor of a unit.
 ///
 /// Chosen: a spindle's slip and the digits of a clock. Doubled: of speeds that are nominal only one in

@@ -12,7 +12,7 @@ use crate::numerics::{count, least_squares, mean, median, one_in, resolves, spre
 use crate::policy::evidence::{
     HIGH_HARMONIC_PRICE, OF_THE_FILE_PRICE, OTHER_TARGETS, SHAPE, WAVE, WAVES_A_PASS,
 };
-use crate::policy::extent::{FEWEST_TARGETS, ROWS_A_COLUMN, RUN_IN};
+use crate::policy::extent::{FEWEST_TARGETS, MOST_OF_A_TURN, ROWS_A_COLUMN, RUN_IN};
 use crate::policy::reading::REVERSAL_REACH;
 use crate::policy::size::{ANOTHER_SPEED, ON_THE_WAY};
 
@@ -313,8 +313,8 @@ pub(crate) fn at_one_target(problem: &Problem, component: &Component, used: &[f6
     elsewhere < OTHER_TARGETS * count(own.len()) * (here - level) * (here - level)
 }
 
-/// True unless an effect is one of whole waves a turn of a part of which the record has not a whole
-/// turn: waves of any length follow it there.
+/// True unless an effect is one of whole waves a turn of a part of which the record has not nearly a
+/// whole turn: waves of any length follow it there.
 #[must_use]
 pub(crate) fn turns_once(problem: &Problem, component: &Component) -> bool {
     let term = &component.term;
@@ -327,7 +327,7 @@ pub(crate) fn turns_once(problem: &Problem, component: &Component) -> bool {
     // Places at even steps all around end a step short of the turn.
     let step = spread(&turns) / count(turns.len().max(2) - 1);
     let part_turns = component.waves_a_turn(problem) / harmonic * (spread(&turns) + step);
-    1.0 - SHAPE < part_turns
+    MOST_OF_A_TURN < part_turns
 }
 
 /// True when a bump lies inside the travel with both its flanks: half a bump is any curve.

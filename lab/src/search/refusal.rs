@@ -118,7 +118,7 @@ impl fmt::Display for Refusal {
                 write!(f, "at the end of its range: {parameter} {value:.4}")
             }
             Self::Flank => f.write_str("only one flank of the bump lies inside the travel"),
-            Self::Turn => f.write_str("whole waves a turn need a whole turn"),
+            Self::Turn => f.write_str("whole waves a turn need nine tenths of a turn"),
             Self::Piece => f.write_str("so small a piece of a wave that any drift follows it"),
             Self::Edge => {
                 f.write_str("so near the start or the end that a machine runs in or out there")

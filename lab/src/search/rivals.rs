@@ -7,6 +7,7 @@ use super::likeness::{by_physics, far_fetched};
 use super::pruning::counts;
 use crate::model::{Columns, Component, Judged, Problem, State, pattern, settle};
 use crate::noise::Whitener;
+use crate::numerics::count;
 use crate::numerics::least_squares;
 use crate::numerics::least_squares::dot;
 use crate::policy::evidence::{CLEAR_MARGIN, COINCIDENCE, INFLATION, MARGIN};
@@ -39,8 +40,9 @@ pub(crate) fn rivals(problem: &Problem, state: &State, first: &[Judged]) -> Vec<
                 instead_of(problem, state, index)
             };
             let mut confused = confused(problem, state, index, &tried);
-            let alike = by_physics(problem, state, index);
-            for name in alike.into_iter().chain(by_sampling(problem, state, index)) {
+            let alike = by_physics(problem, state, index).into_iter();
+            let alike = alike.chain(by_sampling(problem, state, index));
+            for name in alike.chain(beside_a_part(problem, state, index)) {
                 if !confused.contains(&name) {
                     confused.push(name);
                 }
@@ -88,6 +90,35 @@ fn confused(problem: &Problem, state: &State, index: usize, tried: &[Judged]) ->
         })
         .map(|judged| judged.component.term.name.clone())
         .collect()
+}
+
+/// Names that explain as much beside a part of an effect as the whole of it does: a tilted guide and a slope
+/// draw what a screw's cubic does. What has a place or a length of its own bends to anything.
+fn beside_a_part(problem: &Problem, state: &State, index: usize) -> Vec<String> {
+    let whole = &state.components[index];
+    let mut names = Vec::new();
+    for part in whole.parts() {
+        let saved = problem.price_of_a_number() * count(whole.width() - part.width());
+        let mut components = state.without(&[index]);
+        components.push(part);
+        let Some(fewer) = State::of(problem, components, &state.fit.noises) else { continue };
+        let others = tried(problem, &fewer).into_iter().filter(|judged| {
+            let term = &judged.component.term;
+            term.name != whole.term.name && term.nonlinear().is_empty()
+        });
+        let alike = others.filter(|judged| {
+            let price = judged.gain - judged.evidence;
+            State::of(problem, fewer.with(&judged.component), &state.fit.noises).is_some_and(
+                |both| {
+                    let ahead = 2.0 * (both.fit.log_likelihood - state.fit.log_likelihood);
+                    let judged = Judged { fit: both.fit, ..judged.clone() };
+                    -MARGIN < ahead + saved - price && plausible(problem, &judged)
+                },
+            )
+        });
+        names.extend(alike.map(|judged| judged.component.term.name));
+    }
+    names
 }
 
 /// Evidence of a rival beside the whole model, none where it is not worth its price: what it
