@@ -115,7 +115,7 @@ fn a_direction_against_the_travel_is_doubted_whatever_fits() {
 /// Two passes there and back, the direction of the second turned.
 #[test]
 fn a_direction_against_the_travel_of_one_pass_is_doubted() {
-    let known = machine(150, WAVES);
+    let known = machine(150, "");
     let of = |second: f64| {
         let mut table = there_and_back(&[0.0; 600], 1.0);
         let pass = |row: u32| if row < 300 { 1.0 } else { 2.0 };
