@@ -277,7 +277,8 @@ def learn(
     with_:
         TOML file with custom effects to try beside the catalogue
     accept:
-        Add what was found even if something is left that no effect accounts for
+        Add what was found even if others explain it alike, or something is left that none accounts
+        for
     grating_signal:
         In a VCD capture, the signal of the grating lines
     laser_signal:

@@ -9,7 +9,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-const SAMPLES: u16 = 600;
+const SAMPLES: u16 = 450;
 
 /// The wavelength is the one the dividers stand for, so the model predicts nothing.
 pub(crate) const MACHINE: &str = r#"
@@ -51,8 +51,8 @@ impl Passes {
         let mut start_s = 0.0;
         for (pass, direction, rpm) in [(1.0, 1.0, 6.0), (2.0, -1.0, 6.0), (3.0, 1.0, 9.0)] {
             for row in 0..SAMPLES {
-                let travelled_mm = 1.5 * f64::from(row);
-                let position_mm = if direction > 0.0 { travelled_mm } else { 898.5 - travelled_mm };
+                let travelled_mm = 2.0 * f64::from(row);
+                let position_mm = if direction > 0.0 { travelled_mm } else { 898.0 - travelled_mm };
                 let time_s = start_s + travelled_mm / (rpm / 10.0);
                 let error = error_um(time_s, position_mm, direction) + noise();
                 let row = [pass, time_s, position_mm, direction, rpm, error];

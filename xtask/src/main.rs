@@ -1,10 +1,12 @@
 //! Work on the project itself; nothing a user needs.
 
+use std::ffi::OsStr;
 use std::io::Write;
 use std::path::Path;
 use std::process::{Command, ExitCode};
+use std::thread;
 
-use anyhow::{Context, ensure};
+use anyhow::{Context, anyhow, ensure};
 use clap::Parser;
 use xtask::python;
 use xtask::setup::Tools;
@@ -73,19 +75,30 @@ fn check(root: &Path, no_install: bool, out: &mut impl Write) -> anyhow::Result<
     let tools = Tools::of(root);
     tools.prepare(!no_install, out)?;
     let path = tools.path()?;
+    // Packages are fetched while the processors compile.
+    let (all, installed) = thread::scope(|scope| {
+        let packages = scope.spawn(|| python::install(root, &path));
+        let all = cargo_checks(&path);
+        (all, packages.join().unwrap_or_else(|_| Err(anyhow!("the thread of pip has died"))))
+    });
+    Ok(all? && installed? && python::check(root, &path)? && deny(&path, out)?)
+}
+
+/// Whether all of them pass.
+fn cargo_checks(path: &OsStr) -> anyhow::Result<bool> {
     for words in CHECKS {
         let mut cargo = Command::new("cargo");
-        cargo.args(*words).env("PATH", &path);
+        cargo.args(*words).env("PATH", path);
         if !cargo.status().context("`cargo` cannot be started")?.success() {
             return Ok(false);
         }
     }
-    Ok(python::check(root, &path)? && deny(&path, out)?)
+    Ok(true)
 }
 
 /// Licences, bans and origins by `cargo deny`, where it is installed; `tests/licences.rs` holds to
 /// the same rules without it.
-fn deny(path: &std::ffi::OsStr, out: &mut impl Write) -> anyhow::Result<bool> {
+fn deny(path: &OsStr, out: &mut impl Write) -> anyhow::Result<bool> {
     let mut version = Command::new("cargo");
     version.args(["deny", "--version"]).env("PATH", path);
     if !version.output().context("`cargo` cannot be started")?.status.success() {

@@ -14,14 +14,14 @@ use anyhow::Context;
 /// The package, as it lies in a wheel.
 const PACKAGE: &str = "target/python/package";
 
-/// Lines of a shell, before the package is laid out and after.
-const BEFORE: &[&str] = &[
-    "cargo build --workspace --lib",
+/// Lines of a shell: for the packages that the tests need, before the package is laid out, and after.
+const INSTALL: &[&str] = &[
     "python3 -m venv target/python",
     // The first that knows the groups of PEP 735.
     "target/python/bin/pip install --quiet pip>=25.1",
     "target/python/bin/pip install --quiet --group test",
 ];
+const BUILD: &[&str] = &["cargo build --workspace --lib"];
 const AFTER: &[&str] = &[
     "target/python/bin/python -m mypy python/helixlock python/tests",
     "target/python/bin/python -m mypy.stubtest helixlock._native",
@@ -29,13 +29,22 @@ const AFTER: &[&str] = &[
     "target/python/bin/python examples/notebook/worm.py",
 ];
 
+/// Installs what the tests need; whether it could be, pip says itself.
+///
+/// # Errors
+///
+/// When a tool cannot be started.
+pub fn install(root: &Path, path: &OsStr) -> anyhow::Result<bool> {
+    run_all(INSTALL, root, path)
+}
+
 /// Whether all of it is good; what is not, the tools say themselves.
 ///
 /// # Errors
 ///
 /// When a tool cannot be started, or the package cannot be laid out.
 pub fn check(root: &Path, path: &OsStr) -> anyhow::Result<bool> {
-    if !run_all(BEFORE, root, path)? {
+    if !run_all(BUILD, root, path)? {
         return Ok(false);
     }
     lay_out(root).with_context(|| format!("`{PACKAGE}` cannot be written"))?;
