@@ -110,6 +110,27 @@ fn a_tilted_guide_beside_a_slope_is_a_rival_of_a_cubic() {
     assert!(rivals.flat_map(|one| &one.confounded_with).any(told), "{:?}", found.candidates);
 }
 
+/// A slope over two passes on a day that grows warmer: a hop of the laser has three numbers, and draws roughly what
+/// the slope and the air draw with one.
+#[test]
+fn two_effects_of_few_numbers_stand_before_one_that_bends() {
+    let mut noise = white(0, 0.05);
+    let mut columns = [const { Vec::new() }; 5];
+    for row in 0..400_u16 {
+        let (pass, nth) = (f64::from(row / 200), f64::from(row % 200));
+        let mm = 3.0 * (nth + 0.5);
+        let time_s = 400.0 * pass + mm / 4.0;
+        let air_c = 20.0 + 0.6 * pass + 0.8 * libm::sin(time_s / 300.0);
+        let error_um = 0.93e-3 * (air_c - 20.0) * mm + 1.2e-3 * mm + noise();
+        let cells = [pass, time_s, mm, air_c, error_um];
+        columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+    }
+    let heads = ["pass", "time_s", "position_mm", "air_temperature_c", "error_um"];
+    let found = diagnosed(heads.into_iter().zip(columns).collect());
+    assert_eq!(found.verdict, Verdict::Ambiguous, "{:?}", names(&found));
+    assert!(names(&found).contains(&"air-temperature"), "{:?}", names(&found));
+}
+
 /// Whole waves of a turn come in numbers: a resolver shows six of its own and more.
 #[test]
 fn five_waves_of_a_turn_are_five_names() {

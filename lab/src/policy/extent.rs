@@ -6,6 +6,16 @@
 /// where imitators go on being accepted.
 pub(crate) const MOST_ROUNDS: usize = 8;
 
+/// Numbers from which on an effect may bend to what two others draw together.
+///
+/// Derived: two effects have two sizes. Doubled: none is asked.
+pub(crate) const MANY_NUMBERS: usize = 3;
+
+/// Difference of their gains below which two effects draw one curve.
+///
+/// Chosen: a sixteenth of the margin. Doubled: the same slopes count as one.
+pub(crate) const SAME_CURVE: f64 = 0.5;
+
 /// Most formulas that are looked for one after the other.
 ///
 /// Chosen: beyond two, a sum of shapes imitates anything. Doubled: four, at twice the time.

@@ -5,7 +5,7 @@ use super::court::shape_beside;
 use super::judging::tried;
 use super::pruning::{Dropped, pruned};
 use super::refusal::Refusal;
-use super::together::{Pair, known_together, pair};
+use super::together::{Pair, instead, known_together, pair};
 use crate::model::{Component, Judged, Problem, State};
 use crate::policy::evidence::MARGIN;
 use crate::policy::extent::MOST_ROUNDS;
@@ -109,12 +109,7 @@ fn go_on(problem: &mut Problem, steps: &mut Vec<Step>) {
             add_together(problem, steps, members);
             continue;
         }
-        let next = match best.and_then(|best| with_one_more(problem, now, &best)) {
-            Some(one) => vec![one],
-            None => pair(problem, now, &tried)
-                .and_then(|two| with_two_more(problem, two))
-                .map_or_else(Vec::new, Vec::from),
-        };
+        let next = next(problem, now, best.as_ref(), &tried);
         steps[last].tried = tried;
         steps[last].refused = refused;
         if next.is_empty() {
@@ -122,6 +117,20 @@ fn go_on(problem: &mut Problem, steps: &mut Vec<Step>) {
         }
         steps.extend(next);
     }
+}
+
+/// The steps to the model with the best effect more, or with two where they explain what it bends to, or where
+/// there is none; none where there is nothing more.
+fn next(problem: &mut Problem, now: &State, best: Option<&Judged>, tried: &[Judged]) -> Vec<Step> {
+    let two = best.and_then(|best| instead(problem, now, best, tried));
+    if let Some(steps) = two.and_then(|two| with_two_more(problem, two)) {
+        return steps.into();
+    }
+    if let Some(step) = best.and_then(|best| with_one_more(problem, now, best)) {
+        return vec![step];
+    }
+    let two = pair(problem, now, tried).and_then(|two| with_two_more(problem, two));
+    two.map_or_else(Vec::new, Vec::from)
 }
 
 /// Adds the members of a set one a step.

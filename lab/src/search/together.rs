@@ -12,7 +12,7 @@ use crate::model::{Columns, Component, Judged, Problem, Stage, State, noises_of,
 use crate::numerics::count;
 use crate::policy::chance::{NAMED, SWALLOWED};
 use crate::policy::evidence::{MARGIN, SET_MARGIN};
-use crate::policy::extent::{FIRST_OF_PAIRS, KNOWN_IN_SETS};
+use crate::policy::extent::{FIRST_OF_PAIRS, KNOWN_IN_SETS, MANY_NUMBERS, SAME_CURVE};
 
 /// Several effects of known size that together beat every single effect.
 ///
@@ -130,6 +130,33 @@ pub(super) fn pair(problem: &Problem, now: &State, single: &[Judged]) -> Option<
     let alone = single.first().map_or(0.0, |best| best.evidence).max(0.0);
     let wins = alone + SET_MARGIN < best.evidence && rival + MARGIN < best.evidence;
     (wins && best.is_beyond_noise(problem, now) && best.is_mutual(problem, now)).then_some(best)
+}
+
+/// Two effects in the place of one of many numbers, which may bend to what they draw together: one of a single
+/// number, such as a slope, and one that is accepted beside it. `None` unless they are clearly ahead.
+pub(super) fn instead(
+    problem: &Problem,
+    now: &State,
+    best: &Judged,
+    single: &[Judged],
+) -> Option<Pair> {
+    let numbers = |one: &Judged| one.component.width() + one.component.term.nonlinear().len();
+    if numbers(best) < MANY_NUMBERS {
+        return None;
+    }
+    let mut firsts: Vec<&Judged> = Vec::new();
+    for one in single.iter().filter(|one| numbers(one) == 1) {
+        let is_like = |other: &&Judged| (other.gain - one.gain).abs() < SAME_CURVE;
+        if !firsts.iter().any(is_like) {
+            firsts.push(one);
+        }
+    }
+    let of = |one: &Judged| Pair::beside(problem, now, one);
+    let pairs = firsts.into_iter().take(FIRST_OF_PAIRS).filter_map(of);
+    let name = best.component.term.name.as_str();
+    let others = pairs.filter(|pair| !pair.names().contains(&name));
+    let two = others.max_by(|a, b| a.evidence.total_cmp(&b.evidence))?;
+    (best.evidence + MARGIN < two.evidence && two.is_mutual(problem, now)).then_some(two)
 }
 
 /// A model with one effect more.
