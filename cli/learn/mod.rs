@@ -126,20 +126,20 @@ impl Learn {
         out: &mut impl Write,
     ) -> anyhow::Result<()> {
         let better = self.output.as_ref().map(|folder| folder.join(MACHINE));
-        let left = !learned.book.accepted;
-        let (command, machine) = match (learned.diagnosis.verdict, &better) {
-            (Verdict::NothingMissing | Verdict::DoubtfulInput, _) => return Ok(()),
-            (Verdict::Unexplained, _) if left => ("discover", machine),
-            (Verdict::Ambiguous, _) if left => ("learn", machine),
-            (_, Some(better)) => ("compare", better.as_path()),
-            (_, None) => ("learn", machine),
+        let next = |command, machine| {
+            Next::command(command).words([machine, data]).words(self.signals.words())
         };
-        let next = Next::command(command).words([machine, data]).words(self.signals.words());
-        match command {
-            "discover" => next.output("proposed.toml").print(out),
-            "learn" if left => next.words(["--accept"]).output("learned").print(out),
-            "learn" => next.output("learned").print(out),
-            _ => next.print(out),
+        let offered = !learned.book.accepted;
+        match (learned.diagnosis.verdict, &better) {
+            (Verdict::NothingMissing | Verdict::DoubtfulInput, _) => Ok(()),
+            (Verdict::Unexplained, _) if offered => {
+                next("discover", machine).output("proposed.toml").print(out)
+            }
+            (Verdict::Ambiguous, _) if offered => {
+                next("learn", machine).words(["--accept"]).output("learned").print(out)
+            }
+            (_, Some(better)) => next("compare", better.as_path()).print(out),
+            (_, None) => next("learn", machine).output("learned").print(out),
         }
     }
 

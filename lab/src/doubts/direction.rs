@@ -12,7 +12,8 @@ pub(super) fn denied(measurement: &Measurement) -> Option<Doubt> {
     if !measurement.told.direction || (!measurement.timed && !both) {
         return None;
     }
-    if let Some(rows) = against(measurement, |_| true) {
+    let ways = ways(measurement);
+    if let Some(rows) = ways.iter().copied().fold(Way::default(), Way::and).denied() {
         return Some(Doubt {
             what: "sign",
             evidence: said_by(rows),
@@ -21,11 +22,9 @@ pub(super) fn denied(measurement: &Measurement) -> Option<Doubt> {
             mend: recipe("direction", "sign = -1"),
         });
     }
-    let passes = 0..measurement.pass_names.len();
-    let of_pass = |pass| against(measurement, |row| measurement.pass[row] == pass);
-    let denied = |pass| of_pass(pass).filter(|rows| DENIED_ROWS <= *rows).map(|rows| (pass, rows));
-    let (pass, rows) = passes.filter(|_| measurement.timed).find_map(denied)?;
-    let name = measurement.pass_names[pass];
+    let denied = |way: &Way| way.denied().filter(|rows| DENIED_ROWS <= *rows);
+    let mut of_passes = ways.iter().zip(&measurement.pass_names).filter(|_| measurement.timed);
+    let (rows, name) = of_passes.find_map(|(way, name)| Some((denied(way)?, name)))?;
     Some(Doubt {
         what: "sign",
         evidence: said_by(rows),
@@ -34,16 +33,38 @@ pub(super) fn denied(measurement: &Measurement) -> Option<Doubt> {
     })
 }
 
-/// Rows from which the way was gone against `direction`, where that is nearly all of the way.
-fn against(measurement: &Measurement, belongs: impl Fn(usize) -> bool) -> Option<usize> {
-    let (place, pass) = (&measurement.angle_rev, &measurement.pass);
-    let inside = (1..place.len()).filter(|&row| pass[row] == pass[row - 1] && belongs(row));
-    let ways = inside.map(|row| measurement.direction[row] * (place[row] - place[row - 1]));
-    let (mut whole, mut against, mut rows) = (0.0, 0.0, 0);
-    for way in ways {
-        whole += f64::abs(way);
-        against += (-way).max(0.0);
-        rows += usize::from(way < 0.0);
+/// What was gone of a pass, by the position, and what of that against `direction`, in how many rows.
+#[derive(Clone, Copy, Default)]
+struct Way {
+    whole: f64,
+    against: f64,
+    rows: usize,
+}
+
+impl Way {
+    fn and(self, more: Self) -> Self {
+        Self {
+            whole: self.whole + more.whole,
+            against: self.against + more.against,
+            rows: self.rows + more.rows,
+        }
     }
-    (0.0 < whole && DENIED * whole <= against).then_some(rows)
+
+    /// Rows against `direction`, where nearly all of the way is.
+    fn denied(self) -> Option<usize> {
+        (0.0 < self.whole && DENIED * self.whole <= self.against).then_some(self.rows)
+    }
+}
+
+/// The way of every pass.
+fn ways(measurement: &Measurement) -> Vec<Way> {
+    let (place, pass) = (&measurement.angle_rev, &measurement.pass);
+    let mut ways = vec![Way::default(); measurement.pass_names.len()];
+    for row in (1..place.len()).filter(|&row| pass[row] == pass[row - 1]) {
+        let way = measurement.direction[row] * (place[row] - place[row - 1]);
+        let rows = usize::from(way < 0.0);
+        let more = Way { whole: way.abs(), against: (-way).max(0.0), rows };
+        ways[pass[row]] = ways[pass[row]].and(more);
+    }
+    ways
 }

@@ -1,5 +1,6 @@
 //! Readings that no instrument gives: copied ones, and those cut off at the end of its range.
 
+use std::collections::HashMap;
 use std::ops::Range;
 
 use super::doubt::{Doubt, said_by};
@@ -31,15 +32,16 @@ fn readings(measurement: &Measurement, row: usize) -> Vec<u64> {
 
 /// A pass whose readings are those of an earlier one, in the same order, or those and a constant.
 fn copied_pass(measurement: &Measurement, passes: &[Range<usize>]) -> Option<Doubt> {
-    let is_long = |rows: &Range<usize>| {
-        let all: Vec<_> = rows.clone().map(|row| readings(measurement, row)).collect();
-        COPIED_ROWS <= all.len() && DIFFERENT <= different(&all)
-    };
-    let (first, again, apart) = passes.iter().enumerate().find_map(|(place, again)| {
-        let mut earlier = passes[..place].iter();
-        let found = earlier.find_map(|first| Some((first, apart(measurement, first, again)?)));
-        found.filter(|_| is_long(again)).map(|(first, apart)| (first, again, apart))
-    })?;
+    let mut alike: HashMap<_, Vec<&Range<usize>>> = HashMap::new();
+    let (first, again, apart) =
+        passes.iter().filter(|rows| COPIED_ROWS <= rows.len()).find_map(|again| {
+            let earlier = alike.entry(begins_with(measurement, again)).or_default();
+            let mut first = earlier.iter().copied();
+            let found =
+                first.find_map(|first| Some((first, again, apart(measurement, first, again)?)));
+            earlier.push(again);
+            found.filter(|_| DIFFERENT <= different(measurement, again))
+        })?;
     let name = |rows: &Range<usize>| measurement.pass_names[measurement.pass[rows.start]];
     let (first, name) = (name(first), name(again));
     Some(Doubt {
@@ -55,6 +57,14 @@ fn copied_pass(measurement: &Measurement, passes: &[Range<usize>]) -> Option<Dou
         },
         mend: format!("leave pass {name} out"),
     })
+}
+
+/// Length and first step of a pass, but for its rounding: a copy has the same.
+fn begins_with(measurement: &Measurement, rows: &Range<usize>) -> (usize, Option<u64>) {
+    const ROUNDED_BITS: u32 = 24;
+    let values = measurement.observations.values().next();
+    let step = values.map(|values| values[rows.start + 1] - values[rows.start]);
+    (rows.len(), step.map(|step| step.to_bits() >> ROUNDED_BITS))
 }
 
 /// By what the readings of a pass are off those of another.
@@ -86,11 +96,12 @@ fn apart(measurement: &Measurement, first: &Range<usize>, again: &Range<usize>) 
     Some(by)
 }
 
-fn different(rows: &[Vec<u64>]) -> usize {
-    let mut rows = rows.to_vec();
-    rows.sort_unstable();
-    rows.dedup();
-    rows.len()
+/// How many of the readings of a pass differ.
+fn different(measurement: &Measurement, rows: &Range<usize>) -> usize {
+    let mut all: Vec<_> = rows.clone().map(|row| readings(measurement, row)).collect();
+    all.sort_unstable();
+    all.dedup();
+    all.len()
 }
 
 /// Rows that are each there as often.

@@ -95,8 +95,8 @@ pub(crate) const BETWEEN_A_TURN: f64 = 128.0;
 
 /// Share of a turn that a record must have for what comes with every turn to be named.
 ///
-/// Chosen: the arc that is missing turns a wave by a tenth of its length, less than what a wave of one and a
-/// half is turned by against one of two. Its double is two turns, which no rotary table's record has.
+/// Chosen: that the circle closes is taken on trust for a tenth of it. Doubled: a table that was measured over
+/// one turn has no eccentricity.
 pub(crate) const MOST_OF_A_TURN: f64 = 0.9;
 
 /// Waves over the record of the slowest line that is one.
