@@ -66,34 +66,54 @@ fn evidence(root: &Path, words: &[String]) -> anyhow::Result<u8> {
 const CHECKS: &[&[&str]] = &[
     &["fmt", "--all", "--check"],
     &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"],
-    &["doc", "--no-deps", "--workspace", "--config", "build.rustdocflags=['-D', 'warnings']"],
-    &["test", "--workspace"],
+    &["test", "--workspace", "--no-run"],
 ];
+const TESTS: &[&str] = &["test", "--workspace"];
+const DOCUMENTATION: &[&str] =
+    &["doc", "--no-deps", "--workspace", "--config", "build.rustdocflags=['-D', 'warnings']"];
 
-/// Runs the checks up to the first that fails; why it does, cargo says itself.
+/// Runs the checks up to the first that fails.
 fn check(root: &Path, no_install: bool, out: &mut impl Write) -> anyhow::Result<bool> {
     let tools = Tools::of(root);
     tools.prepare(!no_install, out)?;
     let path = tools.path()?;
-    // Packages are fetched while the processors compile.
-    let (all, installed) = thread::scope(|scope| {
-        let packages = scope.spawn(|| python::install(root, &path));
-        let all = cargo_checks(&path);
-        (all, packages.join().unwrap_or_else(|_| Err(anyhow!("the thread of pip has died"))))
-    });
-    Ok(all? && installed? && python::check(root, &path)? && deny(&path, out)?)
+    // Packages are fetched while the processors compile; the tests, which wait for browsers and boards, leave
+    // time for Python and the documentation.
+    let passed = both(|| cargo_checks(&path), || python::install(root, &path))?
+        && both(
+            || cargo(&path, TESTS),
+            || Ok(python::check(root, &path)? && cargo(&path, DOCUMENTATION)?),
+        )?;
+    Ok(passed && deny(&path, out)?)
 }
 
-/// Whether all of them pass.
+/// Whether two checks that run side by side pass.
+fn both(
+    one: impl FnOnce() -> anyhow::Result<bool>,
+    other: impl FnOnce() -> anyhow::Result<bool> + Send,
+) -> anyhow::Result<bool> {
+    let (one, other) = thread::scope(|scope| {
+        let other = scope.spawn(other);
+        (one(), other.join().unwrap_or_else(|_| Err(anyhow!("a thread of the checks has died"))))
+    });
+    Ok(one? && other?)
+}
+
+/// Whether all of them pass; none is begun after one that does not.
 fn cargo_checks(path: &OsStr) -> anyhow::Result<bool> {
     for words in CHECKS {
-        let mut cargo = Command::new("cargo");
-        cargo.args(*words).env("PATH", path);
-        if !cargo.status().context("`cargo` cannot be started")?.success() {
+        if !cargo(path, words)? {
             return Ok(false);
         }
     }
     Ok(true)
+}
+
+/// Whether cargo ends well; why it does not, it says itself.
+fn cargo(path: &OsStr, words: &[&str]) -> anyhow::Result<bool> {
+    let mut cargo = Command::new("cargo");
+    cargo.args(words).env("PATH", path);
+    Ok(cargo.status().context("`cargo` cannot be started")?.success())
 }
 
 /// Licences, bans and origins by `cargo deny`, where it is installed; `tests/licences.rs` holds to
