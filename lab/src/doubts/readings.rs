@@ -1,6 +1,6 @@
 //! Readings that no instrument gives: copied ones, and those cut off at the end of its range.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::doubt::{Doubt, said_by};
@@ -32,7 +32,7 @@ fn readings(measurement: &Measurement, row: usize) -> Vec<u64> {
 
 /// A pass whose readings are those of an earlier one, in the same order, or those and a constant.
 fn copied_pass(measurement: &Measurement, passes: &[Range<usize>]) -> Option<Doubt> {
-    let mut alike: HashMap<_, Vec<&Range<usize>>> = HashMap::new();
+    let mut alike: BTreeMap<_, Vec<&Range<usize>>> = BTreeMap::new();
     let (first, again, apart) =
         passes.iter().filter(|rows| COPIED_ROWS <= rows.len()).find_map(|again| {
             let earlier = alike.entry(begins_with(measurement, again)).or_default();
