@@ -65,7 +65,6 @@ fn a_million_rows_are_held_in_a_third_of_a_gigabyte() {
     }
 }
 
-/// Means of neighbours, which are searched, scatter less than the samples of which a user reads.
 /// A motor that shakes a long log by a seventh of its noise, three rows a wave, is not in means of neighbours, and in
 /// one row of three not beyond chance.
 #[test]
@@ -83,6 +82,7 @@ fn a_swift_wave_in_many_rows_gets_no_all_clear() {
     assert_eq!(found.verdict, Verdict::Unexplained, "{:?}", found.residual);
 }
 
+/// Means of neighbours, which are searched, scatter less than the samples of which a user reads.
 #[test]
 fn what_was_tried_is_told_with_the_scatter_of_the_samples() {
     let folder = scratch();

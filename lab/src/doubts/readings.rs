@@ -73,20 +73,17 @@ enum Apart {
     Constant,
 }
 
-/// That of two passes, to within what numbers of a table are rounded by; `None` where it varies.
+/// That of two passes of one length, to within what numbers of a table are rounded by; `None` where it varies.
 fn apart(measurement: &Measurement, first: &Range<usize>, again: &Range<usize>) -> Option<Apart> {
-    if first.len() != again.len() {
-        return None;
-    }
     let mut by = Apart::Nothing;
     for values in measurement.observations.values() {
         let (first, again) = (&values[first.clone()], &values[again.clone()]);
         let offset = again.first()? - first.first()?;
-        let is_off = |(first, again): (&f64, &f64)| {
+        let is_offset = |(first, again): (&f64, &f64)| {
             let rounding = ROUNDING * (first.abs() + again.abs());
             (again - first - offset).abs() <= rounding
         };
-        if !first.iter().zip(again).all(is_off) {
+        if !first.iter().zip(again).all(is_offset) {
             return None;
         }
         if offset != 0.0 {

@@ -25,6 +25,12 @@ pub(crate) struct Judged {
 }
 
 impl Judged {
+    /// What its freedom and its looks cost as evidence.
+    #[must_use]
+    pub(crate) fn price(&self) -> f64 {
+        self.gain - self.evidence
+    }
+
     /// Coefficients of the effect's columns in use, the last ones of the joint fit, and where they
     /// begin.
     #[must_use]

@@ -107,12 +107,11 @@ fn beside_a_part(problem: &Problem, state: &State, index: usize) -> Vec<String> 
             term.name != whole.term.name && term.nonlinear().is_empty()
         });
         let alike = others.filter(|judged| {
-            let price = judged.gain - judged.evidence;
             State::of(problem, fewer.with(&judged.component), &state.fit.noises).is_some_and(
                 |both| {
                     let ahead = 2.0 * (both.fit.log_likelihood - state.fit.log_likelihood);
                     let judged = Judged { fit: both.fit, ..judged.clone() };
-                    -MARGIN < ahead + saved - price && plausible(problem, &judged)
+                    -MARGIN < ahead + saved - judged.price() && plausible(problem, &judged)
                 },
             )
         });
@@ -127,7 +126,7 @@ fn evidence_beside(problem: &Problem, state: &State, rival: &Judged) -> f64 {
     let Ok(own) = Columns::of(problem, std::slice::from_ref(&rival.component)) else { return 0.0 };
     let fit = settle(problem, &state.columns.and(&own), &state.fit.noises);
     let gain = 2.0 * (fit.log_likelihood - state.fit.log_likelihood);
-    (gain - (rival.gain - rival.evidence)).max(0.0)
+    (gain - rival.price()).max(0.0)
 }
 
 /// True for a number of the file, and for a count: that it fits exactly is evidence of its own, and

@@ -84,9 +84,8 @@ impl Pair {
         let name = &one.component.term.name;
         let mut others = listed.into_iter().filter(|two| two.component.term.name != *name);
         let second = others.find(|two| refusal(problem, &first, two).is_none())?;
-        let price = |judged: &Judged| judged.gain - judged.evidence;
         let gain = 2.0 * (second.fit.log_likelihood - now.fit.log_likelihood);
-        let evidence = gain - price(one) - price(&second);
+        let evidence = gain - one.price() - second.price();
         Some(Self { one: one.clone(), first, second, evidence })
     }
 
