@@ -95,7 +95,8 @@ fn details(rule: &ColumnRule) -> String {
     let unit = rule.unit.as_ref().map(|unit| format!(" [{unit}]"));
     let run = rule.pass.map(|pass| format!(" run {pass}"));
     let way = rule.direction.map(|way| if way == 1 { " there" } else { " back" }.to_owned());
-    [unit, run, way].into_iter().flatten().collect()
+    let turned = (rule.sign == Some(-1)).then(|| " × −1".to_owned());
+    [unit, run, way, turned].into_iter().flatten().collect()
 }
 
 /// How many values there are of a column of counts.

@@ -376,3 +376,31 @@ fn the_clock_is_the_channel_that_tells_most_or_the_one_named() {
          `IOC:PosCmd`, `IOC:Run`, `IOC:Sensor`"
     );
 }
+
+/// Deviations of ISO 230-2 are actual minus target whether rows or columns tell the runs; errors are not.
+#[test]
+fn runs_of_targets_have_the_sign_of_a_deviation() {
+    let value = |index: u32| f64::from(index % 7) + 0.5;
+    let sign = |header: &str| {
+        let text =
+            file(header, |index| format!("{},{},{}", 10 * index, value(index), value(index)));
+        let proposal = proposed(&text, "");
+        assert!(proposal.questions.is_empty(), "{header}: {:?}", proposal.questions);
+        column(&proposal, "error_um")[0].signum().to_bits()
+    };
+    for header in [
+        "Zielposition (mm),1↑ [µm],1↓ [µm]",
+        "Target (mm),1↑ [um],2↑ [um]",
+        "Position [mm],Lauf 1 vor [µm],Lauf 1 rück [µm]",
+        "Target (mm),Run 1 deviation (um),Run 2 deviation (um)",
+    ] {
+        assert_eq!(sign(header), (-1.0_f64).to_bits(), "{header}");
+    }
+    let long = file("Target (mm),deviation_um", |index| format!("{},{}", 10 * index, value(index)));
+    assert_eq!(column(&proposed(&long, ""), "error_um")[0].to_bits(), (-0.5_f64).to_bits());
+    for header in
+        ["Target (mm),Run 1 error (um),Run 2 error (um)", "Position (mm),Run 1 (um),Run 2 (um)"]
+    {
+        assert_eq!(sign(header), 1.0_f64.to_bits(), "{header}");
+    }
+}

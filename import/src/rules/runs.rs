@@ -83,6 +83,7 @@ pub(super) fn run_values(candidates: &mut [Candidate<'_>]) {
     let Some(at) = coordinate.or_else(lone) else { return };
     let to = if candidates[at].is_angle() { "angle_rev" } else { "position_mm" };
     candidates[at].decide(to, "the position aimed at in every run");
+    let aimed_at = candidates[at].meaning() == "target";
     let targets = candidates[at].samples.values.clone();
     let name = candidates[at].header.name.clone();
     let unit = candidates[at].header.unit.clone();
@@ -97,15 +98,26 @@ pub(super) fn run_values(candidates: &mut [Candidate<'_>]) {
             difference(candidate, &name);
             continue;
         }
-        let reversed = candidate.word.is_some_and(|word| word.reversed);
-        let to = if candidate.is_angle() { "error_arcsec" } else { "error_um" };
-        if reversed {
-            candidate.rule.sign = candidate.rule.sign.or(Some(-1));
-            candidate.decide(to, "a run; a deviation is actual minus target, the error is positive when the table is behind");
-        } else {
-            candidate
-                .decide(to, "a run; taken with its sign, `sign = -1` if it is actual minus target");
-        }
+        deviation(candidate, aimed_at);
+    }
+}
+
+/// A run of deviations. In the layout of ISO 230-2, runs there and back of targets, they are actual minus
+/// target without a word; one that is called an error keeps its sign.
+fn deviation(candidate: &mut Candidate<'_>, aimed_at: bool) {
+    let standard = aimed_at || candidate.rule.direction.is_some();
+    let to = if candidate.is_angle() { "error_arcsec" } else { "error_um" };
+    let turned =
+        "a run; a deviation is actual minus target, the error is positive when the table is behind";
+    let said = candidate.word.is_some_and(|word| word.reversed);
+    let called_error = candidate.meaning().ends_with("error");
+    if said || standard && !called_error {
+        candidate.rule.sign = candidate.rule.sign.or(Some(-1));
+        let otherwise = if said { "" } else { "; `sign = 1` if it is target minus actual" };
+        candidate.decide(to, format!("{turned}{otherwise}"));
+    } else {
+        candidate
+            .decide(to, "a run; taken with its sign, `sign = -1` if it is actual minus target");
     }
 }
 
