@@ -70,6 +70,7 @@ pub(crate) fn propose(
         .map(|(header, samples)| candidate(header, samples, decisions))
         .collect();
     candidates.iter_mut().for_each(by_content);
+    counters(&mut candidates);
     let runs = run_columns(&mut candidates);
     positions(&mut candidates, runs, decisions);
     candidates.iter_mut().for_each(by_word);
@@ -120,6 +121,30 @@ fn by_content(candidate: &mut Candidate<'_>) {
             "the name says it all".clone_into(&mut candidate.rule.reason);
         }
         Holds::Numbers => {}
+    }
+}
+
+/// `Zielposition i` beside `Pi (mm)`: numbers of targets are no positions, unless they run along with one.
+fn counters(candidates: &mut [Candidate<'_>]) {
+    let is_place = |candidate: &Candidate<'_>| {
+        matches!(candidate.meaning(), "target" | "position")
+            && candidate.rule.to.is_none()
+            && candidate.samples.holds == Holds::Numbers
+    };
+    let counter = |candidate: &Candidate<'_>| {
+        let values = &candidate.samples.values;
+        let from_one = values.windows(2).next().is_some_and(|first| first == [1.0, 2.0]);
+        is_place(candidate) && candidate.header.unit.is_none() && from_one && counts(values)
+    };
+    let places: Vec<usize> =
+        (0..candidates.len()).filter(|at| is_place(&candidates[*at])).collect();
+    let [one, other] = places[..] else { return };
+    for (at, beside) in [(one, other), (other, one)] {
+        let place = &candidates[beside];
+        let along = runs::follows(&place.samples.values, &candidates[at].samples.values);
+        if counter(&candidates[at]) && !counter(place) && !along {
+            candidates[at].decide(NONE, "it counts the rows");
+        }
     }
 }
 

@@ -390,7 +390,8 @@ fn runs_of_targets_have_the_sign_of_a_deviation() {
     };
     for header in [
         "Zielposition (mm),1↑ [µm],1↓ [µm]",
-        "Target (mm),1↑ [um],2↑ [um]",
+        "Pi (mm),Run 1 [um],Run 2 [um]",
+        "P_i [mm],1↑ [um],2↑ [um]",
         "Position [mm],Lauf 1 vor [µm],Lauf 1 rück [µm]",
         "Target (mm),Run 1 deviation (um),Run 2 deviation (um)",
     ] {
@@ -403,4 +404,23 @@ fn runs_of_targets_have_the_sign_of_a_deviation() {
     {
         assert_eq!(sign(header), 1.0_f64.to_bits(), "{header}");
     }
+}
+
+/// The number of a target is no position beside one, and the unit of its runs is asked for once.
+#[test]
+fn numbers_of_targets_are_counted_and_units_of_runs_asked_for_together() {
+    let row = |index: u32| format!("{};{};0,5;0,7", 1 + index, 10 * index);
+    let proposal = proposed(&file("Zielposition i;Pi (mm);1↑;1↓", row), "");
+    let rule = proposal.recipe.column("Zielposition i").expect("a rule for each");
+    assert_eq!((rule.to.as_deref(), rule.reason.as_str()), (Some("none"), "it counts the rows"));
+    let [question] = proposal.questions.as_slice() else { panic!("{:?}", proposal.questions) };
+    assert_eq!(question.text, "the unit of 2 runs is not told, from column `1↑`");
+    let answered =
+        proposed(&file("Zielposition i;Pi (mm);1↑;1↓", row), &question.answers[0].recipe);
+    assert!(answered.questions.is_empty(), "{:?}", answered.questions);
+    assert_eq!(column(&answered, "error_um")[0].to_bits(), (-0.5_f64).to_bits());
+    assert_eq!(column(&answered, "position_mm")[1].to_bits(), 10.0_f64.to_bits());
+    let along = |index: u32| format!("{},{index}.001", 1 + index);
+    let text = file("Sollposition,Position (mm)", along);
+    assert_ne!(proposed(&text, "").recipe.columns[0].to.as_deref(), Some("none"));
 }

@@ -13,6 +13,7 @@ pub(super) fn units(
     preamble_unit: Option<&str>,
     decisions: &mut Decisions<'_>,
 ) {
+    let mut runs = Vec::new();
     for candidate in candidates.iter_mut() {
         let Some(target) = candidate.rule.to.as_deref().and_then(by_column) else { continue };
         if target.kind.is_empty()
@@ -33,8 +34,15 @@ pub(super) fn units(
         }
         match unit.map(ToOwned::to_owned).or_else(|| guessed(candidate, target)) {
             Some(unit) => candidate.rule.unit = Some(unit),
-            None => ask_unit(candidate, target, decisions),
+            None if candidate.rule.pass.is_some() => runs.push((candidate, target)),
+            None => ask_unit(&mut [candidate], target, decisions),
         }
+    }
+    // Runs of one quantity are in one unit.
+    for same in runs.chunk_by_mut(|(_, one), (_, other)| one.column == other.column) {
+        let target = same[0].1;
+        let mut columns: Vec<_> = same.iter_mut().map(|(candidate, _)| &mut **candidate).collect();
+        ask_unit(&mut columns, target, decisions);
     }
 }
 
@@ -103,13 +111,14 @@ fn angle_answers(candidate: &Candidate<'_>, target: Target) -> Vec<Answer> {
 fn ask_fraction(candidate: &mut Candidate<'_>, decisions: &mut Decisions<'_>) {
     let name = &candidate.header.name;
     let text = format!("column {} is in %, and nowhere above 1", quoted(name));
-    let answers = unit_answers(name, &["ratio", "%"]);
+    let answers = unit_answers(&[name], &["ratio", "%"]);
     decisions.question_at(&candidate.header.place, &text, answers);
     candidate.rule.unit = Some("ratio".to_owned());
     candidate.rule.reason.push_str("; its unit is not sure");
 }
 
-fn ask_unit(candidate: &mut Candidate<'_>, target: Target, decisions: &mut Decisions<'_>) {
+/// Asks once for all columns that share their unit.
+fn ask_unit(columns: &mut [&mut Candidate<'_>], target: Target, decisions: &mut Decisions<'_>) {
     let units: &[&str] = match target.kind {
         "length" if target.column == "position_mm" => &["mm", "m", "um", "inch"],
         "length" => &["um", "mm", "nm", "inch"],
@@ -121,30 +130,43 @@ fn ask_unit(candidate: &mut Candidate<'_>, target: Target, decisions: &mut Decis
         "force" => &["n", "kn"],
         _ => &["%", "ratio"],
     };
-    let name = &candidate.header.name;
-    let text = format!("the unit of column {} is not told", quoted(name));
-    let mut answers = unit_answers(name, units);
-    if target.kind == "length" && ["target", "actual", "position"].contains(&candidate.meaning()) {
-        answers.extend(angle_answers(candidate, target));
+    let names: Vec<&str> = columns.iter().map(|column| column.header.name.as_str()).collect();
+    let text = match names[..] {
+        [name] => format!("the unit of column {} is not told", quoted(name)),
+        _ => format!(
+            "the unit of {} runs is not told, from column {}",
+            names.len(),
+            quoted(names[0])
+        ),
+    };
+    let mut answers = unit_answers(&names, units);
+    let first = &*columns[0];
+    if target.kind == "length" && ["target", "actual", "position"].contains(&first.meaning()) {
+        answers.extend(angle_answers(first, target));
     }
     if target.kind == "fraction" {
         answers.push(Answer {
             label: "another quantity: left out".to_owned(),
             recipe: format!(
                 "[[column]]\nfrom = {}\nto = \"{NONE}\"",
-                toml_edit::Value::from(name.as_str())
+                toml_edit::Value::from(names[0])
             ),
         });
     }
-    decisions.question_at(&candidate.header.place, &text, answers);
-    candidate.rule.unit = Some(units[0].to_owned());
-    candidate.rule.reason.push_str("; its unit is not sure");
+    decisions.question_at(&first.header.place, &text, answers);
+    for column in columns {
+        column.rule.unit = Some(units[0].to_owned());
+        column.rule.reason.push_str("; its unit is not sure");
+    }
 }
 
-fn unit_answers(name: &str, units: &[&str]) -> Vec<Answer> {
+fn unit_answers(names: &[&str], units: &[&str]) -> Vec<Answer> {
+    let rule = |name: &&str, unit: &str| {
+        format!("[[column]]\nfrom = {}\nunit = \"{unit}\"", toml_edit::Value::from(*name))
+    };
     let answer = |unit: &&str| Answer {
         label: (*unit).to_owned(),
-        recipe: format!("[[column]]\nfrom = {}\nunit = \"{unit}\"", toml_edit::Value::from(name)),
+        recipe: names.iter().map(|name| rule(name, unit)).collect::<Vec<_>>().join("\n"),
     };
     units.iter().map(answer).collect()
 }
