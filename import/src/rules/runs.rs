@@ -107,18 +107,20 @@ pub(super) fn run_values(candidates: &mut [Candidate<'_>]) {
 fn deviation(candidate: &mut Candidate<'_>, aimed_at: bool) {
     let standard = aimed_at || candidate.rule.direction.is_some();
     let to = if candidate.is_angle() { "error_arcsec" } else { "error_um" };
-    let turned =
-        "a run; a deviation is actual minus target, the error is positive when the table is behind";
     let said = candidate.word.is_some_and(|word| word.reversed);
     let called_error = candidate.meaning().ends_with("error");
     if said || standard && !called_error {
         candidate.rule.sign = candidate.rule.sign.or(Some(-1));
-        let otherwise = if said { "" } else { "; `sign = 1` if it is target minus actual" };
-        candidate.decide(to, format!("{turned}{otherwise}"));
-    } else {
-        candidate
-            .decide(to, "a run; taken with its sign, `sign = -1` if it is actual minus target");
     }
+    let reason = if said {
+        "a run of deviations, actual minus target, while the error is positive when the table is behind"
+    } else if standard && !called_error {
+        "a run of targets, whose deviations are actual minus target by ISO 230-2, while the error is \
+         positive when the table is behind (`sign = 1` if they are not)"
+    } else {
+        "a run, taken with its sign (`sign = -1` if it is actual minus target)"
+    };
+    candidate.decide(to, reason);
 }
 
 /// True when values run along with the targets, and do not just differ from them.
