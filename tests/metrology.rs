@@ -312,3 +312,22 @@ fn what_a_file_gets_wrong_is_said_with_its_place() {
     let error = refused(&pulses, "time_s,channel\n0,1\n1,3\n");
     assert_eq!(error, "helixlock: DATA:3: channel 3, expected 1 (input) or 2 (output)\n");
 }
+
+/// The row of a mean, below the others and without a position, is no sample of a screw.
+#[test]
+fn rows_of_a_screw_with_an_empty_cell_are_left_out_and_counted() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let rows = "position_mm,lead_error_um\n0,0\n1,0.5\n2,1\n3,0.5\n4,0\n";
+    let graded = |text: &str| {
+        let data = file(&folder, text);
+        let (status, out, error) = run(&["screw", &data.to_string_lossy(), "--lead", "2 mm"]);
+        assert_eq!(status, Some(0), "{error}");
+        out
+    };
+    let plain = graded(rows);
+    let note = "note: a row without a position or a deviation is left out\n";
+    assert!(!plain.contains("left out"), "{plain}");
+    assert_eq!(graded(&format!("{rows},0.4\n")).replace(note, ""), plain);
+    let out = graded(&format!("{rows}5,\n,0.4\n"));
+    assert!(out.contains("note: 2 rows without a position or a deviation are left out\n"), "{out}");
+}

@@ -14,6 +14,8 @@ pub(crate) struct Evaluation {
     pub(crate) path: PathBuf,
     /// Name of the standard.
     pub(crate) standard: String,
+    /// Rows of the file with an empty cell, which do not count.
+    pub(crate) left_out: usize,
     /// The useful travel.
     pub(crate) curve: Curve,
     /// Lead, mm.
@@ -64,6 +66,13 @@ impl Evaluation {
     /// What a reader of the result must know.
     pub(crate) fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
+        match self.left_out {
+            0 => {}
+            1 => notes.push("a row without a position or a deviation is left out".to_owned()),
+            rows => {
+                notes.push(format!("{rows} rows without a position or a deviation are left out"));
+            }
+        }
         for one in &self.characteristics {
             if let Err(why) = &one.reached {
                 notes.push(format!("{} has no value: {why}", one.symbol));

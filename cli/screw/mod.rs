@@ -192,6 +192,7 @@ impl Screw {
         let sheet = sheet.map(|sheet| self.with_limits_of_the_grade(sheet, &grading));
         Ok(Evaluation {
             path: self.data.clone(),
+            left_out: travel.len() - whole.travel_mm().len(),
             standard: table.standard,
             lead_mm: self.lead,
             mean_line: variation.mean_line,

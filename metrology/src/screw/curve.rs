@@ -25,11 +25,11 @@ impl Curve {
     /// A curve from samples in the order they were taken; a curve measured towards smaller
     /// travel is turned round.
     ///
-    /// A deviation that is NaN is a missing cell and its sample is left out.
+    /// NaN is a missing cell, of a place as of a deviation, and its sample is left out.
     ///
     /// # Errors
     ///
-    /// When the columns differ in length, travel is not finite or changes its direction, a
+    /// When the columns differ in length, travel is infinite or changes its direction, a
     /// deviation is infinite, or fewer than two different places are left.
     pub fn new(travel_mm: &[f64], deviation_um: &[f64]) -> Result<Self, Error> {
         if travel_mm.len() != deviation_um.len() {
@@ -38,12 +38,15 @@ impl Curve {
                 found: deviation_um.len(),
             });
         }
-        let forward = travel_mm.first() <= travel_mm.last();
-        check_order(travel_mm, forward)?;
+        let places: Vec<(usize, f64)> =
+            travel_mm.iter().copied().enumerate().filter(|(_, x)| !x.is_nan()).collect();
+        let forward = places.first().map(|(_, first)| first) <= places.last().map(|(_, last)| last);
+        check_order(&places, forward)?;
         if let Some(row) = deviation_um.iter().position(|value| value.is_infinite()) {
             return Err(Error::NotFinite { row, column: "deviation" });
         }
-        let kept = travel_mm.iter().zip(deviation_um).filter(|(_, value)| !value.is_nan());
+        let samples = travel_mm.iter().zip(deviation_um);
+        let kept = samples.filter(|(place, value)| !place.is_nan() && !value.is_nan());
         let (mut travel_mm, mut deviation_um): (Vec<f64>, Vec<f64>) = kept.unzip();
         if !forward {
             travel_mm.reverse();
@@ -149,19 +152,20 @@ impl Curve {
     }
 }
 
-/// Refuses travel that is not finite or turns round.
-fn check_order(travel_mm: &[f64], forward: bool) -> Result<(), Error> {
-    if let Some(row) = travel_mm.iter().position(|x| !x.is_finite()) {
-        return Err(Error::NotFinite { row, column: "travel" });
+/// Refuses travel that is infinite or turns round; places have the numbers of their rows.
+fn check_order(places: &[(usize, f64)], forward: bool) -> Result<(), Error> {
+    if let Some((row, _)) = places.iter().find(|(_, x)| x.is_infinite()) {
+        return Err(Error::NotFinite { row: *row, column: "travel" });
     }
-    let turns = |pair: &[f64]| if forward { pair[1] < pair[0] } else { pair[0] < pair[1] };
-    match travel_mm.windows(2).position(turns) {
+    let turns = |pair: &&[(usize, f64)]| {
+        if forward { pair[1].1 < pair[0].1 } else { pair[0].1 < pair[1].1 }
+    };
+    match places.windows(2).find(turns) {
         None => Ok(()),
-        Some(row) => Err(Error::TravelTurns {
-            row: row + 1,
-            found_mm: travel_mm[row + 1],
-            previous_mm: travel_mm[row],
-        }),
+        Some(pair) => {
+            let ((_, previous_mm), (row, found_mm)) = (pair[0], pair[1]);
+            Err(Error::TravelTurns { row, found_mm, previous_mm })
+        }
     }
 }
 
@@ -171,7 +175,8 @@ mod tests {
 
     #[test]
     fn backward_measurement_is_turned_round_and_missing_cells_are_left_out() {
-        let curve = Curve::new(&[3.0, 2.0, 1.0], &[30.0, f64::NAN, 10.0]).unwrap();
+        let travel_mm = [3.0, 2.0, f64::NAN, 1.0, f64::NAN];
+        let curve = Curve::new(&travel_mm, &[30.0, f64::NAN, 15.0, 10.0, 3.0]).unwrap();
         assert_eq!(curve.travel_mm(), [1.0, 3.0]);
         assert_eq!(curve.deviation_um(), [10.0, 30.0]);
         assert_eq!(curve.at(2.0), Some(20.0));
@@ -182,6 +187,8 @@ mod tests {
     fn travel_that_turns_is_refused_with_its_row() {
         let error = Curve::new(&[0.0, 2.0, 1.0, 3.0], &[0.0; 4]).unwrap_err();
         assert!(matches!(error, Error::TravelTurns { row: 2, .. }), "{error}");
+        let error = Curve::new(&[0.0, f64::NAN, 2.0, 1.0], &[0.0; 4]).unwrap_err();
+        assert!(matches!(error, Error::TravelTurns { row: 3, .. }), "{error}");
     }
 
     #[test]
