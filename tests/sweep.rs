@@ -90,6 +90,27 @@ fn a_case_that_cannot_be_run_is_named() {
     assert!(total[0].is_finite() && total[1].is_nan());
 }
 
+/// A key that is misspelt leaves nothing in the way of the right one.
+#[test]
+fn a_key_that_no_machine_has_is_refused_before_anything_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    for (key, expected) in [
+        ("drive.frequenzy=80,160 Hz", "unknown key `frequenzy` in `drive`"),
+        ("effect.9.amplitude=1,2 um", "there is no place `9`"),
+    ] {
+        let run = Command::new(env!("CARGO_BIN_EXE_helixlock"))
+            .args(["sweep", "examples/sg7430-6mm/machine.toml", "--length", "0.5"])
+            .args(["--set", "dividers.b=1000,150", "--set", key, "--output"])
+            .arg(folder.path().join("out.csv"))
+            .output()
+            .unwrap();
+        let said = String::from_utf8(run.stderr).unwrap();
+        assert!(run.status.code() == Some(2) && said.contains(expected), "{said}");
+        assert!(run.stdout.is_empty(), "{key}");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "{key}");
+    }
+}
+
 /// The sweep of `sweep`, part by part into a folder.
 fn part(folder: &Path, number: usize) -> Command {
     let mut command = sweep(folder);

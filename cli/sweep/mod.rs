@@ -92,6 +92,8 @@ impl Sweep {
         plan: &Plan,
         output: Option<&Path>,
     ) -> anyhow::Result<Worked> {
+        // A journal would keep the refusals of all cases from a command that has the key right.
+        plan.check_keys(file)?;
         let options = self.options();
         self.cases(file, plan).work_out(output, |missing, keep| {
             parallel(missing, |index| keep(row(&plan.case(*index), file, &options)))

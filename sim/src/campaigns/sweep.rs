@@ -182,6 +182,26 @@ impl Plan {
         grid.chain(self.drawn.iter().map(DrawnAxis::column)).collect()
     }
 
+    /// Looks for every key in the file.
+    ///
+    /// # Errors
+    ///
+    /// [`MachineError`] of a key that no machine file has: no case could be run with it. What a value
+    /// is refused for is that case's own.
+    pub fn check_keys(&self, file: &MachineFile) -> Result<(), MachineError> {
+        let mut file = file.clone();
+        for (key, value) in self.case(0).settings {
+            match file.with_setting(&key, &value) {
+                Ok(set) => file = set,
+                Err(error @ (MachineError::UnknownKey { .. } | MachineError::NoSuchKey { .. })) => {
+                    return Err(error);
+                }
+                Err(_) => {}
+            }
+        }
+        Ok(())
+    }
+
     /// The case of a number below [`Plan::cases`].
     #[must_use]
     pub fn case(&self, index: u64) -> Case {
