@@ -37,7 +37,6 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand};
-use helixlock_plant::MachineError;
 
 pub use crate::functions::{Function, functions};
 pub use crate::shared::answer::{Answer, Part};
@@ -45,6 +44,7 @@ pub use crate::shared::refused::Refused;
 pub use helixlock_traces::{Column, Table};
 
 use crate::shared::cases::Campaign;
+use crate::shared::hint::hint;
 use crate::shared::language::{Language, Reporter, Translated};
 use crate::shared::terminal::{Terminal, shown};
 
@@ -138,18 +138,6 @@ fn is_report(matches: &ArgMatches) -> bool {
         Some(("completions" | "man", _)) => false,
         Some((_, below)) => is_report(below),
         None => !matches!(matches.try_get_one("json"), Ok(Some(true))),
-    }
-}
-
-/// What to try where something else was read as a machine file.
-fn hint(error: &anyhow::Error) -> &'static str {
-    let mut causes = error.chain().filter_map(|cause| cause.downcast_ref::<MachineError>());
-    let other = causes.find_map(MachineError::other_kind_of_file);
-    let table = other.is_some_and(|path| path.extension().is_none_or(|tail| tail != "toml"));
-    if table {
-        "\n\nhint: the machine file comes first, the data behind it; `helixlock init` writes a machine file"
-    } else {
-        ""
     }
 }
 

@@ -331,3 +331,27 @@ fn rows_of_a_screw_with_an_empty_cell_are_left_out_and_counted() {
     let out = graded(&format!("{rows}5,\n,0.4\n"));
     assert!(out.contains("note: 2 rows without a position or a deviation are left out\n"), "{out}");
 }
+
+/// What an instrument wrote is answered with the command that reads it, and all its columns.
+#[test]
+fn a_table_of_an_instrument_is_answered_with_its_import() {
+    let hint = "\n\nhint: `helixlock import DATA -o measured.csv`\n";
+    let long = "run,target_mm,direction,deviation_um\n1,0.7,up,-0.25\n1,41.2,down,1.98\n";
+    let found = "found `run`, `target_mm`, `deviation_um`, `direction`";
+    assert_eq!(
+        refused(&["scale", "iso230", "DATA"], long),
+        format!("helixlock: DATA: column `position_mm` is missing, {found}{hint}")
+    );
+    for text in [
+        "position_mm,fehler\n1,2\n2,3\n",
+        "PK\u{3}\u{4}\u{14}\0",
+        "Prüfer;Müller\nDatum;14.03.2026\n0;1\n",
+        "Linear measurement, units inch\nPosition (in)\tError (uin)\n0\t1\n",
+    ] {
+        let error = refused(&["compare", "sg7430-6mm/machine.toml", "DATA"], text);
+        assert!(error.ends_with(hint), "{error}");
+    }
+    let typo = "position_mm,error_um\n1,2\n2,x\n";
+    let error = refused(&["compare", "sg7430-6mm/machine.toml", "DATA"], typo);
+    assert!(!error.contains("import"), "{error}");
+}

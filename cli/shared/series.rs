@@ -50,7 +50,7 @@ impl Series {
 
     /// Names of all columns.
     pub(crate) fn names(&self) -> String {
-        self.table.names().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+        self.table.listed()
     }
 
     /// The file and line of a row.

@@ -81,6 +81,13 @@ impl Table {
         self.columns.iter().map(|column| column.name.as_str())
     }
 
+    /// Names of all columns as a message lists them, behind the others those that hold words.
+    #[must_use]
+    pub fn listed(&self) -> String {
+        let words = self.text.iter().map(|text| text.name.as_str());
+        self.names().chain(words).map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+    }
+
     /// Values of one column, NaN where a cell is missing; `None` when there is no such column.
     #[must_use]
     pub fn column(&self, name: &str) -> Option<&[f64]> {
@@ -100,7 +107,7 @@ impl Table {
             None => TraceError::NoColumn {
                 path: self.path.clone(),
                 name: name.to_owned(),
-                found: self.names().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", "),
+                found: self.listed(),
             },
         };
         self.column(name).ok_or_else(missing)
