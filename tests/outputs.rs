@@ -131,11 +131,25 @@ fn outputs_of_one_command_are_apart() {
 fn a_recipe_is_not_replaced_by_data() {
     let folder = workplace();
     let recipe = "[text]\ndecimal = \".\"\n";
-    put(&folder.path().join("r.toml"), recipe);
-    let run = run_in(folder.path(), &["import", "data.csv", "--recipe", "r.toml", "-o", "r.toml"]);
+    put(&folder.path().join("r.csv"), recipe);
+    let run = run_in(folder.path(), &["import", "data.csv", "--recipe", "r.csv", "-o", "r.csv"]);
     assert_eq!(run.status.code(), Some(2), "{run:?}");
-    assert!(said(&run).contains("r.toml: is read by this command"), "{}", said(&run));
-    assert_eq!(fs::read_to_string(folder.path().join("r.toml")).expect("text"), recipe);
+    assert!(said(&run).contains("r.csv: is read by this command"), "{}", said(&run));
+    assert_eq!(fs::read_to_string(folder.path().join("r.csv")).expect("text"), recipe);
+}
+
+/// Measured data are CSV or Parquet, as the name says; no other name gets either.
+#[test]
+fn measured_data_are_written_as_their_name_says() {
+    let folder = workplace();
+    let run = run_in(folder.path(), &["import", "data.csv", "-o", "a.xlsx"]);
+    assert_eq!(run.status.code(), Some(2), "{run:?}");
+    assert_eq!(said(&run), "helixlock: a.xlsx: expected a name in .csv or .parquet\n");
+    assert!(!folder.path().join("a.xlsx").exists());
+    let run = run_in(folder.path(), &["import", "data.csv", "-o", "a.parquet"]);
+    assert_eq!(run.status.code(), Some(0), "{run:?}");
+    let table = helixlock_traces::read_table(&folder.path().join("a.parquet")).expect("a table");
+    assert_eq!(table.column("position_mm").map(<[f64]>::len), Some(400));
 }
 
 /// One of several names is refused by the file system: none of the files appears.

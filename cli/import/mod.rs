@@ -11,8 +11,10 @@ use anyhow::{Context, anyhow, bail};
 use clap::Args;
 use helixlock_import::{Proposal, Recipe, Source, propose};
 use helixlock_traces::csv::write_csv;
+use helixlock_traces::parquet::write_parquet;
 use helixlock_traces::{LONGEST_BYTES, read_bytes};
 
+use crate::shared::cases::Format;
 use crate::shared::next::Next;
 use crate::shared::output::{Batch, print_json};
 
@@ -33,8 +35,8 @@ pub(crate) struct Import {
     /// A recipe: the whole of it, or only what is to be read otherwise
     #[arg(long, value_name = "TOML")]
     recipe: Option<PathBuf>,
-    /// Measured data to write (CSV); the recipe goes beside it as NAME.recipe.toml
-    #[arg(short, long, value_name = "CSV")]
+    /// Measured data to write: `.csv` or `.parquet`; the recipe goes beside it as NAME.recipe.toml
+    #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Print the decisions as JSON
     #[arg(long)]
@@ -44,13 +46,15 @@ pub(crate) struct Import {
 impl Import {
     /// Reads, asks, writes and prints.
     pub(crate) fn run(self, out: &mut impl Write) -> anyhow::Result<ExitCode> {
+        // Before anything is asked: answers would be lost.
+        let format = self.output.as_deref().map(Format::of).transpose()?;
         let given = self.recipe.as_deref().map(read_recipe).transpose()?.unwrap_or_default();
         let files = self.files.iter().map(|path| read(path)).collect::<Result<Vec<_>, _>>()?;
         let sources: Vec<Source<'_>> =
             files.iter().map(|(name, bytes)| Source { name, bytes }).collect();
         let proposal = answered(&sources, given, out)?;
-        if let Some(output) = &self.output {
-            self.write(output, &proposal)?;
+        if let Some((output, format)) = self.output.as_deref().zip(format) {
+            self.write(output, format, &proposal)?;
         }
         if self.json {
             print_json(out, &summary::json(&proposal))?;
@@ -77,7 +81,7 @@ impl Import {
         Next::command("init").print(out)
     }
 
-    fn write(&self, output: &Path, proposal: &Proposal) -> anyhow::Result<()> {
+    fn write(&self, output: &Path, format: Format, proposal: &Proposal) -> anyhow::Result<()> {
         let recipe = recipe_path(output)?;
         let text = proposal.recipe.to_string();
         let replayed = self.recipe.as_deref() == Some(recipe.as_path());
@@ -95,7 +99,10 @@ impl Import {
         let mut batch = Batch::new(folder.unwrap_or(Path::new(".")), inputs)?;
         batch.write(name_of(output)?, |file| {
             let mut buffer = Vec::new();
-            write_csv(&proposal.table, &mut buffer)?;
+            match format {
+                Format::Csv => write_csv(&proposal.table, &mut buffer)?,
+                Format::Parquet => write_parquet(&proposal.table, &mut buffer)?,
+            }
             Ok(file.write_all(&buffer)?)
         })?;
         if !replayed || !other {
