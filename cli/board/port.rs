@@ -6,11 +6,13 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::time::Duration;
 
-use anyhow::{Context, bail};
+use anyhow::{Context, anyhow, bail};
 use serial2::SerialPort;
 
 /// Bits a second, both ways; eight data bits, no parity, one stop bit.
 const BAUD: u32 = 115_200;
+
+const HINT: &str = "\n\nhint: `helixlock board list` shows the ports";
 
 /// After this without a byte the port is asked again: an end of the program is not held up longer.
 const PATIENCE: Duration = Duration::from_millis(200);
@@ -77,15 +79,14 @@ impl Line {
 pub(super) fn open_port(path: &Path) -> anyhow::Result<SerialPort> {
     let place = || path.display().to_string();
     if path.is_dir() {
-        bail!("{}: found a folder, expected a serial port\nhint: helixlock board list", place());
+        bail!("{}: found a folder, expected a serial port{HINT}", place());
     }
     let opened = SerialPort::open(path, BAUD);
     if opened.as_ref().is_err_and(|error| error.kind() == io::ErrorKind::ResourceBusy) {
         bail!("{}: another program has this port", place());
     }
-    let mut port = opened.with_context(|| {
-        format!("{}: no serial port\nhint: helixlock board list", path.display())
-    })?;
+    let mut port =
+        opened.map_err(|error| anyhow!("{}: no serial port: {error}{HINT}", path.display()))?;
     if !is_ours(&port).with_context(place)? {
         bail!("{}: another program has this port", place());
     }

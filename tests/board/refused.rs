@@ -131,8 +131,12 @@ fn a_port_that_cannot_be_had_is_named() {
     drop(there);
     hung_up(first, here);
 
-    for (port, expected) in [("/dev", "found a folder"), ("/dev/nothing", "no serial port")] {
+    for (port, expected) in
+        [("/dev", "found a folder"), ("/dev/nothing", "/dev/nothing: no serial port: No such file")]
+    {
         let run = helixlock(&["board", "set", MACHINE, "--port", port]);
         assert!(run.status == 2 && run.stderr.contains(expected), "{}", run.stderr);
+        let hint = "\n\nhint: `helixlock board list` shows the ports\n";
+        assert!(run.stderr.ends_with(hint), "{}", run.stderr);
     }
 }
