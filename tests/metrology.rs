@@ -355,3 +355,19 @@ fn a_table_of_an_instrument_is_answered_with_its_import() {
     let error = refused(&["compare", "sg7430-6mm/machine.toml", "DATA"], typo);
     assert!(!error.contains("import"), "{error}");
 }
+
+/// Numbers in notes are read aloud: no `2th` place, and no `1 runs`.
+#[test]
+fn one_is_said_as_one() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let rows: Vec<String> = (0..700).map(|row| format!("{},{},1\n", 2 * row, row % 5)).collect();
+    let data = file(&folder, &format!("position_mm,error_um,pass\n{}", rows.concat()));
+    let data = data.to_string_lossy();
+    let [image, table] = ["t.hex", "x.comp"].map(|name| folder.path().join(name));
+    let (image, table) = (image.to_string_lossy(), table.to_string_lossy());
+    assert_eq!(run(&["scale", "build", &data, "-o", &image]).0, Some(0));
+    let (_, out, error) = run(&["scale", "export", &image, "--format", "linuxcnc", "-o", &table]);
+    assert!(out.starts_with("note: one place in 6, as this control"), "{out}{error}");
+    let (_, out, error) = run(&["import", &data]);
+    assert!(out.contains("700 rows in 1 run: "), "{out}{error}");
+}

@@ -228,6 +228,23 @@ fn a_machine_is_described_from_nothing() {
     assert_eq!(run.status, 0, "what was saved runs: {}", run.stderr);
 }
 
+/// A text that is not saved is simulated from a file of ours; what is wrong with it is told of the user's.
+#[test]
+fn what_is_wrong_with_a_draft_is_told_of_the_machine_file() {
+    let bench = scratch();
+    let text = std::fs::read_to_string("examples/real-worm-drive/machine.toml").unwrap();
+    put(&bench.path().join("machine.toml"), &text);
+    let server = Server::over(bench.path());
+    let body = serde_json::json!({ "text": text }).to_string();
+    let mut job = server.answered("POST", &(server.change("begin") + "&command=draft"), &body);
+    while job["running"] == true {
+        std::thread::sleep(Duration::from_millis(20));
+        job = server.answered("GET", &format!("job?job={}", job["job"]), "");
+    }
+    let error = job["error"].as_str().expect("it has no device");
+    assert!(error.starts_with("helixlock: machine.toml") && !error.contains("draft"), "{error}");
+}
+
 #[test]
 fn an_effect_is_tried_taken_and_taken_back() {
     let (bench, elsewhere) = challenge("6");

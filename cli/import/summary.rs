@@ -29,7 +29,11 @@ pub(crate) fn print(
     let table = &proposal.table;
     let runs = table.column("pass").map_or(0, count);
     let names: Vec<_> = table.names().collect();
-    let of_runs = if runs == 0 { String::new() } else { format!(" in {runs} runs") };
+    let of_runs = match runs {
+        0 => String::new(),
+        1 => " in 1 run".to_owned(),
+        _ => format!(" in {runs} runs"),
+    };
     writeln!(out, "{} rows{of_runs}: {}", table.rows(), names.join(", "))?;
     if let Some(output) = output {
         writeln!(out, "{} written, and its recipe beside it", output.display())?;

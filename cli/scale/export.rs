@@ -51,7 +51,7 @@ impl Export {
                 if 1 < every {
                     writeln!(
                         out,
-                        "note: every {every}th place, as this control takes no more rows; at those \
+                        "note: one place in {every}, as this control takes no more rows; at those \
                          between them the correction is up to {lost_um:.3} um off"
                     )?;
                 }

@@ -171,7 +171,8 @@ impl Workbench {
         let line = line(&words, machine);
         let effect = Some(effect).filter(|effect| !effect.is_empty()).map(str::to_owned);
         let draft = draft.map(|draft| draft.text);
-        let order = Order { words, line, effect, revision: pair.revision(), draft };
+        let (machine, revision) = (machine.to_owned(), pair.revision());
+        let order = Order { words, line, effect, revision, draft, machine };
         json(&self.jobs.begin(self.folder.root(), order)?)
     }
 

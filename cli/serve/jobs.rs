@@ -62,6 +62,8 @@ pub(crate) struct Order {
     pub(crate) revision: String,
     /// Text of a machine file that is not saved: `DRAFT` in the folder that is thrown away.
     pub(crate) draft: Option<String>,
+    /// Name of that machine file in the folder.
+    pub(crate) machine: String,
 }
 
 /// How a job stands.
@@ -96,13 +98,14 @@ impl Jobs {
             .spawn()
             .context("the command cannot be started")?;
         let (said, wrong) = (reader(child.stdout.take()), reader(child.stderr.take()));
-        let Order { line, effect, revision, .. } = order;
+        let Order { line, effect, revision, machine, .. } = order;
+        let draft = scratch.path().join(DRAFT).display().to_string();
         let (begun, done) = (Instant::now(), Mutex::default());
         let child = Mutex::new(child);
         let job = Arc::new(Job { line, effect, revision, scratch, begun, child, done });
         std::thread::spawn({
             let job = Arc::clone(&job);
-            move || job.finish(said, wrong)
+            move || job.finish(said, wrong, |text| text.replace(&draft, &machine))
         });
         let mut all = held(&self.all);
         let number = all.keys().last().map_or(1, |last| last + 1);
@@ -121,11 +124,17 @@ impl Jobs {
 }
 
 impl Job {
-    fn finish(&self, said: JoinHandle<Vec<u8>>, wrong: JoinHandle<Vec<u8>>) {
+    /// Waits for the end; `named` gives files the names that users know.
+    fn finish(
+        &self,
+        said: JoinHandle<Vec<u8>>,
+        wrong: JoinHandle<Vec<u8>>,
+        named: impl Fn(&str) -> String,
+    ) {
         let said = said.join().unwrap_or_default();
         let wrong = wrong.join().unwrap_or_default();
         let status = held(&self.child).wait().ok().and_then(|status| status.code());
-        let wrong = String::from_utf8_lossy(&wrong).trim().to_owned();
+        let wrong = named(String::from_utf8_lossy(&wrong).trim());
         let seconds = self.begun.elapsed().as_secs_f64();
         *held(&self.done) = Some(Done { status, seconds, said, wrong });
     }

@@ -230,7 +230,8 @@ impl Looks<'_> {
             return "the header comes first".to_owned();
         }
         let first = (0..rows).find(|row| !self.grid.is_blank(*row)).unwrap_or(0);
-        format!("{rows} lines above the table, from {}", quoted(self.grid.cell(first, 0)))
+        let lines = if rows == 1 { "line" } else { "lines" };
+        format!("{rows} {lines} above the table, from {}", quoted(self.grid.cell(first, 0)))
     }
 
     /// Rows of data, and what interrupts them.

@@ -91,7 +91,7 @@ impl Refusal {
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Chance { p_value } => write!(f, "not beyond chance: p = {p_value:.2e}"),
+            Self::Chance { p_value } => write!(f, "not beyond chance: p = {}", rounded(*p_value)),
             Self::Small { size_um, least_um } => {
                 write!(f, "too small to change a figure: {size_um:.4}, at least {least_um:.4}")
             }
@@ -138,11 +138,33 @@ impl fmt::Display for Refusal {
                 )
             }
             Self::OneSample { chance } => {
-                write!(f, "one sample alone speaks for it: p = {chance:.2e} with the noise's tails")
+                write!(
+                    f,
+                    "one sample alone speaks for it: p = {} with the noise's tails",
+                    rounded(*chance)
+                )
             }
             Self::Victor { name, by } => {
                 write!(f, "explains less than {name}: evidence {by:.1} behind")
             }
+        }
+    }
+}
+
+/// A chance as people read it: without a power of ten where it is none of one in thousands.
+fn rounded(chance: f64) -> String {
+    if chance < 0.001 { format!("{chance:.2e}") } else { format!("{chance:.3}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_chance_that_is_no_rare_one_has_no_power_of_ten() {
+        for (p_value, said) in [(1.0, "1.000"), (0.0123, "0.012"), (0.000_123, "1.23e-4")] {
+            let expected = format!("not beyond chance: p = {said}");
+            assert_eq!(Refusal::Chance { p_value }.to_string(), expected);
         }
     }
 }
