@@ -13,8 +13,11 @@ const STRONGEST: f64 = 0.9995;
 pub(super) fn errors(problem: &Problem, state: &State, index: usize) -> Vec<Option<f64>> {
     let component = &state.components[index];
     let Some(likelihood) = Likelihood::of(problem, state, index) else { return Vec::new() };
-    let places = 0..component.term.nonlinear_indices().len();
-    let sizes: Vec<Option<f64>> = places.map(|place| likelihood.size(place)).collect();
+    let sizes: Vec<Option<f64>> = match component.term.nonlinear_indices().len() {
+        // Alone, it is summed up over its likelihood, which where a root begins is no parabola.
+        1 => vec![likelihood.deviation(0)],
+        number => (0..number).map(|place| likelihood.size(place)).collect(),
+    };
     let nonlinear = likelihood.correlated(&sizes);
     let linear = likelihood.linear(&sizes, &nonlinear);
     let (mut linear, mut sizes) = (linear.into_iter(), sizes.into_iter());

@@ -310,6 +310,19 @@ frequency = "160 Hz"
         }
     }
 
+    /// The likelihood has a peak near every sample there: as a parabola, the highest of them is 14 and 8
+    /// errors off.
+    #[test]
+    fn where_a_root_begins_is_as_sure_as_it_is_told() {
+        for (seed, at_mm) in [(20, 63.0), (52, 104.6)] {
+            let found = discover(&problem(seed, |x| 0.1 * (x - at_mm).max(0.0).sqrt()));
+            let parameters = &mut found.proposals[0].parameters.iter();
+            let one = parameters.find(|what| what.name == "at_mm").expect("where it begins");
+            let stderr = one.stderr.expect("an error");
+            assert!((one.value - at_mm).abs() < 2.0 * stderr, "{one:?} {at_mm}");
+        }
+    }
+
     #[test]
     fn a_root_is_found_with_its_values() {
         let found = discover(&problem(1, |x| 0.1 * (x - 40.0).max(0.0).sqrt()));
