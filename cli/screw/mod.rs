@@ -71,7 +71,7 @@ pub(crate) struct Screw {
     /// figure its uncertainty, and the grade asked for is decided by ISO 14253-1
     #[arg(long, value_name = "SHEET.toml", conflicts_with = "uncertainty")]
     sheet: Option<PathBuf>,
-    /// Seed of the noise that `--reading-noise` tries; equal seeds give equal results
+    /// Seed of the curves that `--reading-noise` draws; equal seeds give equal results
     #[arg(long, default_value = "1")]
     seed: u64,
     /// Grade the screw has to meet
@@ -243,7 +243,8 @@ impl Screw {
         characteristics: &[Characteristic],
     ) -> Vec<Option<Estimate>> {
         if let Some(noise_um) = noise_um {
-            return without_reading_noise(measured.curve, noise_um, self.seed, measured.evaluate);
+            let (curve, evaluate) = (measured.curve, measured.evaluate);
+            return without_reading_noise(curve, noise_um, self.lead, self.seed, evaluate);
         }
         let estimate = |one: &Characteristic| {
             let size_um = one.reached.ok()?.value_um.abs();

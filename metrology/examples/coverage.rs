@@ -45,15 +45,16 @@ fn of_straightness(out: &mut impl Write) -> Printed {
 }
 
 fn of_screws(out: &mut impl Write) -> Printed {
-    let header = "| screw | noise | | widened by | left of it | ±1.96 u holds |";
-    writeln!(out, "{header}\n|---|---|---|---|---|---|")?;
+    let header = "| screw | noise | | widened by | left of it | u | ±1.96 u holds |";
+    writeln!(out, "{header}\n|---|---|---|---|---|---|---|")?;
     for kind in screw::coverage::Screw::ALL {
         for noise_um in [0.05, 0.25, 0.6] {
             let found = screw::coverage::coverage(kind, noise_um, 1000, 1);
             for (symbol, found) in ["V300", "V2π"].iter().zip(found) {
                 let (widened, left) = (found.widening_um, found.left_um);
                 let (kind, held) = (kind.in_words(), 100.0 * found.held);
-                let sizes = format!("{widened:.2} µm | {left:+.2} µm");
+                let sizes =
+                    format!("{widened:.2} µm | {left:+.3} µm | {:.3} µm", found.uncertainty_um);
                 writeln!(out, "| {kind} | {noise_um} µm | {symbol} | {sizes} | {held:.1} % |")?;
             }
         }

@@ -70,19 +70,25 @@ impl Factor {
 
     /// Solves for one right-hand side.
     pub(crate) fn solve(&self, right: &[f64]) -> Vec<f64> {
-        let (size, mut x) = (self.0.len(), right.to_vec());
-        for i in 0..size {
+        let mut x = right.to_vec();
+        for i in 0..x.len() {
             let width = (self.0[i].len() - 1).min(i);
             let known: f64 = (1..=width).map(|d| self.0[i][d] * x[i - d]).sum();
             x[i] = (x[i] - known) / self.0[i][0];
         }
-        for i in (0..size).rev() {
-            x[i] /= self.0[i][0];
+        self.drawn(x)
+    }
+
+    /// The inverse of the upper triangle times a vector: independent normal numbers become those whose
+    /// precision the matrix is.
+    pub(crate) fn drawn(&self, mut normal: Vec<f64>) -> Vec<f64> {
+        for i in (0..normal.len()).rev() {
+            normal[i] /= self.0[i][0];
             for d in 1..=(self.0[i].len() - 1).min(i) {
-                x[i - d] -= self.0[i][d] * x[i];
+                normal[i - d] -= self.0[i][d] * normal[i];
             }
         }
-        x
+        normal
     }
 }
 

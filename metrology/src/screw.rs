@@ -12,8 +12,10 @@ mod helical;
 mod mean_line;
 mod pitch;
 mod reading_noise;
+mod smooth_process;
 mod tolerance;
 mod travel_variation;
+mod true_curve;
 mod windows;
 
 pub use characteristic::{Characteristic, Missing, Reached};

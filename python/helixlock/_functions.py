@@ -390,7 +390,7 @@ def screw(
         What is known of the measurement, tolerances, and what is printed on the sheet: gives every
         figure its uncertainty, and the grade asked for is decided by ISO 14253-1
     seed:
-        Seed of the noise that `--reading-noise` tries; equal seeds give equal results [default: 1]
+        Seed of the curves that `--reading-noise` draws; equal seeds give equal results [default: 1]
     grade:
         Grade the screw has to meet
     weighting:

@@ -19,11 +19,16 @@ pub enum Screw {
     Bowed,
     /// One long wave, nothing within a turn.
     Smooth,
+    /// A step somewhere, and a small wave of a turn.
+    Stepped,
+    /// A long wave, and one of a turn that grows along the travel.
+    Growing,
 }
 
 impl Screw {
     /// All kinds, in the order of the table.
-    pub const ALL: [Self; 4] = [Self::Waves, Self::Wandering, Self::Bowed, Self::Smooth];
+    pub const ALL: [Self; 6] =
+        [Self::Waves, Self::Wandering, Self::Bowed, Self::Smooth, Self::Stepped, Self::Growing];
 
     /// The screw in words, as the table of coverage has it.
     #[must_use]
@@ -33,6 +38,8 @@ impl Screw {
             Self::Wandering => "wanders, with a wave of a turn",
             Self::Bowed => "bowed, with a small wave of a turn",
             Self::Smooth => "one long wave, nothing within a turn",
+            Self::Stepped => "a step of 1.5 µm, with a small wave of a turn",
+            Self::Growing => "a wave of 470 mm, one of a turn that grows",
         }
     }
 
@@ -51,6 +58,9 @@ impl Screw {
                     Self::Wandering => wandered + 0.5 * turn,
                     Self::Bowed => 1e-5 * (x - 300.0) * (x - 300.0) + 0.3 * turn,
                     Self::Smooth => 4.0 * libm::sin(TAU * x / 1200.0 + long),
+                    // The step is as far along as the phase of the other screws' long wave.
+                    Self::Stepped => 0.3 * turn + if *x < 600.0 * long / TAU { 0.0 } else { 1.5 },
+                    Self::Growing => 3.0 * libm::sin(TAU * x / 470.0 + long) + x / 750.0 * turn,
                 }
             })
             .collect();
@@ -65,6 +75,8 @@ pub struct Coverage {
     pub widening_um: f64,
     /// What is left of it, µm.
     pub left_um: f64,
+    /// Standard uncertainty, µm.
+    pub uncertainty_um: f64,
     /// Share of the bands that ±1.96 u holds.
     pub held: f64,
 }
@@ -93,12 +105,13 @@ pub fn coverage(screw: Screw, noise_um: f64, records: u32, seed: u64) -> [Covera
         let curve = screw.drawn(&mut random);
         let measured = curve.changed(|deviation_um| deviation_um + noise.sample(&mut random));
         let seed = seed + u64::from(record);
-        let estimates = without_reading_noise(&measured, noise_um, seed, &characteristics);
+        let estimates = without_reading_noise(&measured, noise_um, 6.0, seed, &characteristics);
         let found = size(&measured).into_iter().zip(estimates.into_iter().flatten());
         for (one, (truth, (wide, estimate))) in all.iter_mut().zip(size(&curve).iter().zip(found)) {
             let error_um = estimate.size_um - truth;
             one.widening_um += (wide - truth) * share;
             one.left_um += error_um * share;
+            one.uncertainty_um += estimate.uncertainty_um * share;
             if error_um.abs() < 1.96 * estimate.uncertainty_um {
                 one.held += share;
             }

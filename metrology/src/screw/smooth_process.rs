@@ -1,0 +1,279 @@
+//! A deviation that bends by chance along the travel, read with noise: a Wiener process, or its integral of
+//! some order (Wahba, *Improper priors, spline smoothing and the problem of guarding against model errors in
+//! regression*, J. R. Stat. Soc. B 40, 1978, 364), filtered and drawn in one sweep each way (Durbin and
+//! Koopman, *A simple and efficient simulation smoother*, Biometrika 89, 2002, 603).
+
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+use crate::number::number;
+
+/// A process that begins with nothing, given readings of it at some places.
+pub(super) trait Process {
+    /// Sum of the logarithms of the variances of what readings are off what is expected of them.
+    fn log_variances(&self) -> f64;
+
+    /// What readings are off what is expected of them, in standard deviations.
+    fn innovations(&self, readings: &[f64]) -> Vec<f64>;
+
+    /// Values as they may have been, given readings.
+    fn drawn(&self, readings: &[f64], random: &mut ChaCha8Rng) -> Vec<f64>;
+}
+
+/// How many integrals a value is of what changes by chance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Order {
+    First = 1,
+    Second = 2,
+    Third = 3,
+    Fourth = 4,
+}
+
+impl Order {
+    pub(super) const ALL: [Self; 4] = [Self::First, Self::Second, Self::Third, Self::Fourth];
+
+    /// Variance of the value at a distance, for a strength of one.
+    pub(super) fn variance(self, distance: f64) -> f64 {
+        let order = self as usize;
+        libm::pow(distance, number(2 * order - 1)) * share(order, 0, 0)
+    }
+
+    /// The process at places that never decrease, of readings with a variance.
+    pub(super) fn process(self, strength: f64, places: &[f64], variance: f64) -> Box<dyn Process> {
+        match self {
+            Self::First => Box::new(Integral::<1>::new(strength, places, variance)),
+            Self::Second => Box::new(Integral::<2>::new(strength, places, variance)),
+            Self::Third => Box::new(Integral::<3>::new(strength, places, variance)),
+            Self::Fourth => Box::new(Integral::<4>::new(strength, places, variance)),
+        }
+    }
+}
+
+/// Covariance of two derivatives of the value at a distance of one, for a strength of one.
+fn share(order: usize, one: usize, other: usize) -> f64 {
+    let factorial = |of: usize| (1..=of).map(number).product::<f64>();
+    let below = factorial(order - 1 - one) * factorial(order - 1 - other);
+    1.0 / (number(2 * order - 1 - one - other) * below)
+}
+
+/// A process whose state is its value and the derivatives of it that do not jump.
+struct Integral<const N: usize> {
+    strength: f64,
+    /// Variance of a reading.
+    variance: f64,
+    steps: Vec<Step<N>>,
+}
+
+/// One place: what its reading tells.
+struct Step<const N: usize> {
+    /// Covariance of the value with the state, before the reading.
+    before: [f64; N],
+    /// Variance of what the reading is off.
+    variance: f64,
+    /// Distance to the next place.
+    distance: f64,
+}
+
+impl<const N: usize> Step<N> {
+    /// The state at the next place, this reading so much off what was expected.
+    fn next(&self, state: [f64; N], off: f64) -> [f64; N] {
+        let told = off / self.variance;
+        ahead(std::array::from_fn(|part| state[part] + self.before[part] * told), self.distance)
+    }
+}
+
+impl<const N: usize> Integral<N> {
+    fn new(strength: f64, places: &[f64], variance: f64) -> Self {
+        let shares: [[f64; N]; N] =
+            std::array::from_fn(|i| std::array::from_fn(|j| share(N, i, j)));
+        let mut covariance = [[0.0; N]; N];
+        let mut steps = Vec::with_capacity(places.len());
+        for (row, place) in places.iter().enumerate() {
+            let distance = places.get(row + 1).map_or(0.0, |next| next - place);
+            let before = covariance[0];
+            let step = Step { before, variance: before[0] + variance, distance };
+            for (row, cross) in covariance.iter_mut().zip(before) {
+                for (value, other) in row.iter_mut().zip(before) {
+                    *value -= cross * other / step.variance;
+                }
+            }
+            let rows = covariance.map(|row| ahead(row, distance));
+            let columns: [[f64; N]; N] =
+                std::array::from_fn(|j| ahead(rows.map(|row| row[j]), distance));
+            let powers = powers::<N>(distance);
+            covariance = std::array::from_fn(|i| {
+                std::array::from_fn(|j| {
+                    columns[j][i] + strength * distance * powers[i] * powers[j] * shares[i][j]
+                })
+            });
+            steps.push(step);
+        }
+        Self { strength, variance, steps }
+    }
+
+    /// The most probable values, given readings.
+    fn smoothed(&self, readings: &[f64]) -> Vec<f64> {
+        let mut state = [0.0; N];
+        let mut values: Vec<f64> = Vec::with_capacity(readings.len());
+        for (step, reading) in self.steps.iter().zip(readings) {
+            values.push(state[0]);
+            state = step.next(state, reading - state[0]);
+        }
+        let mut later = [0.0; N];
+        for ((step, reading), value) in self.steps.iter().zip(readings).zip(&mut values).rev() {
+            let mut told = behind(later, step.distance);
+            told[0] += (reading - *value - dot(step.before, told)) / step.variance;
+            *value += dot(step.before, told);
+            later = told;
+        }
+        values
+    }
+
+    /// Values as they may be without readings.
+    fn unread(&self, random: &mut ChaCha8Rng) -> Vec<f64> {
+        let roots = roots::<N>();
+        let mut state = [0.0; N];
+        let one = |step: &Step<N>| {
+            let value = state[0];
+            let chance: [f64; N] = std::array::from_fn(|_| StandardNormal.sample(random));
+            let powers = powers::<N>(step.distance);
+            let size = (self.strength * step.distance).sqrt();
+            let carried = ahead(state, step.distance);
+            state = std::array::from_fn(|part| {
+                carried[part] + size * powers[part] * dot(roots[part], chance)
+            });
+            value
+        };
+        self.steps.iter().map(one).collect()
+    }
+}
+
+impl<const N: usize> Process for Integral<N> {
+    fn log_variances(&self) -> f64 {
+        self.steps.iter().map(|step| libm::log(step.variance)).sum()
+    }
+
+    fn innovations(&self, readings: &[f64]) -> Vec<f64> {
+        let mut state = [0.0; N];
+        let one = |(step, reading): (&Step<N>, &f64)| {
+            let off = reading - state[0];
+            state = step.next(state, off);
+            off / step.variance.sqrt()
+        };
+        self.steps.iter().zip(readings).map(one).collect()
+    }
+
+    fn drawn(&self, readings: &[f64], random: &mut ChaCha8Rng) -> Vec<f64> {
+        let mut values = self.unread(random);
+        let off = |(reading, value): (&f64, &f64)| {
+            let noise: f64 = StandardNormal.sample(random);
+            reading - value - self.variance.sqrt() * noise
+        };
+        let off: Vec<f64> = readings.iter().zip(&values).map(off).collect();
+        for (value, told) in values.iter_mut().zip(self.smoothed(&off)) {
+            *value += told;
+        }
+        values
+    }
+}
+
+/// Lower triangle whose square the covariance at a distance of one is.
+fn roots<const N: usize>() -> [[f64; N]; N] {
+    let mut roots = [[0.0; N]; N];
+    for row in 0..N {
+        for column in 0..=row {
+            let left = share(N, row, column) - dot(roots[row], roots[column]);
+            roots[row][column] =
+                if row == column { left.sqrt() } else { left / roots[column][column] };
+        }
+    }
+    roots
+}
+
+/// By which power of the distance each part of the state grows, beside its root.
+fn powers<const N: usize>(distance: f64) -> [f64; N] {
+    let mut powers = [1.0; N];
+    for part in (1..N).rev() {
+        powers[part - 1] = powers[part] * distance;
+    }
+    powers
+}
+
+/// The state a distance on: the Taylor series of every part.
+fn ahead<const N: usize>(state: [f64; N], distance: f64) -> [f64; N] {
+    std::array::from_fn(|part| {
+        (part..N)
+            .rev()
+            .fold(0.0, |sum, later| state[later] + sum * distance / number(later + 1 - part))
+    })
+}
+
+/// What is told of the state by what is told of it a distance on.
+fn behind<const N: usize>(told: [f64; N], distance: f64) -> [f64; N] {
+    std::array::from_fn(|part| {
+        (0..=part)
+            .fold(0.0, |sum, earlier| told[earlier] + sum * distance / number(part + 1 - earlier))
+    })
+}
+
+fn dot<const N: usize>(one: [f64; N], other: [f64; N]) -> f64 {
+    one.iter().zip(&other).map(|(one, other)| one * other).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::SeedableRng;
+
+    use super::*;
+    use crate::number::mean;
+
+    const PLACES: [f64; 4] = [0.0, 0.3, 0.4, 1.0];
+    const READINGS: [f64; 4] = [0.1, -0.4, 0.9, 2.0];
+    const STRENGTH: f64 = 40.0;
+    const VARIANCE: f64 = 0.25;
+
+    /// Covariance of an integral of the second order at two places, by its own integral.
+    fn covariance(one: f64, other: f64) -> f64 {
+        let (less, more) = (one.min(other), one.max(other));
+        STRENGTH * less * less * (3.0 * more - less) / 6.0
+    }
+
+    /// The density of all readings together, by Cholesky's factor of their covariance.
+    #[test]
+    fn the_sweep_gives_the_density_of_all_readings_together() {
+        let mut matrix = crate::banded::Banded::zeros(4, 3);
+        for row in 0..4 {
+            for column in 0..=row {
+                matrix.add(row, column, covariance(PLACES[row], PLACES[column]));
+            }
+            matrix.add(row, row, VARIANCE);
+        }
+        let factor = matrix.factor().expect("a covariance");
+        let solved = factor.solve(&READINGS);
+        let square: f64 = solved.iter().zip(READINGS).map(|(one, other)| one * other).sum();
+        let process = Order::Second.process(STRENGTH, &PLACES, VARIANCE);
+        let found: f64 = process.innovations(&READINGS).iter().map(|off| off * off).sum();
+        assert!((found - square).abs() < 1e-9, "{found} {square}");
+        let (found, all) = (process.log_variances(), factor.log_determinant());
+        assert!((found - all).abs() < 1e-9, "{found} {all}");
+        // Expected of the last value: its covariances with the readings times what was solved.
+        let expected: f64 =
+            PLACES.iter().zip(&solved).map(|(place, one)| covariance(*place, 1.0) * one).sum();
+        let mut random = ChaCha8Rng::seed_from_u64(1);
+        let drawn: Vec<f64> = (0..4000).map(|_| process.drawn(&READINGS, &mut random)[3]).collect();
+        assert!((mean(&drawn) - expected).abs() < 0.03, "{} {expected}", mean(&drawn));
+    }
+
+    /// Values that are not read have the variance of the process, whatever its order.
+    #[test]
+    fn what_is_drawn_has_the_variance_of_the_process() {
+        for order in Order::ALL {
+            let process = order.process(STRENGTH, &PLACES, 1e12);
+            let mut random = ChaCha8Rng::seed_from_u64(2);
+            let squares: Vec<f64> =
+                (0..4000).map(|_| process.drawn(&READINGS, &mut random)[3].powi(2)).collect();
+            let found = mean(&squares) / (STRENGTH * order.variance(1.0));
+            assert!((found - 1.0).abs() < 0.1, "{order:?}: {found}");
+        }
+    }
+}

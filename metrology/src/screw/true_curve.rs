@@ -1,0 +1,369 @@
+//! What the deviation of a screw may be, given readings with noise.
+//!
+//! A line, a bow, waves of a turn, and what bends by chance: how often integrated, how strong, and with how many
+//! waves is not chosen. Each is weighed by how probable it makes the readings (Bayesian model averaging, Hoeting
+//! et al., *Statistical Science* 14, 1999, 382), and curves are drawn of all. What bends by chance has no steps:
+//! where they make the readings more probable, with all places that they might have, they are among what every
+//! curve has (de Jong and Penzer, *Diagnosing shocks in time series*, JASA 93, 1998, 796).
+
+use std::f64::consts::TAU;
+
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+use super::smooth_process::{Order, Process};
+use super::{Curve, Weighting, fit_mean_line};
+use crate::banded::{Banded, Factor};
+use crate::number::{mean, number};
+
+/// Level, slope and bow; of the bow, as of steps and waves, it is known how large it may be.
+const LINE_AND_BOW: usize = 3;
+const UNKNOWN: usize = 2;
+/// Most waves a turn. Doubled: the same sizes; four are a turn that is not round at all.
+const MOST_WAVES: usize = 4;
+/// Samples that a wave needs, lest two or three a turn be one.
+const SAMPLES_A_WAVE: f64 = 2.5;
+/// A process is too weak to be seen whose deviation at the end is a tenth of what the mean of all readings leaves.
+const UNSEEN: f64 = 0.01;
+/// Steps of the logarithm of a strength, and finer ones about the most probable.
+const STEP: f64 = 2.0;
+const FINE_STEP: f64 = 0.15;
+const FINE_STEPS: i8 = 10;
+/// Most places by which the models are weighed. Of a longer record, means of neighbours are.
+const MOST_PLACES: usize = 4000;
+
+/// A process, if any, with its strength, and how many waves a turn has.
+#[derive(Clone, Copy, Debug)]
+struct Model {
+    process: Option<(Order, f64)>,
+    waves: usize,
+}
+
+/// Readings in units of their noise, and what every model may have beside its process.
+struct Readings {
+    /// Share of the travel.
+    places: Vec<f64>,
+    values: Vec<f64>,
+    /// Variance of a value.
+    variance: f64,
+    /// Line and bow, steps, then cosine and sine of each wave.
+    columns: Vec<Vec<f64>>,
+    /// What every curve has: line, bow and steps.
+    every: usize,
+    /// Variance of the readings about their mean line, which is what a bow or a wave may be.
+    of_curve: f64,
+}
+
+/// Curves as they may have been without noise of `noise_um`.
+pub(super) fn drawn(
+    curve: &Curve,
+    noise_um: f64,
+    lead_mm: f64,
+    kindss: usize,
+    random: &mut ChaCha8Rng,
+) -> Vec<Curve> {
+    let (readings, models) = Readings::of(curve, noise_um, lead_mm).with_steps();
+    let most = most_probable(&models).1;
+    let models: Vec<(Model, f64)> =
+        models.into_iter().map(|(model, log)| (model, libm::exp(log - most))).collect();
+    let all: f64 = models.iter().map(|(_, weight)| weight).sum();
+    let mut asked = vec![0; models.len()];
+    for _ in 0..kindss {
+        let mut left = all * random.random_range(0.0..1.0);
+        let chosen = models.iter().position(|(_, weight)| {
+            left -= weight;
+            left < 0.0
+        });
+        asked[chosen.unwrap_or(models.len() - 1)] += 1;
+    }
+    let models = models.iter().zip(asked).filter(|(_, times)| 0 < *times);
+    let deviations = models.flat_map(|((model, _), times)| readings.drawn(*model, times, random));
+    let mut curves = Vec::with_capacity(kindss);
+    for deviations in deviations {
+        let mut next = deviations.iter();
+        curves.push(curve.changed(|_| noise_um * next.next().copied().unwrap_or_default()));
+    }
+    curves
+}
+
+impl Readings {
+    fn of(curve: &Curve, noise_um: f64, lead_mm: f64) -> Self {
+        let line = fit_mean_line(curve, Weighting::Samples);
+        let travel = curve.travel_mm();
+        let off = |(mm, um): (&f64, &f64)| (um - line.at(*mm)) / noise_um;
+        let values: Vec<f64> = travel.iter().zip(curve.deviation_um()).map(off).collect();
+        let places: Vec<f64> =
+            travel.iter().map(|mm| (mm - curve.first_mm()) / curve.length_mm()).collect();
+        let a_turn = lead_mm / curve.median_step_mm() / SAMPLES_A_WAVE;
+        let waves = (1..=MOST_WAVES).filter(|wave| number(*wave) <= a_turn);
+        let powers: [fn(f64) -> f64; LINE_AND_BOW] = [|_| 1.0, |x| x, |x| 4.0 * x * x];
+        let mut columns: Vec<Vec<f64>> =
+            powers.map(|power| places.iter().map(|x| power(x - 0.5)).collect()).to_vec();
+        for wave in waves {
+            for part in [libm::cos, libm::sin] {
+                let turns = number(wave) / lead_mm;
+                columns.push(travel.iter().map(|mm| part(TAU * (mm * turns).fract())).collect());
+            }
+        }
+        let of_curve = mean(&values.iter().map(|value| value * value).collect::<Vec<_>>()).max(1.0);
+        Self { places, values, variance: 1.0, columns, every: LINE_AND_BOW, of_curve }
+    }
+
+    fn means_of_neighbours(&self) -> Self {
+        let neighbours = self.values.len().div_ceil(MOST_PLACES);
+        let means = |values: &Vec<f64>| values.chunks_exact(neighbours).map(mean).collect();
+        Self {
+            places: means(&self.places),
+            values: means(&self.values),
+            variance: 1.0 / number(neighbours),
+            columns: self.columns.iter().map(means).collect(),
+            every: self.every,
+            of_curve: self.of_curve,
+        }
+    }
+
+    /// The steps that make the readings more probable, one after the other, and the models beside them.
+    fn with_steps(self) -> (Self, Vec<(Model, f64)>) {
+        let mut readings = self;
+        let mut models = readings.means_of_neighbours().weighed();
+        loop {
+            let few = readings.means_of_neighbours();
+            let places = libm::log(number(few.values.len()));
+            let Some((at, gain)) = few.likeliest_step(most_probable(&models).0) else { break };
+            if 0.5 * gain < places {
+                break;
+            }
+            let stepped = readings.with_step(at);
+            let others = stepped.means_of_neighbours().weighed();
+            if evidence(&others) - places < evidence(&models) {
+                break;
+            }
+            (readings, models) = (stepped, others);
+        }
+        (readings, models)
+    }
+
+    fn with_step(&self, at: f64) -> Self {
+        let step = self.places.iter().map(|place| f64::from(u8::from(at <= *place))).collect();
+        let mut columns = self.columns.clone();
+        columns.insert(self.every, step);
+        Self {
+            places: self.places.clone(),
+            values: self.values.clone(),
+            columns,
+            every: self.every + 1,
+            ..*self
+        }
+    }
+
+    /// Place of the step that a model gains most by, and what twice its log likelihood gains.
+    fn likeliest_step(&self, model: Model) -> Option<(f64, f64)> {
+        let whitened = Whitened::of(self, model.process);
+        let beside = whitened.beside(model.waves)?;
+        let gain_at = |place: &f64| {
+            let step: Vec<f64> =
+                self.places.iter().map(|other| f64::from(u8::from(place <= other))).collect();
+            let gain = whitened.gain(&beside, &whitened.white(&step));
+            (*place, gain)
+        };
+        self.places[1..].iter().map(gain_at).max_by(|one, other| one.1.total_cmp(&other.1))
+    }
+
+    fn most_waves(&self) -> usize {
+        (self.columns.len() - self.every) / 2
+    }
+
+    /// All models with the logarithms of how probable they make the readings.
+    fn weighed(&self) -> Vec<(Model, f64)> {
+        let mut all = self.evidence_of(None, 1.0);
+        for order in Order::ALL {
+            let (from, to) = self.range(order);
+            let number_of_steps = ((to - from) / STEP).ceil();
+            let at = |step: f64| from + (to - from) * step / number_of_steps;
+            let share = 1.0 / number_of_steps;
+            let (mut coarse, mut best) = (Vec::new(), (f64::NEG_INFINITY, from));
+            let mut step = 0.5;
+            while step < number_of_steps {
+                let found = self.evidence_of(Some((order, libm::exp(at(step)))), share);
+                let most = found.iter().map(|(_, log)| *log).fold(f64::NEG_INFINITY, f64::max);
+                if best.0 < most {
+                    best = (most, at(step));
+                }
+                coarse.push((at(step), found));
+                step += 1.0;
+            }
+            let near = FINE_STEP * (f64::from(FINE_STEPS) + 0.5);
+            all.extend(
+                coarse
+                    .into_iter()
+                    .filter(|(at, _)| near < (at - best.1).abs())
+                    .flat_map(|(_, found)| found),
+            );
+            for step in -FINE_STEPS..=FINE_STEPS {
+                let strength = libm::exp(best.1 + FINE_STEP * f64::from(step));
+                all.extend(self.evidence_of(Some((order, strength)), FINE_STEP / (to - from)));
+            }
+        }
+        all
+    }
+
+    /// Logarithms of the strengths from one that is not seen to one that is all there is from sample to sample.
+    fn range(&self, order: Order) -> (f64, f64) {
+        let samples = number(self.values.len());
+        let unseen = UNSEEN / samples / order.variance(1.0);
+        let all = self.of_curve / order.variance(1.0 / samples);
+        (libm::log(unseen), libm::log(all))
+    }
+
+    /// Logarithm of how probable a process makes the readings, by the number of waves beside it, times a share.
+    fn evidence_of(&self, process: Option<(Order, f64)>, share: f64) -> Vec<(Model, f64)> {
+        let whitened = Whitened::of(self, process);
+        let kinds = self.most_waves() + 1;
+        let share = libm::log(share / number(kinds));
+        let each = (0..kinds).map(|waves| {
+            let evidence =
+                whitened.beside(waves).map_or(f64::NEG_INFINITY, |beside| beside.evidence);
+            (Model { process, waves }, share + evidence)
+        });
+        each.collect()
+    }
+
+    /// So many curves of one model.
+    fn drawn(&self, model: Model, times: usize, random: &mut ChaCha8Rng) -> Vec<Vec<f64>> {
+        let whitened = Whitened::of(self, model.process);
+        let Some(beside) = whitened.beside(model.waves) else { return Vec::new() };
+        let one = |_| {
+            let sizes = beside.drawn(random);
+            let terms = self.columns.iter().zip(&sizes);
+            let mut drawn = vec![0.0; self.values.len()];
+            for (column, size) in terms {
+                for (value, part) in drawn.iter_mut().zip(column) {
+                    *value += size * part;
+                }
+            }
+            if let Some(process) = &whitened.process {
+                let left: Vec<f64> =
+                    self.values.iter().zip(&drawn).map(|(all, known)| all - known).collect();
+                let bent = process.drawn(&left, random);
+                for (value, bent) in drawn.iter_mut().zip(bent) {
+                    *value += bent;
+                }
+            }
+            drawn
+        };
+        (0..times).map(one).collect()
+    }
+}
+
+fn most_probable(models: &[(Model, f64)]) -> (Model, f64) {
+    let none = (Model { process: None, waves: 0 }, f64::NEG_INFINITY);
+    models.iter().fold(none, |most, one| if most.1 < one.1 { *one } else { most })
+}
+
+/// Logarithm of how probable all models together make the readings.
+fn evidence(models: &[(Model, f64)]) -> f64 {
+    let most = most_probable(models).1;
+    most + libm::log(models.iter().map(|(_, log)| libm::exp(log - most)).sum())
+}
+
+/// Readings and columns with the covariance that a process gives them taken off.
+struct Whitened {
+    process: Option<Box<dyn Process>>,
+    variance: f64,
+    values: Vec<f64>,
+    columns: Vec<Vec<f64>>,
+    /// Of each column with the readings, and with those up to itself.
+    products: Vec<f64>,
+    squares: Vec<Vec<f64>>,
+    every: usize,
+    of_curve: f64,
+}
+
+/// Line, bow and waves beside a process.
+struct Beside {
+    best: Vec<f64>,
+    precision: Factor,
+    evidence: f64,
+}
+
+impl Whitened {
+    fn of(readings: &Readings, process: Option<(Order, f64)>) -> Self {
+        let process = process
+            .map(|(order, strength)| order.process(strength, &readings.places, readings.variance));
+        let mut whitened = Self {
+            process,
+            variance: readings.variance,
+            values: Vec::new(),
+            columns: Vec::new(),
+            products: Vec::new(),
+            squares: Vec::new(),
+            every: readings.every,
+            of_curve: readings.of_curve,
+        };
+        whitened.values = whitened.white(&readings.values);
+        for column in &readings.columns {
+            let column = whitened.white(column);
+            whitened.products.push(dot(&column, &whitened.values));
+            whitened.columns.push(column);
+            let (this, all) = (whitened.columns.len() - 1, &whitened.columns);
+            whitened.squares.push(all.iter().map(|other| dot(&all[this], other)).collect());
+        }
+        whitened
+    }
+
+    fn white(&self, values: &[f64]) -> Vec<f64> {
+        match &self.process {
+            Some(process) => process.innovations(values),
+            None => values.iter().map(|value| value / self.variance.sqrt()).collect(),
+        }
+    }
+
+    fn log_variances(&self) -> f64 {
+        let samples = number(self.values.len());
+        let process = self.process.as_ref().map(|process| process.log_variances());
+        process.unwrap_or(samples * libm::log(self.variance))
+    }
+
+    /// Beside so many waves; `None` where the columns are not told apart.
+    fn beside(&self, waves: usize) -> Option<Beside> {
+        let width = self.every + 2 * waves;
+        let mut precision = Banded::zeros(width, width - 1);
+        for (row, squares) in self.squares[..width].iter().enumerate() {
+            for (column, square) in squares.iter().enumerate() {
+                precision.add(row, column, *square);
+            }
+            if UNKNOWN <= row {
+                precision.add(row, row, 1.0 / self.of_curve);
+            }
+        }
+        let precision = precision.factor()?;
+        let best = precision.solve(&self.products[..width]);
+        let left = dot(&self.values, &self.values) - dot(&best, &self.products[..width]);
+        let sizes = number(width - UNKNOWN) * libm::log(self.of_curve);
+        let logs = self.log_variances() + precision.log_determinant() + sizes;
+        Some(Beside { best, precision, evidence: -0.5 * (left + logs) })
+    }
+
+    /// What twice the log likelihood gains by a column beside others.
+    fn gain(&self, beside: &Beside, column: &[f64]) -> f64 {
+        let shared: Vec<f64> =
+            self.columns.iter().take(beside.best.len()).map(|one| dot(one, column)).collect();
+        let along = dot(column, &self.values) - dot(&beside.best, &shared);
+        let own = dot(column, column) - dot(&beside.precision.solve(&shared), &shared);
+        along * along / (own + 1.0 / self.of_curve)
+    }
+}
+
+impl Beside {
+    /// Sizes as they may be.
+    fn drawn(&self, random: &mut ChaCha8Rng) -> Vec<f64> {
+        let normal: Vec<f64> = self.best.iter().map(|_| StandardNormal.sample(random)).collect();
+        let off = self.precision.drawn(normal);
+        self.best.iter().zip(off).map(|(best, off)| best + off).collect()
+    }
+}
+
+fn dot(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).map(|(one, other)| one * other).sum()
+}
