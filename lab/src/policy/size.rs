@@ -28,6 +28,12 @@ pub(crate) const SHARE_OF_ERROR: f64 = 1e-3;
 /// share 99.6 % of their squares are one.
 pub(crate) const TRUE_TO: f64 = 0.03;
 
+/// Share of an effect that something left must have, to be what made all of it.
+///
+/// Chosen: what leaves a hundredth of the squares is what was there, if not to the last. Doubled: an effect that
+/// leaves a fifth of itself keeps its name beside a shape that has no need of it.
+pub(crate) const SHARE_OF_AN_EFFECT: f64 = 0.1;
+
 /// Samples that a pass must be worth for its noise to be told from a smooth curve.
 ///
 /// Derived: noise alone whose correlation is as long as the pass is worth 1 + ½. Doubled: noise of

@@ -3,9 +3,10 @@
 //! Where structure is left, an effect may have taken a part of it: a drift of the laser a part of a
 //! curve that is another one in each pass, wear one of several humps. So every structure that
 //! columns draw is put beside the model in any size, and an effect that is not worth its price then,
-//! or counts no whole number, is not told from it. Nor is one that is smaller than such a structure and
-//! has for most part its shape: what made the larger may have made it all. A line is no such structure:
-//! beside an effect of the same frequency it is that effect's own swelling.
+//! or counts no whole number, is not told from it, unless what is left is hardly anything beside it. Nor is
+//! one that is smaller than such a structure and has for most part its shape: what made the larger may have
+//! made it all. A line is no such structure: beside an effect of the same frequency it is that effect's own
+//! swelling.
 
 use std::collections::BTreeSet;
 
@@ -19,6 +20,7 @@ use crate::hypotheses::Structure;
 use crate::model::{Columns, Problem, State};
 use crate::noise::rms;
 use crate::policy::evidence::OWN_SHAPE;
+use crate::policy::size::SHARE_OF_AN_EFFECT;
 
 /// Places of the effects of a model that something left of it explains as well.
 #[must_use]
@@ -31,9 +33,12 @@ pub(crate) fn not_told(problem: &Problem, steps: &[Step], left: &[Structure]) ->
     let rests: Vec<&Structure> = left.iter().filter(is_drawn).collect();
     let prices: Vec<f64> =
         (0..state.components.len()).map(|index| paid(problem, state, steps, index)).collect();
+    let size = |index| shown(problem, state, index).map_or(0.0, |all| rms(&problem.layout, &all));
+    let sizes: Vec<f64> = (0..state.components.len()).map(size).collect();
     let beside = |rest: &&Structure| {
         let columns = Columns::free(rest.drawn_by.iter().cloned());
         let mut places = not_told_beside(&problem.beside(&columns), state, &prices);
+        places.retain(|index| SHARE_OF_AN_EFFECT * sizes[*index] < rest.rms_um);
         places.extend(parts(problem, state, rest));
         places
     };

@@ -21,10 +21,11 @@ use crate::hypotheses::{Structure, chance_with_tails, is_left};
 use crate::model::{
     Columns, Component, Fit, Judged, Problem, Stage, State, noises_of, settle, with_noise,
 };
-use crate::noise::rms;
+use crate::noise::{about_means, rms};
 use crate::numerics::{Looks, chi_squared_tail, count};
 use crate::policy::chance::{NO_ALL_CLEAR, SIGNIFICANCE};
 use crate::policy::evidence::{MARGIN, SHAPE};
+use crate::policy::size::SHARE_OF_AN_EFFECT;
 
 /// Shapes of each noise whose own noise is fitted.
 const SHORTLIST: usize = 2;
@@ -271,12 +272,18 @@ impl<'a> Court<'a> {
         if claim.ahead <= MARGIN {
             return None;
         }
-        let shown = if group.is_empty() {
-            self.beside_all(&claim)?
-        } else {
-            self.instead_of(&group, base, &claim)
-        };
-        Some(Winner { shown, beaten: group, ahead: claim.ahead })
+        let ahead = claim.ahead;
+        if group.is_empty() {
+            return Some(Winner { shown: self.beside_all(&claim)?, beaten: group, ahead });
+        }
+        // What is hardly another shape explains what the effects leave of themselves, and not them away.
+        if let Some(rms_um) = self.hardly_another(&group, &claim) {
+            let shown = self.better_than(&group, rms_um, &claim);
+            return Some(Winner { shown, beaten: Vec::new(), ahead });
+        }
+        let without = settle(self.problem, base, &self.state.fit.noises).left;
+        let shown = self.better_than(&group, rms(&self.problem.layout, &without), &claim);
+        Some(Winner { shown, beaten: group, ahead })
     }
 
     /// The relation to a logged column that explains more than the only effect of a group, which
@@ -442,13 +449,27 @@ impl<'a> Court<'a> {
         is_left(self.problem, &self.state.fit, &told).then_some(told)
     }
 
-    /// What a shape shows in the place of some effects; its chance is the odds that they are right.
-    fn instead_of(&self, group: &[usize], base: &Columns, claim: &Claim<'_>) -> Structure {
+    /// A shape of some size in the place of some effects; its chance is the odds that they are right.
+    fn better_than(&self, group: &[usize], rms_um: f64, claim: &Claim<'_>) -> Structure {
         let names: Vec<&str> = self.names(group).into_iter().collect();
         let shape = format!("{}, better than {}", claim.placed.shape.words, names.join(" and "));
-        let without = settle(self.problem, base, &self.state.fit.noises).left;
-        let rms_um = rms(&self.problem.layout, &without);
         structure(&claim.placed, &shape, rms_um, claim.p_value)
+    }
+
+    /// By how much a shape differs from what some effects show together, if that is hardly anything.
+    fn hardly_another(&self, group: &[usize], claim: &Claim<'_>) -> Option<f64> {
+        let layout = &self.problem.layout;
+        let nothing = vec![0.0; self.problem.samples.len()];
+        let shape = claim.placed.columns.left(&nothing, &claim.placed.coefficients);
+        let mut apart = about_means(layout, &shape);
+        let all_um = rms(layout, &apart);
+        for &index in group {
+            let shown = shown(self.problem, self.state, index)?;
+            // What is left of nothing has the other sign.
+            apart.iter_mut().zip(shown).for_each(|(apart, shown)| *apart += shown);
+        }
+        let apart_um = rms(layout, &apart);
+        (apart_um < SHARE_OF_AN_EFFECT * all_um).then_some(apart_um)
     }
 }
 
