@@ -12,8 +12,8 @@ use crate::hypotheses::{
     samples_a_pass, slow_without, structures, waves_left,
 };
 use crate::model::{
-    Columns, Component, JointCovariance, Judged, Problem, State, covariance_of_all_values,
-    holdout_rms, joint_covariance,
+    Component, JointCovariance, Judged, Problem, State, covariance_of_all_values, holdout_rms,
+    joint_covariance,
 };
 use crate::noise::rms;
 use crate::numerics::least_squares::covariance_rows;
@@ -228,14 +228,11 @@ fn searched(problem: &Problem, suspects: &[Suspect]) -> Diagnosis {
     confuse(&mut found, heard.witnesses.into_iter().chain(suspected.witnesses));
     let problems = (&problem, &small);
     if let Some(winner) = heard.winner {
-        let instead = Columns::free(winner.shown.drawn_by.iter().cloned());
-        let out = Out { places: winner.beaten, reason: BEATEN, instead };
-        found = take_out(problems, (&mut steps, &mut states), out, found);
+        found = take_out(problems, (&mut steps, &mut states), (&winner.beaten, BEATEN), found);
         residual.push(winner.shown);
     }
-    let places = not_told(&small, &steps, &residual);
-    let out = Out { places, reason: NOT_TOLD, instead: Columns::default() };
-    found = take_out(problems, (&mut steps, &mut states), out, found);
+    let not_told = not_told(&small, &steps, &residual);
+    found = take_out(problems, (&mut steps, &mut states), (&not_told, NOT_TOLD), found);
     let last = &steps[steps.len() - 1].state;
     let experiments = experiment::advice(&small, last, &found);
     let state = &states[states.len() - 1];
@@ -344,35 +341,26 @@ const BEATEN: &str = "a shape without a name explains more in its place";
 /// Why an effect is taken out that is not needed beside what is left.
 const NOT_TOLD: &str = "not told from what is left";
 
-/// Effects that are taken out, by their places, and what draws instead what they drew.
-struct Out {
-    places: Vec<usize>,
-    reason: &'static str,
-    instead: Columns,
-}
-
-/// Goes one more step without some effects, and without those that are superfluous then, beside what
-/// stands in for the first: what they drew is no noise; the rivals of those that stay.
+/// Goes one more step without some effects, and without those that are superfluous then; the rivals
+/// of those that stay.
 fn take_out(
     (problem, small): (&Problem, &Problem),
     (steps, states): (&mut Vec<Step>, &mut Vec<State>),
-    Out { places, reason, instead }: Out,
+    (out, reason): (&[usize], &str),
     found: Vec<Rivals>,
 ) -> Vec<Rivals> {
-    if places.is_empty() {
+    if out.is_empty() {
         return found;
     }
-    let (last, of_small) = (&states[states.len() - 1], &steps[steps.len() - 1].state);
-    let dropped = places.iter().map(|&index| Dropped {
+    let last = &states[states.len() - 1];
+    let dropped = out.iter().map(|&index| Dropped {
         name: last.components[index].term.name.clone(),
         reason: reason.to_owned(),
     });
-    let beside = small.beside(&instead);
-    let fewer = State::settled(&beside, of_small.without(&places), &of_small.fit.noises);
-    let Some((kept, useless)) = fewer.map(|fewer| pruned(&beside, fewer)) else { return found };
-    let Some(state) = State::settled(problem, kept.components, &last.fit.noises) else {
+    let Some(state) = State::settled(problem, last.without(out), &last.fit.noises) else {
         return found;
     };
+    let (state, useless) = pruned(problem, state);
     let Some((step, state)) = without_dropped(small, state, dropped.chain(useless).collect())
     else {
         return found;

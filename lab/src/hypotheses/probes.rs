@@ -147,6 +147,7 @@ pub(crate) fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> V
     all.extend(repeats(problem, fit));
     all.extend(in_common(problem, fit));
     all.extend(at_targets(problem, model, fit));
+    all.extend(each_way_at_targets(problem, model, fit));
     all.extend(bent_pass(problem, fit));
     all.extend(standing_out(problem, fit));
     all.extend(predicted(problem, model, fit));
@@ -284,6 +285,19 @@ fn in_common(problem: &Problem, fit: &Fit) -> Option<Structure> {
     let p_value = of_all(problem, chance);
     let shape = "curve that passes have in common, each in its own size";
     Some(Structure::without_place("position", shape, rms_um, p_value))
+}
+
+/// What targets show each way, whatever the shape from one to the next: a screw that is pulled and pushed, a
+/// carriage that tilts with its motion.
+fn each_way_at_targets(problem: &Problem, model: &Columns, fit: &Fit) -> Option<Structure> {
+    let columns = problem.columns_of_targets_each_way();
+    if columns.is_empty() || !problem.free.raw.is_empty() {
+        return None;
+    }
+    let raw: Vec<Column> = columns.into_iter().map(Column::from).collect();
+    let (rms_um, p_value) = probe(problem, model, fit, &raw);
+    let shape = "own error of each target, another each way";
+    Some(Structure::without_place("position", shape, rms_um, p_value).drawn_by(raw))
 }
 
 /// What targets show at every visit, whatever the shape from one to the next.

@@ -7,9 +7,9 @@ use super::probes::Structure;
 use crate::model::{Fit, Judged, Problem, State};
 use crate::noise::{Layout, Noise, effective_samples, is_surely_slow, rms, weighed_rms};
 use crate::numerics::count;
-use crate::policy::chance::{NO_CHANCE, NO_CHANCE_BESIDE};
+use crate::policy::chance::{NO_CHANCE, NO_CHANCE_BESIDE, NO_CHANCE_SWIFT};
 use crate::policy::size::{
-    BESIDE_EFFECTS, SMOOTH_SHARE, SWIFT_WITH_IT, WORTH_A_PASS, WORTH_AN_ALL_CLEAR,
+    BESIDE_EFFECTS, SMOOTH_SHARE, SWIFT_FOR_ALL, SWIFT_WITH_IT, WORTH_A_PASS, WORTH_AN_ALL_CLEAR,
 };
 
 /// The smooth curve that a noise as slow as the pass has taken for its own, if it is most of what
@@ -60,15 +60,19 @@ pub(crate) fn slow_without(
     tried: &[Judged],
 ) -> Option<Structure> {
     let fit = &state.fit;
-    let least = SWIFT_WITH_IT * samples_a_slow_pass(problem, fit);
+    let slow_worth = samples_a_slow_pass(problem, fit);
     let limit = if state.components.is_empty() { NO_CHANCE } else { NO_CHANCE_BESIDE };
     let is_new = |judged: &&Judged| {
         let name = &judged.component.term.name;
-        judged.p_value < limit && state.components.iter().all(|one| one.term.name != *name)
+        judged.p_value < NO_CHANCE_SWIFT
+            && state.components.iter().all(|one| one.term.name != *name)
     };
     let mut with =
         tried.iter().filter(is_new).map(|judged| (judged, samples_a_pass(problem, &judged.fit)));
-    let (judged, worth) = with.find(|(_, worth)| least < *worth)?;
+    let (judged, worth) = with.find(|(judged, worth)| {
+        let least = if judged.p_value < limit { SWIFT_WITH_IT } else { SWIFT_FOR_ALL };
+        least * slow_worth < *worth
+    })?;
     let name = &judged.component.term.name;
     Some(slow(problem, fit, &format!("{name}, beside which it is worth {worth:.0}")))
 }

@@ -71,6 +71,28 @@ impl Problem {
             .collect()
     }
 
+    /// What each target shows at every visit one way and at every visit the other, but for a reversal that is
+    /// alike at all; none where there are no targets, or too few rows of each and each way.
+    #[must_use]
+    pub(crate) fn columns_of_targets_each_way(&self) -> Vec<Vec<f64>> {
+        let mut columns = self.columns_of_targets();
+        let (Some(targets), width) = (self.targets(), columns.len()) else { return columns };
+        let ways = self.samples.iter().map(|&sample| self.record.direction[sample].signum());
+        let ways: Vec<f64> = ways.collect();
+        let is_both = ways.iter().any(|way| *way < 0.0) && ways.iter().any(|way| 0.0 < *way);
+        if !is_both || self.samples.len() < 2 * VISITS_OF_FEW * (width + self.sensors.len()) {
+            return Vec::new();
+        }
+        let of = self.visited(&targets);
+        for place in 0..width {
+            let sensor = place / (targets.len() - 1);
+            let first = self.alone(sensor, |sample| f64::from(u8::from(of[sample] == 0)));
+            let one = columns[place].iter().zip(&first).zip(&ways);
+            columns.push(one.map(|((own, first), way)| (own - first) * way).collect());
+        }
+        columns
+    }
+
     /// What a model leaves without what each target shows at most of its visits one way: a target that is off
     /// at every visit is no bad reading.
     pub(super) fn without_own_errors(&self, left: &[f64]) -> Vec<f64> {

@@ -47,6 +47,12 @@ pub(crate) const NO_CHANCE: f64 = 0.05;
 /// most of them lose a right answer. Doubled: one of them does.
 pub(crate) const NO_CHANCE_BESIDE: f64 = 0.01;
 
+/// The same where the noise is swift for all with it: slow noise has room for any curve, and no curve has
+/// room for slow noise.
+///
+/// Chosen: it is likelier there than not. Doubled: any curve is asked.
+pub(crate) const NO_CHANCE_SWIFT: f64 = 0.5;
+
 /// Chance below which a line is listed for a reader. No verdict rests on a list, so it may be ten
 /// times as open as [`SIGNIFICANCE`].
 ///
@@ -62,7 +68,7 @@ pub(crate) const FAST_LINE: f64 = 1e-6;
 /// Probes for structure beside those of logged columns: every chance is multiplied by their
 /// number (Bonferroni).
 ///
-/// Derived: fifteen on one pass, twenty on several of one sensor; this stands for both. Doubled:
+/// Derived: fifteen on one pass, twenty-one on several of one sensor; this stands for both. Doubled:
 /// structure at the limit needs 1.4 more evidence.
 pub(crate) const PROBES: f64 = 18.0;
 

@@ -1,6 +1,6 @@
 //! What the deviation of a screw may be, given readings with noise.
 //!
-//! A line, a bow, waves of a turn, and what bends by chance: how often integrated, how strong, and with how many
+//! A cubic, waves of a turn, and what bends by chance: how often integrated, how strong, and with how many
 //! waves is not chosen. Each is weighed by how probable it makes the readings (Bayesian model averaging, Hoeting
 //! et al., *Statistical Science* 14, 1999, 382), and curves are drawn of all. What bends by chance has no steps:
 //! where they make the readings more probable, with all places that they might have, they are among what every
@@ -17,8 +17,8 @@ use super::{Curve, Weighting, fit_mean_line};
 use crate::banded::{Banded, Factor};
 use crate::number::{mean, number};
 
-/// Level, slope and bow; of the bow, as of steps and waves, it is known how large it may be.
-const LINE_AND_BOW: usize = 3;
+/// Level, slope, and two terms that bend; of what bends, as of steps and waves, it is known how large it may be.
+const CUBIC: usize = 4;
 const UNKNOWN: usize = 2;
 /// Most waves a turn. Doubled: the same sizes; four are a turn that is not round at all.
 const MOST_WAVES: usize = 4;
@@ -47,11 +47,11 @@ struct Readings {
     values: Vec<f64>,
     /// Variance of a value.
     variance: f64,
-    /// Line and bow, steps, then cosine and sine of each wave.
+    /// A cubic, steps, then cosine and sine of each wave.
     columns: Vec<Vec<f64>>,
-    /// What every curve has: line, bow and steps.
+    /// What every curve has: the cubic and the steps.
     every: usize,
-    /// Variance of the readings about their mean line, which is what a bow or a wave may be.
+    /// Variance of the readings about their mean line, which is what a bend or a wave may be.
     of_curve: f64,
 }
 
@@ -97,7 +97,8 @@ impl Readings {
             travel.iter().map(|mm| (mm - curve.first_mm()) / curve.length_mm()).collect();
         let a_turn = lead_mm / curve.median_step_mm() / SAMPLES_A_WAVE;
         let waves = (1..=MOST_WAVES).filter(|wave| number(*wave) <= a_turn);
-        let powers: [fn(f64) -> f64; LINE_AND_BOW] = [|_| 1.0, |x| x, |x| 4.0 * x * x];
+        let powers: [fn(f64) -> f64; CUBIC] =
+            [|_| 1.0, |x| x, |x| 4.0 * x * x, |x| 8.0 * x * x * x];
         let mut columns: Vec<Vec<f64>> =
             powers.map(|power| places.iter().map(|x| power(x - 0.5)).collect()).to_vec();
         for wave in waves {
@@ -107,7 +108,7 @@ impl Readings {
             }
         }
         let of_curve = mean(&values.iter().map(|value| value * value).collect::<Vec<_>>()).max(1.0);
-        Self { places, values, variance: 1.0, columns, every: LINE_AND_BOW, of_curve }
+        Self { places, values, variance: 1.0, columns, every: CUBIC, of_curve }
     }
 
     fn means_of_neighbours(&self) -> Self {
@@ -280,7 +281,7 @@ struct Whitened {
     of_curve: f64,
 }
 
-/// Line, bow and waves beside a process.
+/// Cubic, steps and waves beside a process.
 struct Beside {
     best: Vec<f64>,
     precision: Factor,
