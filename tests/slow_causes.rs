@@ -232,3 +232,28 @@ fn effects_that_undo_each_other_are_not_named_together() {
         assert!(!named.contains(&"steady-sag"), "{seed}: {named:?}");
     }
 }
+
+/// Play of twice the noise there and back, and a drift of twelve standard errors: noise so slow that a pass
+/// is worth two samples is as probable as a drift beside noise that is white.
+#[test]
+fn a_drift_beside_play_is_not_called_noise() {
+    for seed in seeds(2, 6) {
+        let mut noise = white(seed, 0.06);
+        let names_of = ["pass", "time_s", "position_mm", "direction", "error_um"];
+        let mut columns = names_of.map(|name| (name, Vec::new()));
+        for (number, (stroke, row)) in
+            (0..6_u8).flat_map(|stroke| (0..100_u8).map(move |row| (stroke, row))).enumerate()
+        {
+            let way = if stroke % 2 == 0 { 1.0 } else { -1.0 };
+            let mm = 150.0 + way * (3.0 * f64::from(row) - 148.5);
+            let time_s = 5.0 * f64::from(u16::try_from(number).expect("600 rows"));
+            let error = 0.12 * time_s / 3600.0 - 0.06 * way + noise();
+            let cells = [1.0, time_s, mm, way, error];
+            columns.iter_mut().zip(cells).for_each(|((_, column), cell)| column.push(cell));
+        }
+        let found = diagnosed(columns.into());
+        assert!(names(&found).contains(&"backlash"), "{seed}: {:?}", names(&found));
+        let told = names(&found).len() == 2 || found.verdict == Verdict::Unexplained;
+        assert!(told, "{seed}: {:?}", names(&found));
+    }
+}

@@ -6,6 +6,7 @@ use helixlock_lab::{Diagnosis, Found, Verdict, diagnose, discover};
 
 use crate::support::diagnosed::{diagnosed, diagnosed_on, names};
 use crate::support::passes::{Passes, noise, white};
+use crate::support::seeds::seeds;
 
 const OF_TARGETS: &str = "own error of each target, at every visit";
 
@@ -292,5 +293,30 @@ fn errors_of_targets_that_a_second_run_repeats_are_no_noise() {
         let told = diagnosed(vec![("pass", pass), ("position_mm", place), ("error_um", error)]);
         assert_eq!(told.verdict, Verdict::Unexplained, "{seed}");
         assert_eq!(names(&told), Vec::<&str>::new(), "{seed}");
+    }
+}
+
+/// Five targets whose errors one way know nothing of those the other way: each way repeats to a twentieth of
+/// them, and both together scatter like noise.
+#[test]
+fn errors_of_targets_that_are_others_each_way_are_no_noise() {
+    for seed in seeds(1, 6) {
+        let mut own = white(seed, 20.0);
+        let [forward, backward]: [Vec<f64>; 2] =
+            std::array::from_fn(|_| (0..5).map(|_| own()).collect());
+        let mut noise = white(seed + 100, 2.0);
+        let mut columns =
+            ["pass", "position_mm", "direction", "error_um"].map(|name| (name, Vec::new()));
+        for (run, visit) in (0..5_u8).flat_map(|run| (0..10_u8).map(move |visit| (run, visit))) {
+            let is_forward = visit < 5;
+            let target = if is_forward { visit } else { 9 - visit };
+            let (way, of_way) = if is_forward { (1.0, &forward) } else { (-1.0, &backward) };
+            let error = of_way[usize::from(target)] + noise();
+            let row = [f64::from(run), 15.0 + 10.2 * f64::from(target), way, error];
+            columns.iter_mut().zip(row).for_each(|((_, values), value)| values.push(value));
+        }
+        let found = diagnosed(columns.into());
+        assert_eq!(found.verdict, Verdict::Unexplained, "{seed}");
+        assert!(left(&found).contains(&"own error of each target, another each way"), "{seed}");
     }
 }

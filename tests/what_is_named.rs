@@ -7,7 +7,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal, StudentT};
 
-use crate::support::diagnosed::{diagnosed, names};
+use crate::support::diagnosed::{diagnosed, diagnosed_on, names};
 use crate::support::passes::{Passes, noise, white};
 
 /// Half the wavelength of the machine's laser.
@@ -213,5 +213,41 @@ fn what_the_file_tells_of_its_readings_weighs() {
         let stderr = size.stderr.expect("a standard error");
         assert!((0.8..1.25).contains(&(stderr / best_um)), "seed {seed}: {stderr}, best {best_um}");
         assert!((size.value - SIZE_UM).abs() < 4.0 * best_um, "seed {seed}: {}", size.value);
+    }
+}
+
+/// A slit whose resolver has four poles, 20 µm and an overtone over eight turns, and what `more` adds.
+fn resolver(seed: u64, more: impl Fn(f64) -> f64) -> helixlock_lab::Diagnosis {
+    const SLIT: &str = r#"
+spindle.speed = "15 rpm"
+lead_screw.lead = "1 mm"
+gear = [{ name = "resolver", order = 1, teeth = 4 }]
+"#;
+    let mut noise = white(seed, 0.05);
+    let mut columns = ["time_s", "position_mm", "error_um"].map(|name| (name, Vec::new()));
+    for turns in (0..1200_u16).map(|row| f64::from(row) / 150.0) {
+        let poles = 20.0 * libm::sin(TAU * 4.0 * turns + 0.3);
+        let overtone = 1.5 * libm::sin(TAU * 8.0 * turns + 1.0);
+        let row = [4.0 * turns, turns, poles + overtone + more(turns) + noise()];
+        columns.iter_mut().zip(row).for_each(|((_, values), value)| values.push(value));
+    }
+    diagnosed_on(SLIT, columns.into())
+}
+
+/// A knock of a hundredth once a turn, or a size that grows by a hundredth: neither made the wave, though what
+/// knocks each turn can draw it, and a wave that grows is more probable than one that does not.
+#[test]
+fn a_large_wave_keeps_its_name_beside_what_hardly_differs() {
+    let knock = |turns: f64| if turns.fract() < 0.06 { 0.3 } else { 0.0 };
+    let grows = |turns: f64| 0.1 * (turns - 4.0) * libm::sin(TAU * 4.0 * turns + 0.3);
+    let all: [&dyn Fn(f64) -> f64; 2] = [&knock, &grows];
+    for (which, more) in all.into_iter().enumerate() {
+        let found = resolver(1, more);
+        assert_eq!(found.verdict, Verdict::Unexplained, "{which}");
+        let last = &found.rounds[found.rounds.len() - 1].effects;
+        let sizes =
+            last.iter().flat_map(|one| &one.parameters).filter(|one| one.key == "amplitude_um");
+        let largest = sizes.map(|one| one.value).fold(0.0, f64::max);
+        assert!((largest - 20.0).abs() < 0.1, "{which}: {largest}");
     }
 }

@@ -66,12 +66,12 @@ mod tests {
     use crate::screw::Reached;
     use crate::screw::coverage::{Screw, coverage};
 
-    /// The curve alone decides how much noise widens; the truth is known here. With 60 records of
+    /// The curve alone decides how much noise widens; the truth is known here. With 40 records of
     /// each kind, 85 % is three standard deviations below 95 %.
     #[test]
     fn the_widening_is_taken_off_and_the_uncertainty_is_true() {
         for screw in Screw::ALL {
-            for found in coverage(screw, 0.25, 60, 1) {
+            for found in coverage(screw, 0.25, 40, 1) {
                 assert!(0.3 < found.widening_um, "{screw:?}: {found:?}");
                 assert!(found.left_um.abs() < 0.45 * found.widening_um, "{screw:?}: {found:?}");
                 assert!(0.85 < found.held, "{screw:?}: {found:?}");
