@@ -37,9 +37,10 @@ pub fn without_reading_noise(
     characteristics: &dyn Fn(&Curve) -> Vec<Characteristic>,
 ) -> Vec<Option<Estimate>> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let curves = match 0.0 < noise_um {
-        true => drawn(curve, noise_um, lead_mm, DRAWS, &mut random),
-        false => vec![curve.clone()],
+    let curves = if 0.0 < noise_um {
+        drawn(curve, noise_um, lead_mm, DRAWS, &mut random)
+    } else {
+        vec![curve.clone()]
     };
     let all: Vec<Vec<Option<f64>>> =
         curves.iter().map(|curve| sizes(&characteristics(curve))).collect();

@@ -242,9 +242,9 @@ mod tests {
     #[test]
     fn the_sweep_gives_the_density_of_all_readings_together() {
         let mut matrix = crate::banded::Banded::zeros(4, 3);
-        for row in 0..4 {
-            for column in 0..=row {
-                matrix.add(row, column, covariance(PLACES[row], PLACES[column]));
+        for (row, one) in PLACES.iter().enumerate() {
+            for (column, other) in PLACES[..=row].iter().enumerate() {
+                matrix.add(row, column, covariance(*one, *other));
             }
             matrix.add(row, row, VARIANCE);
         }
