@@ -49,7 +49,7 @@ fn of_screws(out: &mut impl Write) -> Printed {
     writeln!(out, "{header}\n|---|---|---|---|---|---|---|")?;
     for kind in screw::coverage::Screw::ALL {
         for noise_um in [0.05, 0.25, 0.6] {
-            let found = screw::coverage::coverage(kind, noise_um, 1000, 1);
+            let found = screw::coverage::coverage(kind, noise_um, 500, 1);
             for (symbol, found) in ["V300", "V2π"].iter().zip(found) {
                 let (widened, left) = (found.widening_um, found.left_um);
                 let (kind, held) = (kind.in_words(), 100.0 * found.held);

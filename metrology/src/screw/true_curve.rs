@@ -20,8 +20,10 @@ use crate::number::{mean, number};
 /// Level, slope, and two terms that bend; of what bends, as of steps and waves, it is known how large it may be.
 const CUBIC: usize = 4;
 const UNKNOWN: usize = 2;
-/// Most waves a turn. Doubled: the same sizes; four are a turn that is not round at all.
-const MOST_WAVES: usize = 4;
+/// Most waves a turn. Chosen: a turn that is eccentric, oval, and one more. Doubled: more than eight samples show.
+const MOST_WAVES: usize = 3;
+/// Columns of a wave: cosine and sine, each of a size that changes evenly along the travel.
+const OF_A_WAVE: usize = 4;
 /// Samples that a wave needs, lest two or three a turn be one.
 const SAMPLES_A_WAVE: f64 = 2.5;
 /// A process is too weak to be seen whose deviation at the end is a tenth of what the mean of all readings leaves.
@@ -47,7 +49,7 @@ struct Readings {
     values: Vec<f64>,
     /// Variance of a value.
     variance: f64,
-    /// A cubic, steps, then cosine and sine of each wave.
+    /// A cubic, steps, then those of each wave.
     columns: Vec<Vec<f64>>,
     /// What every curve has: the cubic and the steps.
     every: usize,
@@ -104,7 +106,11 @@ impl Readings {
         for wave in waves {
             for part in [libm::cos, libm::sin] {
                 let turns = number(wave) / lead_mm;
-                columns.push(travel.iter().map(|mm| part(TAU * (mm * turns).fract())).collect());
+                let even: Vec<f64> =
+                    travel.iter().map(|mm| part(TAU * (mm * turns).fract())).collect();
+                let grows = even.iter().zip(&places).map(|(one, x)| one * 2.0 * (x - 0.5));
+                columns.push(grows.collect());
+                columns.push(even);
             }
         }
         let of_curve = mean(&values.iter().map(|value| value * value).collect::<Vec<_>>()).max(1.0);
@@ -172,7 +178,7 @@ impl Readings {
     }
 
     fn most_waves(&self) -> usize {
-        (self.columns.len() - self.every) / 2
+        (self.columns.len() - self.every) / OF_A_WAVE
     }
 
     /// All models with the logarithms of how probable they make the readings.
@@ -328,7 +334,7 @@ impl Whitened {
 
     /// Beside so many waves; `None` where the columns are not told apart.
     fn beside(&self, waves: usize) -> Option<Beside> {
-        let width = self.every + 2 * waves;
+        let width = self.every + OF_A_WAVE * waves;
         let mut precision = Banded::zeros(width, width - 1);
         for (row, squares) in self.squares[..width].iter().enumerate() {
             for (column, square) in squares.iter().enumerate() {
