@@ -247,7 +247,7 @@ const UNITS: [Rewritten; 12] = [
 ];
 
 proptest! {
-    #![proptest_config(few(10))]
+    #![proptest_config(few(8))]
 
     #[test]
     fn units_leave_verdict_and_names_alone(
