@@ -22,8 +22,8 @@ const CUBIC: usize = 4;
 const UNKNOWN: usize = 2;
 /// Most waves a turn. Chosen: a turn that is eccentric, oval, and one more. Doubled: more than eight samples show.
 const MOST_WAVES: usize = 3;
-/// Columns of a wave: cosine and sine, each of a size that changes evenly along the travel.
-const OF_A_WAVE: usize = 4;
+/// Cosine and sine of a wave, or of how it grows evenly along the travel.
+const A_PAIR: usize = 2;
 /// Samples that a wave needs, lest two or three a turn be one.
 const SAMPLES_A_WAVE: f64 = 2.5;
 /// A process is too weak to be seen whose deviation at the end is a tenth of what the mean of all readings leaves.
@@ -35,11 +35,11 @@ const FINE_STEPS: i8 = 10;
 /// Most places by which the models are weighed. Of a longer record, means of neighbours are.
 const MOST_PLACES: usize = 4000;
 
-/// A process, if any, with its strength, and how many waves a turn has.
+/// A process, if any, with its strength, and how many pairs of columns of waves.
 #[derive(Clone, Copy, Debug)]
 struct Model {
     process: Option<(Order, f64)>,
-    waves: usize,
+    pairs: usize,
 }
 
 /// Readings in units of their noise, and what every model may have beside its process.
@@ -49,7 +49,7 @@ struct Readings {
     values: Vec<f64>,
     /// Variance of a value.
     variance: f64,
-    /// A cubic, steps, then those of each wave.
+    /// A cubic, steps, then two pairs of each wave: even, and growing.
     columns: Vec<Vec<f64>>,
     /// What every curve has: the cubic and the steps.
     every: usize,
@@ -104,14 +104,14 @@ impl Readings {
         let mut columns: Vec<Vec<f64>> =
             powers.map(|power| places.iter().map(|x| power(x - 0.5)).collect()).to_vec();
         for wave in waves {
-            for part in [libm::cos, libm::sin] {
-                let turns = number(wave) / lead_mm;
-                let even: Vec<f64> =
-                    travel.iter().map(|mm| part(TAU * (mm * turns).fract())).collect();
-                let grows = even.iter().zip(&places).map(|(one, x)| one * 2.0 * (x - 0.5));
-                columns.push(grows.collect());
-                columns.push(even);
-            }
+            let turns = number(wave) / lead_mm;
+            let even = [libm::cos, libm::sin].map(|part: fn(f64) -> f64| {
+                travel.iter().map(|mm| part(TAU * (mm * turns).fract())).collect::<Vec<f64>>()
+            });
+            let grows = even.clone().map(|even| {
+                even.iter().zip(&places).map(|(one, x)| one * 2.0 * (x - 0.5)).collect()
+            });
+            columns.extend(even.into_iter().chain(grows));
         }
         let of_curve = mean(&values.iter().map(|value| value * value).collect::<Vec<_>>()).max(1.0);
         Self { places, values, variance: 1.0, columns, every: CUBIC, of_curve }
@@ -167,7 +167,7 @@ impl Readings {
     /// Place of the step that a model gains most by, and what twice its log likelihood gains.
     fn likeliest_step(&self, model: Model) -> Option<(f64, f64)> {
         let whitened = Whitened::of(self, model.process);
-        let beside = whitened.beside(model.waves)?;
+        let beside = whitened.beside(model.pairs)?;
         let gain_at = |place: &f64| {
             let step: Vec<f64> =
                 self.places.iter().map(|other| f64::from(u8::from(place <= other))).collect();
@@ -177,8 +177,8 @@ impl Readings {
         self.places[1..].iter().map(gain_at).max_by(|one, other| one.1.total_cmp(&other.1))
     }
 
-    fn most_waves(&self) -> usize {
-        (self.columns.len() - self.every) / OF_A_WAVE
+    fn most_pairs(&self) -> usize {
+        (self.columns.len() - self.every) / A_PAIR
     }
 
     /// All models with the logarithms of how probable they make the readings.
@@ -223,15 +223,15 @@ impl Readings {
         (libm::log(unseen), libm::log(all))
     }
 
-    /// Logarithm of how probable a process makes the readings, by the number of waves beside it, times a share.
+    /// Logarithm of how probable a process makes the readings, by the number of pairs beside it, times a share.
     fn evidence_of(&self, process: Option<(Order, f64)>, share: f64) -> Vec<(Model, f64)> {
         let whitened = Whitened::of(self, process);
-        let kinds = self.most_waves() + 1;
+        let kinds = self.most_pairs() + 1;
         let share = libm::log(share / number(kinds));
-        let each = (0..kinds).map(|waves| {
+        let each = (0..kinds).map(|pairs| {
             let evidence =
-                whitened.beside(waves).map_or(f64::NEG_INFINITY, |beside| beside.evidence);
-            (Model { process, waves }, share + evidence)
+                whitened.beside(pairs).map_or(f64::NEG_INFINITY, |beside| beside.evidence);
+            (Model { process, pairs }, share + evidence)
         });
         each.collect()
     }
@@ -239,7 +239,7 @@ impl Readings {
     /// So many curves of one model.
     fn drawn(&self, model: Model, times: usize, random: &mut ChaCha8Rng) -> Vec<Vec<f64>> {
         let whitened = Whitened::of(self, model.process);
-        let Some(beside) = whitened.beside(model.waves) else { return Vec::new() };
+        let Some(beside) = whitened.beside(model.pairs) else { return Vec::new() };
         let one = |_| {
             let sizes = beside.drawn(random);
             let terms = self.columns.iter().zip(&sizes);
@@ -264,7 +264,7 @@ impl Readings {
 }
 
 fn most_probable(models: &[(Model, f64)]) -> (Model, f64) {
-    let none = (Model { process: None, waves: 0 }, f64::NEG_INFINITY);
+    let none = (Model { process: None, pairs: 0 }, f64::NEG_INFINITY);
     models.iter().fold(none, |most, one| if most.1 < one.1 { *one } else { most })
 }
 
@@ -332,9 +332,9 @@ impl Whitened {
         process.unwrap_or(samples * libm::log(self.variance))
     }
 
-    /// Beside so many waves; `None` where the columns are not told apart.
-    fn beside(&self, waves: usize) -> Option<Beside> {
-        let width = self.every + OF_A_WAVE * waves;
+    /// Beside so many pairs; `None` where the columns are not told apart.
+    fn beside(&self, pairs: usize) -> Option<Beside> {
+        let width = self.every + A_PAIR * pairs;
         let mut precision = Banded::zeros(width, width - 1);
         for (row, squares) in self.squares[..width].iter().enumerate() {
             for (column, square) in squares.iter().enumerate() {
