@@ -291,24 +291,28 @@ fn in_common(problem: &Problem, fit: &Fit) -> Option<Structure> {
 /// carriage that tilts with its motion.
 fn each_way_at_targets(problem: &Problem, model: &Columns, fit: &Fit) -> Option<Structure> {
     let columns = problem.columns_of_targets_each_way();
-    if columns.is_empty() || !problem.free.raw.is_empty() {
-        return None;
-    }
-    let raw: Vec<Column> = columns.into_iter().map(Column::from).collect();
-    let (rms_um, p_value) = probe(problem, model, fit, &raw);
-    let shape = "own error of each target, another each way";
-    Some(Structure::without_place("position", shape, rms_um, p_value).drawn_by(raw))
+    of_targets(problem, (model, fit), columns, "own error of each target, another each way")
 }
 
 /// What targets show at every visit, whatever the shape from one to the next.
 #[must_use]
 pub(crate) fn at_targets(problem: &Problem, model: &Columns, fit: &Fit) -> Option<Structure> {
-    let raw: Vec<Column> = problem.columns_of_targets().into_iter().map(Column::from).collect();
-    if raw.is_empty() || !problem.free.raw.is_empty() {
+    of_targets(problem, (model, fit), problem.columns_of_targets(), AT_TARGETS)
+}
+
+/// What some columns of targets show, where they are not left free.
+fn of_targets(
+    problem: &Problem,
+    (model, fit): (&Columns, &Fit),
+    columns: Vec<Vec<f64>>,
+    shape: &str,
+) -> Option<Structure> {
+    if columns.is_empty() || !problem.free.raw.is_empty() {
         return None;
     }
+    let raw: Vec<Column> = columns.into_iter().map(Column::from).collect();
     let (rms_um, p_value) = probe(problem, model, fit, &raw);
-    Some(Structure::without_place("position", AT_TARGETS, rms_um, p_value).drawn_by(raw))
+    Some(Structure::without_place("position", shape, rms_um, p_value).drawn_by(raw))
 }
 
 /// One pass that is bent as no other is.

@@ -226,10 +226,14 @@ impl Claim<'_> {
 
     /// What the shape shows at its best, by itself.
     pub(crate) fn shown(&self, problem: &Problem) -> Structure {
-        let placed = &self.placed;
+        let rms_um = rms(&problem.layout, &self.left_of_nothing(problem));
+        structure(&self.placed, self.placed.shape.words, rms_um, self.p_value)
+    }
+
+    /// The shape at its best, of the other sign.
+    fn left_of_nothing(&self, problem: &Problem) -> Vec<f64> {
         let nothing = vec![0.0; problem.samples.len()];
-        let shown = placed.columns.left(&nothing, &placed.coefficients);
-        structure(placed, placed.shape.words, rms(&problem.layout, &shown), self.p_value)
+        self.placed.columns.left(&nothing, &self.placed.coefficients)
     }
 }
 
@@ -277,13 +281,12 @@ impl<'a> Court<'a> {
             return Some(Winner { shown: self.beside_all(&claim)?, beaten: group, ahead });
         }
         // What is hardly another shape explains what the effects leave of themselves, and not them away.
-        if let Some(rms_um) = self.hardly_another(&group, &claim) {
-            let shown = self.better_than(&group, rms_um, &claim);
-            return Some(Winner { shown, beaten: Vec::new(), ahead });
-        }
-        let without = settle(self.problem, base, &self.state.fit.noises).left;
-        let shown = self.better_than(&group, rms(&self.problem.layout, &without), &claim);
-        Some(Winner { shown, beaten: group, ahead })
+        let hardly = self.hardly_another(&group, &claim);
+        let rms_um = hardly.unwrap_or_else(|| {
+            rms(&self.problem.layout, &settle(self.problem, base, &self.state.fit.noises).left)
+        });
+        let shown = self.better_than(&group, rms_um, &claim);
+        Some(Winner { shown, beaten: if hardly.is_some() { Vec::new() } else { group }, ahead })
     }
 
     /// The relation to a logged column that explains more than the only effect of a group, which
@@ -459,13 +462,10 @@ impl<'a> Court<'a> {
     /// By how much a shape differs from what some effects show together, if that is hardly anything.
     fn hardly_another(&self, group: &[usize], claim: &Claim<'_>) -> Option<f64> {
         let layout = &self.problem.layout;
-        let nothing = vec![0.0; self.problem.samples.len()];
-        let shape = claim.placed.columns.left(&nothing, &claim.placed.coefficients);
-        let mut apart = about_means(layout, &shape);
+        let mut apart = about_means(layout, &claim.left_of_nothing(self.problem));
         let all_um = rms(layout, &apart);
         for &index in group {
             let shown = shown(self.problem, self.state, index)?;
-            // What is left of nothing has the other sign.
             apart.iter_mut().zip(shown).for_each(|(apart, shown)| *apart += shown);
         }
         let apart_um = rms(layout, &apart);

@@ -6,7 +6,7 @@
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use crate::number::number;
+use crate::number::{dot, number};
 
 /// A process that begins with nothing, given readings of it at some places.
 pub(super) trait Process {
@@ -122,8 +122,8 @@ impl<const N: usize> Integral<N> {
         let mut later = [0.0; N];
         for ((step, reading), value) in self.steps.iter().zip(readings).zip(&mut values).rev() {
             let mut told = behind(later, step.distance);
-            told[0] += (reading - *value - dot(step.before, told)) / step.variance;
-            *value += dot(step.before, told);
+            told[0] += (reading - *value - dot(&step.before, &told)) / step.variance;
+            *value += dot(&step.before, &told);
             later = told;
         }
         values
@@ -140,7 +140,7 @@ impl<const N: usize> Integral<N> {
             let size = (self.strength * step.distance).sqrt();
             let carried = ahead(state, step.distance);
             state = std::array::from_fn(|part| {
-                carried[part] + size * powers[part] * dot(roots[part], chance)
+                carried[part] + size * powers[part] * dot(&roots[part], &chance)
             });
             value
         };
@@ -182,7 +182,7 @@ fn roots<const N: usize>() -> [[f64; N]; N] {
     let mut roots = [[0.0; N]; N];
     for row in 0..N {
         for column in 0..=row {
-            let left = share(N, row, column) - dot(roots[row], roots[column]);
+            let left = share(N, row, column) - dot(&roots[row], &roots[column]);
             roots[row][column] =
                 if row == column { left.sqrt() } else { left / roots[column][column] };
         }
@@ -214,10 +214,6 @@ fn behind<const N: usize>(told: [f64; N], distance: f64) -> [f64; N] {
         (0..=part)
             .fold(0.0, |sum, earlier| told[earlier] + sum * distance / number(part + 1 - earlier))
     })
-}
-
-fn dot<const N: usize>(one: [f64; N], other: [f64; N]) -> f64 {
-    one.iter().zip(&other).map(|(one, other)| one * other).sum()
 }
 
 #[cfg(test)]

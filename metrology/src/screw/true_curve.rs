@@ -15,7 +15,7 @@ use rand_distr::{Distribution, StandardNormal};
 use super::smooth_process::{Order, Process};
 use super::{Curve, Weighting, fit_mean_line};
 use crate::banded::{Banded, Factor};
-use crate::number::{mean, number};
+use crate::number::{dot, mean, number};
 
 /// Level, slope, and two terms that bend; of what bends, as of steps and waves, it is known how large it may be.
 const CUBIC: usize = 4;
@@ -62,7 +62,7 @@ pub(super) fn drawn(
     curve: &Curve,
     noise_um: f64,
     lead_mm: f64,
-    kindss: usize,
+    number_of_curves: usize,
     random: &mut ChaCha8Rng,
 ) -> Vec<Curve> {
     let (readings, models) = Readings::of(curve, noise_um, lead_mm).with_steps();
@@ -71,7 +71,7 @@ pub(super) fn drawn(
         models.into_iter().map(|(model, log)| (model, libm::exp(log - most))).collect();
     let all: f64 = models.iter().map(|(_, weight)| weight).sum();
     let mut asked = vec![0; models.len()];
-    for _ in 0..kindss {
+    for _ in 0..number_of_curves {
         let mut left = all * random.random_range(0.0..1.0);
         let chosen = models.iter().position(|(_, weight)| {
             left -= weight;
@@ -81,7 +81,7 @@ pub(super) fn drawn(
     }
     let models = models.iter().zip(asked).filter(|(_, times)| 0 < *times);
     let deviations = models.flat_map(|((model, _), times)| readings.drawn(*model, times, random));
-    let mut curves = Vec::with_capacity(kindss);
+    let mut curves = Vec::with_capacity(number_of_curves);
     for deviations in deviations {
         let mut next = deviations.iter();
         curves.push(curve.changed(|_| noise_um * next.next().copied().unwrap_or_default()));
@@ -132,21 +132,20 @@ impl Readings {
 
     /// The steps that make the readings more probable, one after the other, and the models beside them.
     fn with_steps(self) -> (Self, Vec<(Model, f64)>) {
-        let mut readings = self;
-        let mut models = readings.means_of_neighbours().weighed();
-        loop {
-            let few = readings.means_of_neighbours();
-            let places = libm::log(number(few.values.len()));
-            let Some((at, gain)) = few.likeliest_step(most_probable(&models).0) else { break };
+        let mut few = self.means_of_neighbours();
+        let (mut readings, mut models) = (self, few.weighed());
+        let places = libm::log(number(few.values.len()));
+        while let Some((at, gain)) = few.likeliest_step(most_probable(&models).0) {
             if 0.5 * gain < places {
                 break;
             }
             let stepped = readings.with_step(at);
-            let others = stepped.means_of_neighbours().weighed();
+            let few_stepped = stepped.means_of_neighbours();
+            let others = few_stepped.weighed();
             if evidence(&others) - places < evidence(&models) {
                 break;
             }
-            (readings, models) = (stepped, others);
+            (readings, few, models) = (stepped, few_stepped, others);
         }
         (readings, models)
     }
@@ -183,36 +182,31 @@ impl Readings {
 
     /// All models with the logarithms of how probable they make the readings.
     fn weighed(&self) -> Vec<(Model, f64)> {
-        let mut all = self.evidence_of(None, 1.0);
-        for order in Order::ALL {
-            let (from, to) = self.range(order);
-            let number_of_steps = ((to - from) / STEP).ceil();
-            let at = |step: f64| from + (to - from) * step / number_of_steps;
-            let share = 1.0 / number_of_steps;
-            let (mut coarse, mut best) = (Vec::new(), (f64::NEG_INFINITY, from));
-            let mut step = 0.5;
-            while step < number_of_steps {
-                let found = self.evidence_of(Some((order, libm::exp(at(step)))), share);
-                let most = found.iter().map(|(_, log)| *log).fold(f64::NEG_INFINITY, f64::max);
-                if best.0 < most {
-                    best = (most, at(step));
-                }
-                coarse.push((at(step), found));
-                step += 1.0;
-            }
-            let near = FINE_STEP * (f64::from(FINE_STEPS) + 0.5);
-            all.extend(
-                coarse
-                    .into_iter()
-                    .filter(|(at, _)| near < (at - best.1).abs())
-                    .flat_map(|(_, found)| found),
-            );
-            for step in -FINE_STEPS..=FINE_STEPS {
-                let strength = libm::exp(best.1 + FINE_STEP * f64::from(step));
-                all.extend(self.evidence_of(Some((order, strength)), FINE_STEP / (to - from)));
-            }
-        }
-        all
+        let without = self.evidence_of(None, 1.0);
+        let orders = Order::ALL.into_iter().flat_map(|order| self.of_order(order));
+        without.into_iter().chain(orders).collect()
+    }
+
+    /// The models of one order, by steps of their strength, and by finer ones about the most probable.
+    fn of_order(&self, order: Order) -> Vec<(Model, f64)> {
+        let (from, to) = self.range(order);
+        let steps = ((to - from) / STEP).ceil();
+        let at = |step: f64, share: f64| self.evidence_of(Some((order, libm::exp(step))), share);
+        let middles = std::iter::successors(Some(0.5), |step| Some(step + 1.0));
+        let coarse: Vec<(f64, Vec<(Model, f64)>)> = middles
+            .take_while(|step| *step < steps)
+            .map(|step| from + (to - from) * step / steps)
+            .map(|strength| (strength, at(strength, 1.0 / steps)))
+            .collect();
+        let most = |found: &[(Model, f64)]| most_probable(found).1;
+        let best = coarse.iter().fold((f64::NEG_INFINITY, from), |best, (strength, found)| {
+            if best.0 < most(found) { (most(found), *strength) } else { best }
+        });
+        let near = FINE_STEP * (f64::from(FINE_STEPS) + 0.5);
+        let far = coarse.into_iter().filter(|(strength, _)| near < (strength - best.1).abs());
+        let fine = (-FINE_STEPS..=FINE_STEPS)
+            .flat_map(|step| at(best.1 + FINE_STEP * f64::from(step), FINE_STEP / (to - from)));
+        far.flat_map(|(_, found)| found).chain(fine).collect()
     }
 
     /// Logarithms of the strengths from one that is not seen to one that is all there is from sample to sample.
@@ -275,16 +269,14 @@ fn evidence(models: &[(Model, f64)]) -> f64 {
 }
 
 /// Readings and columns with the covariance that a process gives them taken off.
-struct Whitened {
+struct Whitened<'a> {
+    readings: &'a Readings,
     process: Option<Box<dyn Process>>,
-    variance: f64,
     values: Vec<f64>,
     columns: Vec<Vec<f64>>,
     /// Of each column with the readings, and with those up to itself.
     products: Vec<f64>,
     squares: Vec<Vec<f64>>,
-    every: usize,
-    of_curve: f64,
 }
 
 /// Cubic, steps and waves beside a process.
@@ -294,19 +286,17 @@ struct Beside {
     evidence: f64,
 }
 
-impl Whitened {
-    fn of(readings: &Readings, process: Option<(Order, f64)>) -> Self {
+impl<'a> Whitened<'a> {
+    fn of(readings: &'a Readings, process: Option<(Order, f64)>) -> Self {
         let process = process
             .map(|(order, strength)| order.process(strength, &readings.places, readings.variance));
         let mut whitened = Self {
+            readings,
             process,
-            variance: readings.variance,
             values: Vec::new(),
             columns: Vec::new(),
             products: Vec::new(),
             squares: Vec::new(),
-            every: readings.every,
-            of_curve: readings.of_curve,
         };
         whitened.values = whitened.white(&readings.values);
         for column in &readings.columns {
@@ -322,32 +312,32 @@ impl Whitened {
     fn white(&self, values: &[f64]) -> Vec<f64> {
         match &self.process {
             Some(process) => process.innovations(values),
-            None => values.iter().map(|value| value / self.variance.sqrt()).collect(),
+            None => values.iter().map(|value| value / self.readings.variance.sqrt()).collect(),
         }
     }
 
     fn log_variances(&self) -> f64 {
         let samples = number(self.values.len());
         let process = self.process.as_ref().map(|process| process.log_variances());
-        process.unwrap_or(samples * libm::log(self.variance))
+        process.unwrap_or(samples * libm::log(self.readings.variance))
     }
 
     /// Beside so many pairs; `None` where the columns are not told apart.
     fn beside(&self, pairs: usize) -> Option<Beside> {
-        let width = self.every + A_PAIR * pairs;
+        let width = self.readings.every + A_PAIR * pairs;
         let mut precision = Banded::zeros(width, width - 1);
         for (row, squares) in self.squares[..width].iter().enumerate() {
             for (column, square) in squares.iter().enumerate() {
                 precision.add(row, column, *square);
             }
             if UNKNOWN <= row {
-                precision.add(row, row, 1.0 / self.of_curve);
+                precision.add(row, row, 1.0 / self.readings.of_curve);
             }
         }
         let precision = precision.factor()?;
         let best = precision.solve(&self.products[..width]);
         let left = dot(&self.values, &self.values) - dot(&best, &self.products[..width]);
-        let sizes = number(width - UNKNOWN) * libm::log(self.of_curve);
+        let sizes = number(width - UNKNOWN) * libm::log(self.readings.of_curve);
         let logs = self.log_variances() + precision.log_determinant() + sizes;
         Some(Beside { best, precision, evidence: -0.5 * (left + logs) })
     }
@@ -358,7 +348,7 @@ impl Whitened {
             self.columns.iter().take(beside.best.len()).map(|one| dot(one, column)).collect();
         let along = dot(column, &self.values) - dot(&beside.best, &shared);
         let own = dot(column, column) - dot(&beside.precision.solve(&shared), &shared);
-        along * along / (own + 1.0 / self.of_curve)
+        along * along / (own + 1.0 / self.readings.of_curve)
     }
 }
 
@@ -369,8 +359,4 @@ impl Beside {
         let off = self.precision.drawn(normal);
         self.best.iter().zip(off).map(|(best, off)| best + off).collect()
     }
-}
-
-fn dot(one: &[f64], other: &[f64]) -> f64 {
-    one.iter().zip(other).map(|(one, other)| one * other).sum()
 }

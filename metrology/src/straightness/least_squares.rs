@@ -27,9 +27,9 @@ mod waves;
 use super::readings::Combined;
 use super::separated::{Separated, without_line};
 use crate::Error;
-use crate::number::number;
+use crate::number::{dot, number};
 use posterior::{affordable, posterior};
-use system::{System, dot};
+use system::System;
 
 /// Smoothness weights tried, in quarter decades: from no smoothing to nothing but a line.
 const SMOOTHNESS_TRIED: std::ops::RangeInclusive<i32> = -40..=32;

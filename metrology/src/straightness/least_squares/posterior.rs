@@ -1,9 +1,9 @@
 //! Every smoothness and every number of waves, each weighed by how probable it makes the readings.
 
 use super::super::separated::without_line;
-use super::system::{Smooth, System, dot};
+use super::system::{Smooth, System};
 use super::waves::{Prior, Search, Waves, fit};
-use crate::number::number;
+use crate::number::{dot, number};
 
 /// Most waves that are looked for.
 const MOST_WAVES: usize = 5;

@@ -126,8 +126,3 @@ fn free(row: &[(usize, f64)], places: usize) -> Vec<(usize, f64)> {
     let is_free = |place: usize| 0 < place && place < places - 1;
     row.iter().filter(|(place, _)| is_free(*place)).map(|(place, c)| (place - 1, *c)).collect()
 }
-
-/// Sum of products.
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}

@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use super::system::{Smooth, System, dot};
+use super::system::{Smooth, System};
 use crate::banded::{Banded, Factor};
-use crate::number::number;
+use crate::number::{dot, number};
 
 /// What is known of waves before anything is read.
 #[derive(Clone, Copy, Debug)]
