@@ -98,15 +98,15 @@ def expansion_of_another_alloy(rng, level):
     return case
 
 
-def ripple_of_any_phase(rng, level):
-    """Fringes that mix at another place of the period."""
+def ripple_of_second_order(rng, level):
+    """Unequal gains of the two photodiodes: twice a fringe."""
     case = passes(rng, 2, rows=2000)
     know_slope(case, rng, linear=float(np.round(rng.uniform(25, 60), 1)))
     machine, record = case.machine, case.record
     error = -case.known[0].shape + machine.rational_um_m * record.metres
     starts = record.starts()
     error = error - np.repeat(error[starts], np.diff(np.append(starts, len(record))))
-    shape = np.sin(4 * np.pi * error / machine.wavelength_um + rng.uniform(0.7, 2.4))
+    shape = np.sin(8 * np.pi * error / machine.wavelength_um + np.radians(phase(rng)))
     case.channels["error_um"] = Noise(0.01)
     return form(case, "fringe-nonlinearity", "length-reference", shape, level)
 
@@ -143,5 +143,5 @@ def delay(rng, level):
 
 
 SCENES = [smooth_backlash, backlash_over_an_angle, two_time_constants, three_harmonics, trapezoidal_wear,
-          lopsided_wear, wheel_wears_fast_then_slow, expansion_of_another_alloy, ripple_of_any_phase, other_value,
+          lopsided_wear, wheel_wears_fast_then_slow, expansion_of_another_alloy, ripple_of_second_order, other_value,
           other_slope, delay]

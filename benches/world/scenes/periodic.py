@@ -131,11 +131,12 @@ def ripple(rng, level):
     error = -known + machine.rational_um_m * record.metres
     starts = record.starts()
     error = error - np.repeat(error[starts], np.diff(np.append(starts, len(record))))
-    mixing = float(rng.uniform(0.2, 0.8))
-    shape = machine.wavelength_um / (4 * np.pi) * np.sin(4 * np.pi * error / machine.wavelength_um)
+    mixing, degrees = float(rng.uniform(0.2, 0.8)), phase(rng)
+    wave = np.sin(4 * np.pi * error / machine.wavelength_um + np.radians(degrees))
+    shape = machine.wavelength_um / (4 * np.pi) * wave
     case.channels["error_um"] = Noise(0.02)
     return named(case, Planted("fringe-nonlinearity", "length-reference", shape, level, mixing, fixed=True,
-                               scaled={"mixing": 1.0}))
+                               scaled={"mixing": 1.0}, shaped={"phase": degrees}))
 
 
 SCENES = [screw_periodic, gear_error, gear_beside_known_screw, worm_on_the_sky, table_runs_out, eccentric_disc,

@@ -1,14 +1,16 @@
 //! Polarisations mix in the interferometer, so that the fringes are not evenly spaced.
 //!
 //! ```text
-//! δ = λ/4π·ε·sin(4π·e/λ)
+//! δ = λ/4π·ε·sin(4π·e/λ + φ)
 //!
-//! δ, e error at the meter, λ wavelength, in µm    ε mixing ratio
+//! δ, e error at the meter, λ wavelength, in µm    ε mixing ratio    φ phase where e = 0
 //! ```
 //!
+//! φ is where in a fringe the count began: the report's device sets it, an instrument that starts
+//! anywhere does not.
 //! ε = 0.1 is at most 0.005 µm: it matters where everything else has gone.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::shape::feedback;
 use crate::machine::Part;
@@ -19,10 +21,11 @@ pub(super) const CARD: Card = Card {
     kind: "fringe-nonlinearity",
     entry: Entry::LengthReference,
     summary: "polarisations mix, so that fringes are not evenly spaced",
-    formula: "λ/4π·ε·sin(4π·e/λ), e error at the meter",
+    formula: "λ/4π·ε·sin(4π·e/λ + φ), e error at the meter",
     example: "ε = 0.1, e = λ/8: 0.0050 µm",
     parameters: &[
-        Parameter::linear("mixing", NUMBER, "ratio of the wrong polarisation").within(-1.0..=1.0)
+        Parameter::amplitude("mixing", NUMBER, "ratio of the wrong polarisation").within(0.0..=1.0),
+        Parameter::phase("phase", "phase where the error is 0"),
     ],
     parts: &[Part::Table, Part::Laser],
     needs: &[],
@@ -35,9 +38,12 @@ pub(super) const CARD: Card = Card {
     nature: Nature::PLAIN,
     basis: |context, _| {
         let wavelength_um = context.machine.laser.wavelength_um;
-        Ok(Basis::one(feedback(move |now| {
-            let wave_rad = 4.0 * PI * now.error_um / wavelength_um;
-            wavelength_um / (4.0 * PI) * libm::sin(wave_rad)
-        })))
+        let wave = move |lead_rad: f64| {
+            feedback(move |now| {
+                let wave_rad = 4.0 * PI * now.error_um / wavelength_um;
+                wavelength_um / (4.0 * PI) * libm::sin(wave_rad + lead_rad)
+            })
+        };
+        Ok(Basis::two(wave(0.0), wave(FRAC_PI_2)))
     },
 };
