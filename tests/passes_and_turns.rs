@@ -15,6 +15,14 @@ gear = [{ name = "rotor poles", order = 50 }]
 grating = { lines = 4096, diameter = "20 mm" }
 "#;
 
+/// A joint whose wheel turns once in a turn and a quarter.
+const JOINT: &str = r#"
+output.rotary = true
+spindle.speed = "6 rpm"
+gear = [{ name = "wheel", order = 0.8 }]
+grating = { lines = 36000, diameter = "200 mm" }
+"#;
+
 /// Rows of so many passes, of time and place each, with white noise.
 fn columns<const N: usize>(
     [passes, rows]: [u16; 2],
@@ -64,6 +72,20 @@ fn whole_waves_a_turn_need_a_whole_turn() {
     let found = motor(0.5, wave);
     assert!(names(&found).is_empty(), "{:?}", names(&found));
     assert_eq!(found.verdict, Verdict::Unexplained);
+}
+
+/// Of a shaft that turns half a turn any curve is a piece of a wave.
+#[test]
+fn a_gear_needs_a_turn_of_its_own() {
+    let named = |turns: f64| {
+        let [angle, error] = columns([1, 600], 10.0, |_, row| {
+            let at = turns * f64::from(row) / 600.0;
+            [at, 200.0 * libm::sin(TAU * 0.8 * at)]
+        });
+        let found = diagnosed_on(JOINT, vec![("angle_rev", angle), ("error_arcsec", error)]);
+        names(&found).contains(&"gear-error")
+    };
+    assert!(named(3.0) && !named(0.6));
 }
 
 /// A gear that was lifted out and put in again half a radian on between the second and third pass.

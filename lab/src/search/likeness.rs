@@ -314,13 +314,14 @@ pub(crate) fn at_one_target(problem: &Problem, component: &Component, used: &[f6
 }
 
 /// True unless an effect is one of whole waves a turn of a part of which the record has not nearly a
-/// whole turn: waves of any length follow it there.
+/// whole turn, or of a mesh of which it has not nearly a whole wave: waves of any length follow it there.
 #[must_use]
 pub(crate) fn turns_once(problem: &Problem, component: &Component) -> bool {
     let term = &component.term;
     let listed = term.parameters.iter().position(|what| what.search == Search::Whole);
     let listed = listed.map(|place| term.values[place]);
-    let Some(harmonic) = listed.or(term.nature().every_turn) else { return true };
+    let once = term.is_of_a_gear().then_some(1.0);
+    let Some(harmonic) = listed.or(term.nature().every_turn).or(once) else { return true };
     let mut turns: Vec<f64> = problem.record.turns().collect();
     turns.sort_by(f64::total_cmp);
     turns.dedup();
