@@ -41,9 +41,9 @@ fn machine(more: &str) -> Model {
 }
 
 /// Two passes at two speeds, on a day that grows warmer, with an effect in the machine.
-fn passes(effect: &str) -> Table {
+fn passes(effect: &str, noise_um: f64) -> Table {
     let mut chance = ChaCha8Rng::seed_from_u64(1977);
-    let noise = Normal::new(0.0, NOISE_UM).expect("a deviation");
+    let noise = Normal::new(0.0, noise_um).expect("a deviation");
     let mut columns: Vec<(&str, Vec<f64>)> =
         ["pass", "time_s", "position_mm", "speed_rpm", "error_um", "steps", "lead_error_um"]
             .into_iter()
@@ -111,7 +111,7 @@ const HIDDEN: [(&str, &str); 5] = [
 #[test]
 fn what_a_closed_loop_has_corrected_is_named_from_its_trace() {
     for (kind, values) in HIDDEN {
-        let table = passes(&format!("[[effect]]\nkind = '{kind}'\n{values}\n"));
+        let table = passes(&format!("[[effect]]\nkind = '{kind}'\n{values}\n"), NOISE_UM);
         let found = diagnosis(&table, &[]);
         assert_eq!(names(&found), [kind]);
         assert_eq!(found.verdict, Verdict::Explained, "{kind}: {:?}", found.residual);
@@ -122,7 +122,7 @@ fn what_a_closed_loop_has_corrected_is_named_from_its_trace() {
 /// Whatever was kept of the run, its hunting is no missing effect.
 #[test]
 fn a_loop_that_lacks_nothing_lacks_nothing() {
-    let table = passes("");
+    let table = passes("", NOISE_UM);
     let all: [&[&str]; 4] = [&[], &["steps"], &["steps", "error_um"], &["error_um"]];
     for without in all {
         let found = diagnosis(&table, without);
@@ -135,11 +135,18 @@ fn a_loop_that_lacks_nothing_lacks_nothing() {
     }
 }
 
+/// A reading is made while the motor steps: what that leaves of a run without noise is no structure.
+#[test]
+fn a_run_without_noise_lacks_nothing() {
+    let found = diagnosis(&passes("", 0.0), &[]);
+    assert_eq!(found.verdict, Verdict::NothingMissing, "{:?}", found.residual);
+}
+
 /// Without the steps, what the loop has taken out is smaller than its hunting, and no name is safe.
 #[test]
 fn what_a_loop_hides_is_not_named_wrongly() {
     for (kind, values) in [HIDDEN[0], HIDDEN[3]] {
-        let table = passes(&format!("[[effect]]\nkind = '{kind}'\n{values}\n"));
+        let table = passes(&format!("[[effect]]\nkind = '{kind}'\n{values}\n"), NOISE_UM);
         for without in [&["steps"][..], &["error_um"]] {
             let found = diagnosis(&table, without);
             let wrong = found.verdict == Verdict::Explained && names(&found) != [kind];

@@ -3,7 +3,9 @@
 use helixlock_plant::prediction::Sensor;
 
 use crate::doubts::{Doubt, doubts};
-use crate::hypotheses::{Structure, all_structures, no_all_clear, no_larger_than, taken_for_noise};
+use crate::hypotheses::{
+    Structure, above_flaws, all_structures, no_all_clear, no_larger_than, taken_for_noise,
+};
 use crate::model::{Problem, State};
 use crate::noise::{Noise, effective_samples, rms};
 use crate::numerics::{count, mean, median, spread};
@@ -111,6 +113,7 @@ fn compared(problem: &Problem) -> Comparison {
     let small = thinned.as_ref().unwrap_or(problem);
     let state = State::bare(small);
     let mut along = all_structures(small, &state.columns, &state.fit);
+    along.retain(|one| SIGNIFICANCE < one.p_value || above_flaws(small, &state.fit, one));
     let noise_p_value = along.first().map_or(1.0, |first| first.p_value);
     let by_chance = SIGNIFICANCE < noise_p_value;
     let slow = || by_chance.then(|| no_all_clear(small, &state, &[])).flatten();

@@ -24,11 +24,19 @@ pub(crate) fn least_above_hunting(problem: &Problem) -> f64 {
 
 /// True for structure larger than flaws of the formulas, of rounded logs and of a loop may make.
 #[must_use]
-pub(super) fn above_flaws(problem: &Problem, fit: &Fit, structure: &Structure) -> bool {
+pub(crate) fn above_flaws(problem: &Problem, fit: &Fit, structure: &Structure) -> bool {
     let exact = SHARE_OF_ERROR * rms(&problem.layout, &problem.residual());
-    let exact = exact.max(STANDARD_ERRORS * of_rounded_logs(problem, fit));
+    let exact = exact.max(STANDARD_ERRORS * of_rounded_logs(problem, fit)).max(of_steps(problem));
+    let size_um = structure.rms_um.min(rms(&problem.layout, &fit.left));
     // What is no effect may be any of a loop's lines.
-    exact < structure.rms_um && above_hunting(problem, SLOW_SHARE_OF_HUNTING * structure.rms_um)
+    exact < size_um && above_hunting(problem, SLOW_SHARE_OF_HUNTING * size_um)
+}
+
+/// What the motor's steps leave that are known and taken off, µm: one that is taken while a reading
+/// is made is in it by any share, half a step off on either side.
+fn of_steps(problem: &Problem) -> f64 {
+    let known = problem.measurement.covariates.contains_key("steps");
+    if known { 0.5 * problem.model.drive.step_um } else { 0.0 }
 }
 
 /// What fitted effects show too much or too little because logs were rounded, µm: as much as their

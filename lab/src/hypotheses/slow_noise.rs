@@ -3,6 +3,7 @@
 //! A noise whose correlation is as long as the pass follows any smooth curve, so that no curve is
 //! beyond chance against it. It has then been told from nothing, and nothing from it.
 
+use super::flaws::above_flaws;
 use super::probes::Structure;
 use crate::model::{Fit, Judged, Problem, State};
 use crate::noise::{Layout, Noise, effective_samples, is_surely_slow, rms, weighed_rms};
@@ -47,7 +48,8 @@ pub(crate) fn no_all_clear(
         return None;
     }
     let worth = samples_a_slow_pass(problem, &state.fit);
-    (worth < WORTH_AN_ALL_CLEAR).then(|| slow(problem, &state.fit, "a slow cause"))
+    let cause = (worth < WORTH_AN_ALL_CLEAR).then(|| slow(problem, &state.fit, "a slow cause"));
+    cause.filter(|cause| above_flaws(problem, &state.fit, cause))
 }
 
 /// What a model leaves, where that is slow only without one of the effects that were `tried` beside it:
