@@ -15,7 +15,7 @@ use super::folder::Folder;
 use super::jobs::held;
 use super::refusal::{Answered, Refusal, json};
 
-/// Lines of the file and rows of the table that are shown.
+/// Rows of the table that are shown.
 const SHOWN: usize = 8;
 
 /// Files that were dropped and are not saved yet, by the tab that did it.
@@ -189,9 +189,8 @@ fn recipe_name(data: &str) -> String {
 }
 
 fn reading_json(file: &File, proposal: &Proposal) -> ReadingJson {
-    let text = String::from_utf8_lossy(&file.bytes[..file.bytes.len().min(1 << 14)]);
     let printable =
-        |line: &str| line.chars().filter(|c| !c.is_control() || *c == '\t').take(200).collect();
+        |line: &String| line.chars().filter(|c| !c.is_control() || *c == '\t').take(200).collect();
     let table = &proposal.table;
     let row = |row: usize| table.columns.iter().map(move |column| finite(column.values[row]));
     let said: Vec<_> = proposal
@@ -211,7 +210,7 @@ fn reading_json(file: &File, proposal: &Proposal) -> ReadingJson {
         .collect();
     ReadingJson {
         name: file.name.clone(),
-        lines: text.lines().take(SHOWN).map(printable).collect(),
+        lines: proposal.beginning.iter().map(printable).collect(),
         settings: settings(&proposal.recipe),
         columns: proposal.recipe.columns.iter().map(column_json).collect(),
         targets: LOGGED_COLUMNS.iter().map(|column| column.name).collect(),

@@ -14,12 +14,15 @@ pub(crate) struct Decisions<'a> {
     pub(crate) notes: Vec<String>,
     /// Names of the columns that the file has, where it has such.
     pub(crate) headers: Vec<String>,
+    /// How the file begins.
+    pub(crate) beginning: Vec<String>,
 }
 
 impl<'a> Decisions<'a> {
     pub(crate) fn new(file: &'a str, given: &'a Recipe) -> Self {
         let made = Recipe { columns: Vec::new(), ..given.clone() };
-        Self { file, given, made, questions: Vec::new(), notes: Vec::new(), headers: Vec::new() }
+        let (questions, notes, headers, beginning) = Default::default();
+        Self { file, given, made, questions, notes, headers, beginning }
     }
 
     /// The file's name, for messages.

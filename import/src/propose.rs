@@ -22,6 +22,9 @@ use crate::rules;
 use crate::samples::samples;
 use crate::text;
 
+/// Lines of a file that show how it begins.
+const SHOWN: usize = 8;
+
 /// A file in memory.
 #[derive(Clone, Copy, Debug)]
 pub struct Source<'a> {
@@ -40,6 +43,8 @@ pub struct Proposal {
     pub questions: Vec<Question>,
     /// What the user should know.
     pub notes: Vec<String>,
+    /// How the first file begins, as a reader of its format sees it: lines of a text, rows of a sheet.
+    pub beginning: Vec<String>,
     /// The table by that recipe.
     pub table: Table,
 }
@@ -52,7 +57,7 @@ pub struct Proposal {
 pub fn propose(sources: &[Source<'_>], given: &Recipe) -> Result<Proposal, ImportError> {
     let mut recipe = given.clone();
     let (mut parts, mut questions, mut notes) = (Vec::new(), Vec::new(), Vec::new());
-    let mut headers = Vec::new();
+    let (mut headers, mut beginning) = (Vec::new(), Vec::new());
     for (index, source) in sources.iter().enumerate() {
         let mut decisions = Decisions::new(source.name, &recipe);
         let part = read(*source, &mut decisions)?;
@@ -65,11 +70,11 @@ pub fn propose(sources: &[Source<'_>], given: &Recipe) -> Result<Proposal, Impor
         headers.append(&mut decisions.headers);
         let made = decisions.made;
         if index == 0 {
-            recipe = made;
+            (recipe, beginning) = (made, decisions.beginning);
         }
     }
     all_are_there(given, &headers)?;
-    Ok(Proposal { recipe, questions, notes, table: build::joined(parts) })
+    Ok(Proposal { recipe, questions, notes, beginning, table: build::joined(parts) })
 }
 
 /// Refuses a rule for a column that no file has: what it says would be lost without a word.
@@ -124,10 +129,13 @@ fn read(source: Source<'_>, decisions: &mut Decisions<'_>) -> Result<Built, Impo
             "hdf5" => formats::hdf5::grid(source.bytes, decisions)?,
             _ => formats::parquet::grid(source.name, source.bytes)?,
         };
+        let line = |row: usize| grid.cells_of(row).collect::<Vec<_>>().join("\t");
+        decisions.beginning = (0..grid.rows().min(SHOWN)).map(line).collect();
         return understand(&grid, '.', decisions);
     }
     let content = encoding::decode(source.bytes, decisions)?;
     let lines = text::lines(&content);
+    decisions.beginning = lines.iter().take(SHOWN).map(|line| (*line).to_owned()).collect();
     let format = decisions.text("file", "format", || {
         let (format, reason) = formats::textual(source.name, &lines);
         (format.into(), reason.into())

@@ -77,8 +77,7 @@ function render(root, page, reading) {
     columns(reading, otherwise),
     settings(reading.settings, otherwise),
     reading.notes.length ? make("ul", {}, reading.notes.map((note) => make("li", {}, note))) : null,
-    make("h3", {}, t("measurement.lines")),
-    make("pre", { tabindex: 0 }, reading.lines.join("\n")),
+    ...(reading.lines.length ? [make("h3", {}, t("measurement.lines")), make("pre", { tabindex: 0 }, reading.lines.join("\n"))] : []),
     table(t("measurement.table"), reading.names.map((name) => make("code", {}, name)), reading.first.map((row) => row.map((value) => number(value, 7))), reading.names.map((_, index) => index)),
     make("details", {}, make("summary", {}, t("measurement.recipe")), make("pre", { tabindex: 0 }, reading.recipe)),
   ].filter(Boolean));
