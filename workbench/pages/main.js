@@ -1,7 +1,7 @@
 // The page: its screens, its files, its language.
 
 import { app, get, Refused, sameKeys } from "./api.js";
-import { showMessage, wireJobs } from "./jobs.js";
+import { showLine, showMessage, wireJobs } from "./jobs.js";
 import { sayer } from "./said.js";
 import { applyWords, currentLanguage, loadWords, setLanguage, t } from "./words.js";
 import * as device from "./device.js";
@@ -73,6 +73,8 @@ async function show(name) {
     element(tab.getAttribute("aria-controls")).hidden = !own;
   }
   element(name).replaceChildren();
+  // A command is that of the screen it was begun on.
+  showLine("");
   await page.attempt(() => screens[name].show(element(name), page));
 }
 

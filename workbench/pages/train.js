@@ -6,7 +6,8 @@
 import { drawn, make } from "./make.js";
 import { t } from "./words.js";
 
-const LEFT = 120; // room for what a shaft is called
+const LETTER = 9; // widest that is usual
+const BESIDE = 24; // from what a shaft is called to its first wheel
 const COLUMN = 34;
 const LARGEST = 40; // radius of the largest wheel
 const SMALLEST = 12;
@@ -28,10 +29,13 @@ export function shaftsOf(gears, screwOrder) {
   return shafts;
 }
 
+const called = ({ order, says }) => [...says, `×${Number(order.toPrecision(4))}`].join(" ");
+
 // The meshes by which each shaft is reached from those before it, and where everything stands.
 function placed(shafts) {
   const most = Math.max(1, ...shafts.flatMap((shaft) => shaft.wheels.map((wheel) => wheel.teeth ?? 1)));
   const radius = (wheel) => Math.max(SMALLEST, (LARGEST * (wheel.teeth ?? 1)) / most);
+  const left = BESIDE + LETTER * Math.max(...shafts.map((shaft) => called(shaft).length));
   let column = 0;
   let bottom = 0;
   const reach = (shaft) => shaft.wheels.map(radius);
@@ -40,7 +44,7 @@ function placed(shafts) {
     bottom = Math.max(bottom, y + Math.max(SMALLEST, ...reach(shaft)));
     for (const mine of shaft.wheels) {
       mine.radius = radius(mine);
-      mine.x ??= LEFT + COLUMN * column++;
+      mine.x ??= left + COLUMN * column++;
       for (const other of shafts.filter((one) => one.y == null)) {
         const theirs = other.wheels.find((wheel) => mine.teeth && wheel.teeth && same(mine.order * mine.teeth, wheel.order * wheel.teeth));
         if (!theirs) continue;
@@ -52,17 +56,17 @@ function placed(shafts) {
   for (const shaft of shafts) {
     if (shaft.y == null) stand(shaft, bottom + (bottom ? APART : 0) + Math.max(SMALLEST, ...reach(shaft)));
   }
-  return { width: LEFT + COLUMN * Math.max(1, column), height: bottom };
+  return { left, width: left + COLUMN * Math.max(1, column), height: bottom };
 }
 
 // Numbers on the wheels are those of the table's rows.
 export function train(gears, screwOrder) {
   const shafts = shaftsOf(gears, screwOrder);
-  const { width, height } = placed(shafts);
+  const { left, width, height } = placed(shafts);
   const drawing = drawn("svg", { class: "train", width: width + 8, height: height + 8, role: "img", "aria-label": t("machine.train", { n: shafts.length }) });
-  for (const { order, says, wheels, y } of shafts) {
-    drawing.append(drawn("line", { x1: LEFT - 14, x2: width, y1: y + 4, y2: y + 4 }));
-    drawing.append(drawn("text", { x: 0, y: y + 8 }, [...says, `×${Number(order.toPrecision(4))}`].join(" ")));
+  for (const { wheels, y, ...shaft } of shafts) {
+    drawing.append(drawn("line", { x1: left - 14, x2: width, y1: y + 4, y2: y + 4 }));
+    drawing.append(drawn("text", { x: 0, y: y + 8 }, called(shaft)));
     for (const { x, radius, number } of wheels) {
       drawing.append(drawn("rect", { x: x - 9, y: y + 4 - radius, width: 18, height: 2 * radius, rx: 2 }));
       drawing.append(drawn("text", { x, y: y + 8, class: "wheel" }, String(number)));
