@@ -13,6 +13,8 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, Normal};
 
+use crate::support::seeds::cases;
+
 /// 72 mm of the 6 mm screw; the drift of its own screw is known.
 const MACHINE: &str = r#"
 workpiece = { lead = "6 mm", length = "72 mm", expansion = "11.5 ppm/K" }
@@ -110,10 +112,10 @@ const HIDDEN: [(&str, &str); 5] = [
 /// With the steps in the file, the loop hides nothing.
 #[test]
 fn what_a_closed_loop_has_corrected_is_named_from_its_trace() {
-    for (kind, values) in HIDDEN {
+    for (kind, values) in cases(3, &HIDDEN) {
         let table = passes(&format!("[[effect]]\nkind = '{kind}'\n{values}\n"), NOISE_UM);
         let found = diagnosis(&table, &[]);
-        assert_eq!(names(&found), [kind]);
+        assert_eq!(names(&found), [*kind]);
         assert_eq!(found.verdict, Verdict::Explained, "{kind}: {:?}", found.residual);
         assert!((found.noise_um - NOISE_UM).abs() < 0.2 * NOISE_UM, "{kind}: {}", found.noise_um);
     }
@@ -145,11 +147,11 @@ fn a_run_without_noise_lacks_nothing() {
 /// Without the steps, what the loop has taken out is smaller than its hunting, and no name is safe.
 #[test]
 fn what_a_loop_hides_is_not_named_wrongly() {
-    for (kind, values) in [HIDDEN[0], HIDDEN[3]] {
+    for (kind, values) in cases(1, &[HIDDEN[0], HIDDEN[3]]) {
         let table = passes(&format!("[[effect]]\nkind = '{kind}'\n{values}\n"), NOISE_UM);
         for without in [&["steps"][..], &["error_um"]] {
             let found = diagnosis(&table, without);
-            let wrong = found.verdict == Verdict::Explained && names(&found) != [kind];
+            let wrong = found.verdict == Verdict::Explained && names(&found) != [*kind];
             assert!(!wrong, "{kind} without {without:?}: {:?}", names(&found));
         }
     }

@@ -22,7 +22,7 @@ use stimulus::{Stimulus, dense, realistic};
 use verilator::Program;
 
 /// Clocks that Verilator and the engine run side by side; `HELIXLOCK_LOCKSTEP_CLOCKS` overrides.
-const CLOCKS: u64 = 2_000_000;
+const CLOCKS: u64 = 1_000_000;
 
 /// Records after which a simulator hands over its answers.
 const BATCH: usize = 4096;

@@ -357,6 +357,7 @@ fn many(rows: u32) -> TempDir {
 }
 
 #[test]
+#[ignore = "measures time: alone, on a quiet machine"]
 fn three_hundred_thousand_samples_pan_and_zoom_below_fifty_milliseconds_a_frame() {
     let bench = many(300_000);
     story("pans", &Server::over(bench.path()), &[]);
@@ -365,6 +366,7 @@ fn three_hundred_thousand_samples_pan_and_zoom_below_fifty_milliseconds_a_frame(
 /// Processor time of server and browser together, which is no less than what a user waits for on a
 /// machine that does nothing else; docs/performance.md states both.
 #[test]
+#[ignore = "measures time: alone, on a quiet machine"]
 fn five_million_samples_open_in_ten_seconds() {
     let bench = many(5_000_000);
     let server = Server::over(bench.path());
@@ -420,11 +422,11 @@ fn one_click_mends_a_mistake() {
         ("thermal-day", changed("thermal-day", renamed, column, of))
     };
     let mut mistakes = vec![
-        ("sign", gear(|value| -value)),
         ("unit", day(&[], "air_temperature_c", |value| 1.8 * value + 32.0)),
         ("swap", day(&celsius, "", |value| value)),
     ];
     if all() {
+        mistakes.push(("sign", gear(|value| -value)));
         mistakes.push(("unit", gear(|value| 1000.0 * value)));
     }
     let truth = |name: &str| effects_in(&example(name), "data.csv");

@@ -13,6 +13,7 @@ use super::compare::write_log;
 use super::line::{Line, Speaker};
 use super::rig::{Board, Gates, grind};
 use crate::support::command::{helixlock, repository, scratch, word};
+use crate::support::seeds::cases;
 
 /// The bitstream's own, and two others.
 const MACHINES: [&str; 3] = [
@@ -70,12 +71,12 @@ fn periods(gates: &Gates<'_>, since: u64) -> Vec<u64> {
 }
 
 #[test]
-fn one_bitstream_runs_three_machines() {
+fn one_bitstream_runs_several_machines() {
     let board = Board::of_bitstream(MACHINES[2], "icebreaker", &WORDS[2..]);
     let mut gates = board.start(0);
     let mut line = Line::default();
     gates.run_until(1000);
-    for machine in MACHINES {
+    for machine in cases(2, &MACHINES) {
         let output = set(&mut gates, &mut line, machine);
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
 

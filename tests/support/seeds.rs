@@ -4,6 +4,14 @@ use std::ops::Range;
 
 /// The first few seeds; with `HELIXLOCK_SEEDS=all` so many.
 pub(crate) fn seeds(few: u64, all: u64) -> Range<u64> {
-    let asked = std::env::var("HELIXLOCK_SEEDS").is_ok_and(|which| which == "all");
-    0..if asked { all } else { few }
+    0..if all_are_asked() { all } else { few }
+}
+
+/// The first few cases; with `HELIXLOCK_SEEDS=all` every one.
+pub(crate) fn cases<T>(few: usize, all: &[T]) -> &[T] {
+    if all_are_asked() { all } else { &all[..few] }
+}
+
+fn all_are_asked() -> bool {
+    std::env::var("HELIXLOCK_SEEDS").is_ok_and(|which| which == "all")
 }

@@ -17,7 +17,7 @@ use xtask::setup::Tools;
     after_help = "Compiled when asked for, each with --help: prove, icarus, same-output, sbom"
 )]
 enum Task {
-    /// Install what is missing of tools; then format, lints, documentation, all tests and the Python package
+    /// Format, lints, documentation, all tests and the Python package; what is missing of tools is installed meanwhile
     Check {
         /// Say what is missing and stop
         #[arg(long)]
@@ -30,7 +30,8 @@ enum Task {
 
 /// Exit status: 0 good, 1 not good, 2 it cannot be told.
 fn main() -> ExitCode {
-    match run(Task::parse(), &mut std::io::stdout().lock()) {
+    // Not locked: what is installed meanwhile is said there too.
+    match run(Task::parse(), &mut std::io::stdout()) {
         Ok(status) => ExitCode::from(status),
         Err(error) => {
             // Nothing is left to tell the user if this fails too.
@@ -75,11 +76,14 @@ const DOCUMENTATION: &[&str] =
 /// Runs the checks up to the first that fails.
 fn check(root: &Path, no_install: bool, out: &mut impl Write) -> anyhow::Result<bool> {
     let tools = Tools::of(root);
-    tools.prepare(!no_install, out)?;
+    if no_install {
+        tools.prepare(false)?;
+    }
     let path = tools.path()?;
     // Packages are fetched while the processors compile; the tests, which wait for browsers and boards, leave
     // time for Python and the documentation.
-    let passed = both(|| cargo_checks(&path), || python::install(root, &path))?
+    let installed = || tools.prepare(true).and_then(|()| python::install(root, &path));
+    let passed = both(|| cargo_checks(&path), installed)?
         && both(
             || cargo(&path, TESTS),
             || Ok(python::check(root, &path)? && cargo(&path, DOCUMENTATION)?),

@@ -38,14 +38,14 @@ impl Tools {
     /// # Errors
     ///
     /// When one is missing and may not or cannot be installed.
-    pub fn prepare(&self, install: bool, out: &mut impl Write) -> anyhow::Result<()> {
+    pub fn prepare(&self, install: bool) -> anyhow::Result<()> {
         let missing: Vec<_> = PACKAGES.iter().filter(|package| !self.has(package)).collect();
         match plan(&missing, self.rights(), install) {
             Plan::Ready => Ok(()),
             Plan::Refuse(message) => bail!(message),
             Plan::Install(commands) => {
                 for words in commands {
-                    self.install(&words, out)?;
+                    self.install(&words)?;
                 }
                 let missing = missing.into_iter().find(|package| !self.has(package));
                 match missing {
@@ -88,7 +88,8 @@ impl Tools {
         }
     }
 
-    fn install(&self, words: &[String], out: &mut impl Write) -> anyhow::Result<()> {
+    fn install(&self, words: &[String]) -> anyhow::Result<()> {
+        let mut out = std::io::stdout();
         writeln!(out, "installing: {}", words.join(" "))?;
         out.flush()?;
         let mut command = Command::new(&words[0]);
