@@ -115,6 +115,20 @@ fn every_screen_of_the_workbench_is_whole_on_paper() {
     }
 }
 
+/// A telephone shows a part of what is wide, and that it goes on.
+#[test]
+fn nothing_is_cut_on_a_telephone_without_a_sign() {
+    let folder = scratch();
+    let (out, out_word) = word(&folder, "out");
+    let words: Vec<&str> = PRINTED[2].split(' ').chain(["-o", &out_word]).collect();
+    assert_eq!(helixlock(&words).status, 0);
+    let shown = driver("phone.mjs").arg(out.join("report.html")).output().expect("`node` starts");
+    assert!(shown.status.success(), "{}", String::from_utf8_lossy(&shown.stderr));
+    let found: serde_json::Value = serde_json::from_slice(&shown.stdout).expect("JSON");
+    assert!(4 < found["scrolled"].as_u64().expect("a count"), "{found}");
+    assert_eq!((&found["cut"], &found["over"]), (&serde_json::json!([]), &serde_json::json!(0)));
+}
+
 #[test]
 fn no_heading_stands_last_on_a_sheet() {
     let mut printed = 0;

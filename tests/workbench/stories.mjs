@@ -278,6 +278,10 @@ function unreadable(chinese) {
     const own = element.closest("code, pre, textarea, option, bdi, svg, .peak, [lang=en]");
     if (chinese && !own && /[A-Za-z]{4,}/.test(text) && !/[\u4e00-\u9fff]/.test(text) && text !== "helixlock") found.push(`English: ${text}`);
   }
+  for (const part of document.querySelectorAll(".scroll")) {
+    const hidden = part.scrollWidth - part.clientWidth;
+    if (window.innerWidth < 721 && 0 < hidden && getComputedStyle(part).maskImage === "none") found.push(`${hidden} px cut without a sign`);
+  }
   const over = document.documentElement.scrollWidth - window.innerWidth;
   if (over > 0) found.push(`${over} px too wide`);
   for (const button of document.querySelectorAll("button, select, input")) {
