@@ -42,6 +42,8 @@ pub(crate) fn page(problem: &Problem, comparison: &Comparison) -> Page {
             "Above, what the model leaves, each pass about its own zero. Below, its spectrum; \
              lines that the machine file cannot name carry a question mark.",
         ));
+        let aliased = spectrum::aliased(&comparison.lines, &sensor.spectrum, index);
+        parts.extend(aliased.map(Part::Text));
     }
     parts.push(Part::Heading("Where it fails".into()));
     parts.push(Part::Table(along(comparison, unit)));

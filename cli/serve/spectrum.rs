@@ -1,11 +1,11 @@
 //! The spectrum of a residual, with names only where there is a peak to carry them.
 
-use helixlock_lab::{Problem, amplitude_spectrum, lines_left};
+use helixlock_lab::{NamedLine, Problem, amplitude_spectrum, lines_left};
 use serde::Serialize;
 
 use super::opened::Opened;
 use super::refusal::{Answered, json};
-use crate::shared::spectrum::top_near;
+use crate::shared::spectrum::{beyond, top_near};
 
 /// Most names in a picture.
 const MOST: usize = 8;
@@ -15,6 +15,9 @@ struct SpectrumJson {
     /// Order and amplitude.
     points: Vec<[f64; 2]>,
     peaks: Vec<PeakJson>,
+    /// Lines beyond the points, which peaks may be aliases of: what the machine file calls them,
+    /// and their orders.
+    beyond: Vec<(Option<String>, f64)>,
 }
 
 /// A drawn peak with its name.
@@ -56,12 +59,14 @@ pub(crate) fn spectrum(opened: &Opened, sensor: usize) -> Answered {
         .into_iter()
         .filter(|[order, _]| *order <= problem.highest_order())
         .collect();
-    let peaks = peaks(problem, sensor, &points);
-    json(&SpectrumJson { points, peaks })
+    let lines = lines_left(problem);
+    let beyond = beyond(&lines, &points, sensor);
+    let beyond = beyond.map(|line| (line.name.clone(), line.line.frequency)).collect();
+    let lines = lines.iter().filter(|line| line.sensor == sensor).cloned();
+    json(&SpectrumJson { peaks: peaks(lines, &points), beyond, points })
 }
 
-fn peaks(problem: &Problem, sensor: usize, points: &[[f64; 2]]) -> Vec<PeakJson> {
-    let lines = lines_left(problem).into_iter().filter(|line| line.sensor == sensor);
+fn peaks(lines: impl Iterator<Item = NamedLine>, points: &[[f64; 2]]) -> Vec<PeakJson> {
     let mut peaks: Vec<PeakJson> = Vec::new();
     for line in lines {
         let Some([order, amplitude]) = top_near(points, line.line.frequency) else { continue };

@@ -39,6 +39,28 @@ fn labels(lines: &[NamedLine], drawn: &[[f64; 2]], sensor: usize, rotary: bool) 
     lines.into_iter().filter_map(label).take(MOST).collect()
 }
 
+/// What to say of lines of one sensor beyond the orders drawn, which peaks may be aliases of.
+pub(crate) fn aliased(lines: &[NamedLine], drawn: &[[f64; 2]], sensor: usize) -> Option<String> {
+    let of: Vec<_> = beyond(lines, drawn, sensor)
+        .map(|line| {
+            let name = line.name.as_deref().unwrap_or("a line");
+            format!("{name} at order {:.3}", line.line.frequency)
+        })
+        .collect();
+    let said = || format!("Peaks may be aliases of {}, beyond the orders drawn.", of.join(", "));
+    (!of.is_empty()).then(said)
+}
+
+/// Lines of one sensor at orders beyond those drawn.
+pub(crate) fn beyond<'a>(
+    lines: &'a [NamedLine],
+    drawn: &[[f64; 2]],
+    sensor: usize,
+) -> impl Iterator<Item = &'a NamedLine> {
+    let last = drawn.last().map_or(f64::INFINITY, |point| point[0]);
+    lines.iter().filter(move |line| line.sensor == sensor && last < line.line.frequency)
+}
+
 /// The highest local maximum near an order.
 pub(crate) fn top_near(points: &[[f64; 2]], order: f64) -> Option<[f64; 2]> {
     let tops =

@@ -184,7 +184,7 @@ async function curve(root, words, unit) {
 
 // The spectrum with names at its peaks.
 async function spectrum(root, words, unit) {
-  const { points, peaks } = await get("spectrum", words);
+  const { points, peaks, beyond } = await get("spectrum", words);
   if (points.length < 3) return;
   const chart = new Chart(root, { title: t("fails.spectrum"), x: t("fails.orders"), y: unit, lines: [
     { label: t("fails.amplitude"), colour: "blue", curves: [curveOf(points)] },
@@ -194,6 +194,10 @@ async function spectrum(root, words, unit) {
   chart.after = (plot) => label(chart, plot, peaks, text);
   label(chart, chart.plot, peaks, text);
   if (look.without.size) root.append(make("p", { class: "dim" }, t("fails.all_passes")));
+  if (beyond.length) {
+    const lines = beyond.map(([name, order]) => `${name ?? "?"} ${number(order, 3)}`);
+    root.append(make("p", { id: "aliased", class: "dim" }, t("fails.aliased", { lines: lines.join(", ") })));
+  }
   if (peaks.length) {
     const rows = peaks.map((peak) => [number(peak.order), number(peak.amplitude), peak.name ? make("bdi", {}, peak.name) : t("fails.nameless")]);
     root.append(table(t("fails.peaks"), [t("fails.order"), t("fails.amplitude_in", { unit }), t("fails.name")], rows, [0, 1]));
