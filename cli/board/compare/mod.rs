@@ -21,6 +21,7 @@ use self::told::Told;
 use super::log::Scale;
 use crate::shared::board_design::Front;
 use crate::shared::output::print_json;
+use crate::shared::progress;
 
 /// Find the first clock at which a board does not do what its logic says
 ///
@@ -62,7 +63,10 @@ impl Compare {
         let netlist = Netlist::new(&self.front.model(&dialled.settings, &conditioning)?)?;
         let capture = read_capture(&self.log)?;
         let log = PinLog::new(&capture, &netlist, &board, conditioning.active_low)?;
-        let outcome = run::compare(&Circuit::new(netlist), &log).context("the model")?;
+        let bar = progress::bar(log.clocks, "clocks");
+        let outcome = run::compare(&Circuit::new(netlist), &log, |clock| bar.set_position(clock))
+            .context("the model")?;
+        bar.finish_and_clear();
         let scale = Scale::new(&machine, machine.fpga.clock_hz);
         let told = Told::new(&outcome, &log, &scale, machine.drive.step_um);
         if self.json {

@@ -33,9 +33,15 @@ pub(super) struct Difference {
 }
 
 /// Runs the model on the log's inputs to the first difference, and to the end of that comparison.
-pub(super) fn compare(circuit: &Circuit, log: &PinLog) -> anyhow::Result<Outcome> {
+///
+/// `progress` is told the clock it has come to.
+pub(super) fn compare(
+    circuit: &Circuit,
+    log: &PinLog,
+    progress: impl FnMut(u64),
+) -> anyhow::Result<Outcome> {
     let mut pair = Pair::new(circuit, log)?;
-    pair.run();
+    pair.run(progress);
     Ok(pair.outcome)
 }
 
@@ -94,7 +100,7 @@ impl<'a> Pair<'a> {
         })
     }
 
-    fn run(&mut self) {
+    fn run(&mut self, mut progress: impl FnMut(u64)) {
         let mut watched = self.engine.netlist().outputs.clone();
         watched.push(self.opening);
         self.engine.watch(&watched);
@@ -117,6 +123,7 @@ impl<'a> Pair<'a> {
             }
             let next = changes.peek().map_or(log.clocks, |change| change.clock);
             self.engine.run_until(next.min(log.clocks));
+            progress(self.engine.clock());
         }
     }
 
