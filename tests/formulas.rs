@@ -47,6 +47,8 @@ fn where_a_name_explains_no_formula_is_proposed() {
     let run = helixlock(&["discover", files[0], files[1], "-o", &new]);
     assert_eq!((run.status, run.stderr.as_str()), (1, ""));
     assert!(run.stdout.starts_with("verdict: explained-by-name\n"), "{}", run.stdout);
+    let next = format!("\nnext: helixlock diagnose {} {}\n", files[0], files[1]);
+    assert!(run.stdout.ends_with(&next), "{}", run.stdout);
     assert!(!path.exists());
 }
 

@@ -65,17 +65,21 @@ impl Discover {
             print_page(out, self.page.as_deref())?;
             if let Some(path) = self.output.as_ref().filter(|_| !written) {
                 writeln!(out, "{}: not written, for nothing is proposed", path.display())?;
-            } else if !discovery.proposals.is_empty() {
-                self.print_next(out)?;
             }
+            self.print_next(out, &discovery)?;
         }
         let doubted = discovery.found == Found::DoubtfulInput;
         Ok(if doubted || !written { ExitCode::from(1) } else { ExitCode::SUCCESS })
     }
 
-    /// A proposal is written, and then held against the data.
-    fn print_next(&self, out: &mut impl Write) -> anyhow::Result<()> {
+    /// A proposal is written, and then held against the data; names are told with their evidence.
+    fn print_next(&self, out: &mut impl Write, discovery: &Discovery) -> anyhow::Result<()> {
         let mut words = self.files.words();
+        if discovery.proposals.is_empty() {
+            let named = discovery.found == Found::Name;
+            let next = named.then(|| Next::command("diagnose").words(words));
+            return next.map_or(Ok(()), |next| next.print(out));
+        }
         if let Some(path) = &self.output {
             words[0] = path.as_os_str();
             return Next::command("compare").words(words).print(out);
