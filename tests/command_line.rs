@@ -199,6 +199,22 @@ fn every_subcommand_helps_and_refuses_what_it_does_not_know() {
     }
 }
 
+#[test]
+fn the_manual_names_no_page_that_it_lacks() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let run = helixlock(folder.path(), &["man", "-o", "man"]);
+    assert_eq!(run.status.code(), Some(0), "{}", error(&run));
+    let pages = folder.path().join("man");
+    for (page, other) in
+        [("helixlock", "helixlock-sim"), ("helixlock-board", "helixlock-board-set")]
+    {
+        let text = std::fs::read_to_string(pages.join(format!("{page}.1"))).expect("a page");
+        let text = text.replace('\\', "");
+        assert!(text.contains(&format!("{other}(1)")), "{text}");
+        assert!(!text.contains("-help(1)"), "{page}");
+    }
+}
+
 /// `helixlock … | head -1` is no error.
 #[test]
 fn a_reader_that_leaves_early_is_no_error() {

@@ -23,6 +23,7 @@ impl Manual {
         mut helixlock: clap::Command,
         out: &mut impl Write,
     ) -> anyhow::Result<ExitCode> {
+        helixlock = without_help(helixlock);
         helixlock.build(); // gives every subcommand its whole name
         let Some(folder) = self.output else {
             Man::new(helixlock).render(out)?;
@@ -36,10 +37,15 @@ impl Manual {
     }
 }
 
+/// Without the subcommands `help`, which have no page to refer to.
+fn without_help(command: clap::Command) -> clap::Command {
+    command.disable_help_subcommand(true).mut_subcommands(without_help)
+}
+
 /// A page for the command, then for those below it.
 fn write_pages(command: &clap::Command, batch: &mut Batch) -> anyhow::Result<()> {
     let man = Man::new(command.clone());
     batch.write(&man.get_filename(), |file| Ok(man.render(file)?))?;
-    let below = command.get_subcommands().filter(|command| command.get_name() != "help");
-    below.filter(|command| !command.is_hide_set()).try_for_each(|below| write_pages(below, batch))
+    let mut below = command.get_subcommands().filter(|command| !command.is_hide_set());
+    below.try_for_each(|below| write_pages(below, batch))
 }
