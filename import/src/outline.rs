@@ -1,5 +1,7 @@
 //! Where in a grid the header stands, and where the rows of data are.
 
+use std::ops::Range;
+
 use crate::data;
 use crate::decide::Decisions;
 use crate::error::{ImportError, quoted};
@@ -8,6 +10,40 @@ use crate::instant::is_instant;
 use crate::number::{MISSING, Reading, read};
 use crate::place::Place;
 use crate::runs;
+
+/// What rows that sum a table up begin with.
+const SUMMARIES: [&str; 30] = [
+    "mean",
+    "average",
+    "avg",
+    "median",
+    "min",
+    "minimum",
+    "max",
+    "maximum",
+    "sum",
+    "total",
+    "range",
+    "std",
+    "std dev",
+    "stdev",
+    "standard deviation",
+    "mittelwert",
+    "mittel",
+    "durchschnitt",
+    "summe",
+    "spannweite",
+    "standardabweichung",
+    "平均",
+    "平均值",
+    "最大",
+    "最大值",
+    "最小",
+    "最小值",
+    "标准差",
+    "合计",
+    "极差",
+];
 
 /// Rows of names and units, and stretches of rows of data.
 #[derive(Clone, Debug)]
@@ -65,7 +101,12 @@ pub(crate) fn outline(
         .take(header)
         .collect();
     let body = filled.last().map_or(preamble, |last| last + 1);
-    let blocks = looks.blocks(body, found.width, &filled)?;
+    let end = looks.end(body);
+    if end < grid.rows() {
+        let first = quoted(looks.first_filled(end).map_or("", |(_, cell)| cell));
+        decisions.note(format!("left out below the table, from {first} on: it sums the table up"));
+    }
+    let blocks = looks.blocks(body..end, found.width, &filled)?;
     Ok(Outline { header: filled, blocks, preamble: (0..preamble).collect(), width: found.width })
 }
 
@@ -234,16 +275,35 @@ impl Looks<'_> {
         format!("{rows} {lines} above the table, from {}", quoted(self.grid.cell(first, 0)))
     }
 
+    /// The row behind the data: above the rows at the end that sum the table up, if there are any.
+    fn end(&self, body: usize) -> usize {
+        let filled = (body..self.grid.rows()).rev().filter(|row| !self.grid.is_blank(*row));
+        filled.take_while(|row| self.sums_up(*row, body)).last().unwrap_or(self.grid.rows())
+    }
+
+    /// A word such as `Mittelwert` in a column of other things than words.
+    fn sums_up(&self, row: usize, body: usize) -> bool {
+        self.first_filled(row).is_some_and(|(at, cell)| {
+            let word = cell.trim_end_matches([':', '：', '.']).to_lowercase();
+            SUMMARIES.contains(&word.as_str()) && self.look(self.grid.cell(body, at)) != Look::Words
+        })
+    }
+
+    fn first_filled(&self, row: usize) -> Option<(usize, &str)> {
+        let mut cells = self.grid.cells_of(row).map(str::trim).enumerate();
+        cells.find(|(_, cell)| !cell.is_empty())
+    }
+
     /// Rows of data, and what interrupts them.
     fn blocks(
         &self,
-        body: usize,
+        body: Range<usize>,
         width: usize,
         header: &[usize],
     ) -> Result<Vec<Block>, ImportError> {
         let mut blocks = vec![Block { heading: self.heading_above(header), rows: Vec::new() }];
         let mut pending: Option<String> = None;
-        for row in body..self.grid.rows() {
+        for row in body {
             if self.is_separator(row, header) {
                 let text: Vec<&str> =
                     self.grid.cells_of(row).filter(|cell| !cell.is_empty()).collect();

@@ -62,6 +62,24 @@ fn a_fraction_without_a_whole_part_tells_the_decimal_sign() {
     }
 }
 
+/// Rows below a table that sum it up are no data, and are told of; units know no case.
+#[test]
+fn what_sums_a_table_up_is_left_out() {
+    let header = "Position [mm];Fehler [um];Temp. Werkstück [c];Luftdruck [HPA]";
+    let table = file(header, |index| format!("{}.5;1.5;20.5;1013.5", 10 * index));
+    let whole = proposed(&table, "");
+    let proposal =
+        proposed(&format!("{table}\nMittelwert:;1.5;20.5;1013.5\nMax;1.5;20.5;1013.5\n"), "");
+    assert_eq!(format!("{:?}", proposal.table), format!("{:?}", whole.table));
+    assert_eq!(
+        proposal.notes,
+        ["left out below the table, from `Mittelwert:` on: it sums the table up"]
+    );
+    for name in ["workpiece_temperature_c", "air_pressure_hpa"] {
+        assert!(proposal.table.column(name).is_some(), "{name}");
+    }
+}
+
 /// A counter of rows in the column of the runs would take every reading for a run of its own.
 #[test]
 fn a_counter_of_rows_is_no_run() {
