@@ -132,10 +132,10 @@ fn own_text(shown: &str, folder: &str, titles: &str) -> String {
     Regex::new(&own).expect("a pattern").replace_all(shown, "").into_owned()
 }
 
-/// Titles of all machine files of the examples, as a pattern.
+/// Titles of all machine files of the examples, and names of their gears, as a pattern.
 fn titles() -> String {
     let files = below(&repository().join("examples"), &["toml"]);
-    let title = Regex::new(r#"(?m)^title = "(.*)""#).expect("a pattern");
+    let title = Regex::new(r#"(?m)^(?:title|name) = "(.*)""#).expect("a pattern");
     let found = files.iter().flat_map(|path| {
         let text = read(path);
         let titles = title.captures_iter(&text).map(|found| regex::escape(&found[1]));

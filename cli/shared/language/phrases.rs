@@ -222,6 +222,35 @@ mod tests {
     }
 
     #[test]
+    fn what_import_says_of_a_place_in_a_table_is_known() {
+        let told = include_str!("../../../import/tests/expected/broken.txt");
+        let lines = told.lines().filter(|line| line.starts_with("german.csv:"));
+        let found: Vec<_> = lines.filter(|line| line[11..].starts_with(char::is_numeric)).collect();
+        assert!(15 < found.len(), "{found:?}");
+        for line in found {
+            let own = ["german", "csv", "UTF"];
+            let mut left = english(&chinese(line));
+            left.retain(|word| !own.contains(&word.as_str()));
+            assert!(left.is_empty(), "{line}: {left:?}");
+        }
+    }
+
+    /// A machine's owner calls its gears what they like.
+    #[test]
+    fn the_name_of_a_gear_stays_as_it_was_written() {
+        assert_eq!(chinese("mesh of change gear 1"), "change gear 1 的啮合");
+        assert_eq!(chinese("change gear 1"), "change gear 1");
+        assert_eq!(
+            chinese("or each way its own line along direction: evidence 7 behind"),
+            "或沿方向的两个方向各有一条直线：证据落后 7"
+        );
+        assert_eq!(
+            chinese("proposal: sawtooth along angle of `time`"),
+            "建议公式：沿`time` 的转角的锯齿"
+        );
+    }
+
+    #[test]
     fn holes_hold_phrases_names_and_numbers() {
         let left = "left: smooth curve along time at 3.5000, 0.5000 µm rms, p = 0.010";
         assert_eq!(
