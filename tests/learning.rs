@@ -258,6 +258,19 @@ fn turned(machine: &Path, data: &Path) {
     put(data, &text);
 }
 
+/// What an effect's nonlinear values begin with is no value of it: a width of 0 has none.
+#[test]
+fn effects_of_any_shape_can_be_added() {
+    let folder = scratch();
+    for kind in ["screw-wear", "headstock-growth", "fringe-slip"] {
+        let (_, new) = word(&folder, &format!("{kind}.toml"));
+        let [machine, data] =
+            ["machine.toml", "data.csv"].map(|file| format!("examples/hidden-gear/{file}"));
+        let run = helixlock(&["add", &machine, kind, "--fit", &data, "-o", &new]);
+        assert!(run.status < 2, "{kind}: {}", run.stderr);
+    }
+}
+
 /// With `--refit` the effects of the file give way; without, they stay as they are.
 #[test]
 fn a_refit_moves_the_effects_of_the_file() {

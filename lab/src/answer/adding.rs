@@ -35,7 +35,10 @@ pub struct Added {
 /// has a value somewhere that no machine could follow.
 pub fn add(problem: &Problem, beside: &[Term], term: &Term) -> Result<Option<Added>, EffectError> {
     problem.design(term)?;
-    problem.must_be_in_reach(term)?;
+    // Nonlinear values of the catalogue are looked for: what a term begins with is no value.
+    if is_own(term) || term.nonlinear().is_empty() {
+        problem.must_be_in_reach(term)?;
+    }
     let before = State::bare(problem);
     let others: Vec<Component> = beside.iter().cloned().map(Component::new).collect();
     let columns = Columns::of(problem, &others)?;
