@@ -1,8 +1,11 @@
 //! Standard errors of a formula's parameters from the likelihood itself, which steps and relays
 //! have and slopes of theirs have not.
 
+use helixlock_plant::Column;
+
 use crate::hypotheses::Likelihood;
 use crate::model::{Problem, State};
+use crate::noise::{about_means, rms};
 
 /// Strongest correlation of two parameters that is told from a full one.
 const STRONGEST: f64 = 0.9995;
@@ -20,12 +23,19 @@ pub(super) fn errors(problem: &Problem, state: &State, index: usize) -> Vec<Opti
     };
     let nonlinear = likelihood.correlated(&sizes);
     let linear = likelihood.linear(&sizes, &nonlinear);
-    let (mut linear, mut sizes) = (linear.into_iter(), sizes.into_iter());
+    let columns = problem.design(&component.term).map_or_else(|_| Vec::new(), |all| all.columns);
+    let all_um = rms(&problem.layout, &problem.residual());
+    // An error that moves the curve by more than all there is says that others draw it as well.
+    let held = |(stderr, column): (f64, &Column)| {
+        let moved_um = stderr * rms(&problem.layout, &about_means(&problem.layout, column));
+        (moved_um < all_um).then_some(stderr)
+    };
+    let (mut linear, mut sizes) = (linear.into_iter().zip(&columns).map(held), sizes.into_iter());
     let parameters = component.term.parameters.iter();
     let mut place = 0;
     let mut of_next = |is_nonlinear: bool| {
         if !is_nonlinear {
-            return linear.next();
+            return linear.next().flatten();
         }
         let size = sizes.next().flatten()?;
         place += 1;
