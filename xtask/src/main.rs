@@ -82,7 +82,7 @@ fn check(root: &Path, no_install: bool, out: &mut impl Write) -> anyhow::Result<
     let path = tools.path()?;
     // Packages are fetched while the processors compile; the tests, which wait for browsers and boards, leave
     // time for Python and the documentation.
-    let installed = || tools.prepare(true).and_then(|()| python::install(root, &path));
+    let installed = || tools.prepare(!no_install).and_then(|()| python::install(root, &path));
     let passed = both(|| cargo_checks(&path), installed)?
         && both(
             || cargo(&path, TESTS),

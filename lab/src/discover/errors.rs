@@ -23,7 +23,7 @@ pub(super) fn errors(problem: &Problem, state: &State, index: usize) -> Vec<Opti
     };
     let nonlinear = likelihood.correlated(&sizes);
     let linear = likelihood.linear(&sizes, &nonlinear);
-    let columns = problem.design(&component.term).map_or_else(|_| Vec::new(), |all| all.columns);
+    let columns = component.design(problem).map_or_else(|_| Vec::new(), |(all, _)| all.columns);
     let all_um = rms(&problem.layout, &problem.residual());
     // An error that moves the curve by more than all there is says that others draw it as well.
     let held = |(stderr, column): (f64, &Column)| {
