@@ -21,6 +21,7 @@ mod readings;
 mod shift;
 mod swap;
 mod view;
+mod worst_pass;
 
 use crate::model::Problem;
 use crate::policy::extent::SEARCHED_ROWS;

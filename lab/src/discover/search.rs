@@ -6,7 +6,7 @@ use helixlock_plant::Role;
 use super::errors::errors;
 use super::proposal::{Granted, Proposal};
 use crate::answer::{Advice, FittedEffect, apart, effects};
-use crate::doubts::{Doubt, doubts};
+use crate::doubts::{Doubt, doubts_and_suspects};
 use crate::formulas::{Delta, Shape, formulas};
 use crate::hypotheses::{Structure, is_left, no_all_clear, samples_a_pass, structures};
 use crate::model::{Columns, Component, Problem, State, helps_unseen, holdout_rms};
@@ -14,7 +14,7 @@ use crate::noise::rms;
 use crate::policy::chance::{SIGNIFICANCE, STANDARD_ERRORS};
 use crate::policy::evidence::MARGIN;
 use crate::policy::extent::{MOST_FORMULAS, SEARCHED_ROWS};
-use crate::search::{Claim, Rivals, claims, polished, rivals, search};
+use crate::search::{Claim, Rivals, claims, polished, rivals, search, suspected};
 
 /// Runners-up that experiments are to tell from a proposal.
 const NEAREST: usize = 2;
@@ -77,16 +77,17 @@ pub struct Discovery {
 /// means of neighbours where there are more; figures that are reported are fitted to all rows.
 #[must_use]
 pub fn discover(problem: &Problem) -> Discovery {
-    let doubts = doubts(problem);
+    let (doubts, suspects) = doubts_and_suspects(problem);
     if !doubts.is_empty() {
-        let state = State::bare(problem);
-        let left = told(problem, &state);
-        return Discovery { found: Found::DoubtfulInput, doubts, ..left };
+        return doubtful(problem, doubts);
     }
     let mut small = problem.thinned(SEARCHED_ROWS).unwrap_or_else(|| problem.clone());
     let steps = search(&mut small);
     let state = steps[steps.len() - 1].state.clone();
     let found = rivals(&small, &state, &steps[0].tried);
+    if let Some(doubt) = suspected(&small, &state, &found, &suspects).doubt {
+        return doubtful(problem, vec![doubt]);
+    }
     let mut now = Now { state, found, granted: Vec::new() };
     let shapes = formulas(&small);
     while now.granted.len() < MOST_FORMULAS {
@@ -96,6 +97,12 @@ pub fn discover(problem: &Problem) -> Discovery {
         }
     }
     now.told(problem, &small)
+}
+
+/// The answer to mistaken input.
+fn doubtful(problem: &Problem, doubts: Vec<Doubt>) -> Discovery {
+    let left = told(problem, &State::bare(problem));
+    Discovery { found: Found::DoubtfulInput, doubts, ..left }
 }
 
 /// The model while formulas are looked for: those granted so far are its last components.

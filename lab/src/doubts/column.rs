@@ -4,20 +4,55 @@ use helixlock_plant::{
     CATALOGUE, Card, Columns, HeaderUnit, LOGGED_COLUMNS, LoggedColumn, Role, Setting, Term,
 };
 
-use super::doubt::recipe;
+use super::doubt::{of_pass_read, recipe};
 use super::hypothesis::Hypothesis;
 use super::law::follows_from_clock;
+use super::worst_pass::worst_pass;
 use crate::measurement::Measurement;
 use crate::model::Problem;
 
+const TIME: &str = "time_s";
 const POSITION: &str = "position_mm";
+const ANGLE: &str = "angle_rev";
 
-/// Every unit that a column of the data may have been written in.
+/// Places that are counted in other steps than one thinks: a mirror that is passed twice, a decimal point.
+const STEPS: [f64; 4] = [10.0, 0.1, 2.0, 0.5];
+
+/// Another unit of a column.
+struct Other {
+    /// What is said of the column, behind its name.
+    says: String,
+    /// As a recipe writes it.
+    unit: String,
+    /// Value · factor + zero is that in the column's own.
+    factor: f64,
+    zero: f64,
+}
+
+/// Every unit that a column of the data may have been written in, all of it or one pass.
 pub(super) fn units(problem: &Problem) -> Vec<Hypothesis> {
     let logged = LOGGED_COLUMNS.iter().filter(|column| is_there(problem, column));
+    let odd = worst_pass(problem);
     let of = |column: &'static LoggedColumn| {
-        let others = others(column);
-        others.into_iter().flat_map(move |unit| hypotheses(problem, column, unit))
+        let written = column.units.first().map_or("", |unit| unit.0);
+        let known = others(column).into_iter().map(move |(word, factor, zero)| {
+            let says = format!("is in {word}, not in {written}");
+            Other { says, unit: (*word).to_owned(), factor: *factor, zero: *zero }
+        });
+        let steps = STEPS.iter().filter(|_| is_place(column)).map(move |step| {
+            let unit = format!("{step} {written}");
+            let or = format!("or the leads and gears of the file are {step} times the true ones");
+            let says = format!("is written in units of {unit}, {or}");
+            Other { says, unit, factor: *step, zero: 0.0 }
+        });
+        let of_pass = odd.into_iter().flat_map({
+            let known = known.clone();
+            move |pass| {
+                known.clone().filter_map(move |unit| in_a_pass(problem, column, &unit, pass))
+            }
+        });
+        let of_all = known.chain(steps).flat_map(move |unit| hypotheses(problem, column, &unit));
+        of_all.chain(of_pass)
     };
     logged.flat_map(of).collect()
 }
@@ -26,14 +61,14 @@ pub(super) fn units(problem: &Problem) -> Vec<Hypothesis> {
 pub(super) fn signs(problem: &Problem) -> Vec<Hypothesis> {
     let logged = LOGGED_COLUMNS.iter().filter(|column| is_there(problem, column));
     let of = |column: &&LoggedColumn| {
-        column.name == POSITION || column.setting.as_ref().is_some_and(Setting::has_either_sign)
+        is_place(column) || column.setting.as_ref().is_some_and(Setting::has_either_sign)
     };
     let turned = logged.filter(of).filter_map(|column| {
         let says = format!("`{}` has the opposite sign", column.name);
         let measurement = &problem.measurement;
         let mended = match column.name {
-            POSITION => measurement.turned(),
-            name => converted(measurement, name, &("", -1.0, 0.0)),
+            POSITION | ANGLE => measurement.turned(),
+            name => converted(problem, name, |value| -value),
         };
         let mend = recipe(column.name, "sign = -1");
         Hypothesis::of_measurement(problem, &mended, ("sign", says, mend))
@@ -55,27 +90,27 @@ pub(super) fn others(column: &'static LoggedColumn) -> Vec<&'static HeaderUnit> 
     others
 }
 
+fn is_place(column: &LoggedColumn) -> bool {
+    matches!(column.name, POSITION | ANGLE)
+}
+
 /// True for a log, and for a coordinate that does not follow from another one.
 fn is_there(problem: &Problem, column: &LoggedColumn) -> bool {
     let measurement = &problem.measurement;
     let derived = follows_from_clock(measurement, &problem.model);
     match column.name {
-        "time_s" => measurement.timed,
+        TIME => measurement.timed,
         POSITION => !measurement.rotary && !derived,
+        ANGLE => measurement.rotary && !derived,
         "speed_rpm" => measurement.told.speed && measurement.timed && !derived,
         name => measurement.covariates.contains_key(name),
     }
 }
 
-fn hypotheses(
-    problem: &Problem,
-    column: &'static LoggedColumn,
-    unit: &HeaderUnit,
-) -> Vec<Hypothesis> {
-    let (word, ..) = unit;
-    let says = format!("`{}` is in {word}, not in {}", column.name, column.units[0].0);
-    let mend = recipe(column.name, &format!("unit = \"{word}\""));
-    let mended = converted(&problem.measurement, column.name, unit);
+fn hypotheses(problem: &Problem, column: &'static LoggedColumn, unit: &Other) -> Vec<Hypothesis> {
+    let says = format!("`{}` {}", column.name, unit.says);
+    let mend = recipe(column.name, &unit.how());
+    let mended = converted(problem, column.name, |value| unit.factor * value + unit.zero);
     let sets = std::iter::once(Vec::new()).chain(physics(problem, &[column.name]));
     sets.filter_map(|more| {
         Hypothesis::with(problem, &mended, &more, ("unit", says.clone(), mend.clone()))
@@ -83,19 +118,48 @@ fn hypotheses(
     .collect()
 }
 
-fn converted(measurement: &Measurement, column: &str, unit: &HeaderUnit) -> Measurement {
-    let (_, factor, offset) = unit;
-    let mut mended = measurement.clone();
+/// The mistake in one pass of a column. A clock that runs on has no unit of a pass.
+fn in_a_pass(
+    problem: &Problem,
+    column: &'static LoggedColumn,
+    unit: &Other,
+    pass: usize,
+) -> Option<Hypothesis> {
+    if column.name == TIME {
+        return None;
+    }
+    let all = converted(problem, column.name, |value| unit.factor * value + unit.zero);
+    let mended = problem.measurement.with_pass_of(all, pass);
+    let name = problem.measurement.pass_names[pass];
+    let says = format!("`{}` of pass {name} {}", column.name, unit.says);
+    let mend = of_pass_read(column.name, name, &unit.how());
+    let one = Hypothesis::of_measurement(problem, &mended, ("unit", says, mend))?;
+    Some(Hypothesis { pass: Some(pass), ..one })
+}
+
+impl Other {
+    fn how(&self) -> String {
+        format!("unit = \"{}\"", self.unit)
+    }
+}
+
+fn converted(problem: &Problem, column: &str, by: impl Fn(f64) -> f64) -> Measurement {
+    let mut mended = problem.measurement.clone();
     let samples = &mut mended.samples;
     let convert = |values: &mut Vec<f64>| {
         for value in values {
-            *value = factor * *value + offset;
+            *value = by(*value);
         }
     };
     match column {
         "speed_rpm" => convert(&mut samples.speed_rpm),
-        "time_s" => convert(&mut samples.time_s),
-        POSITION => {
+        TIME if !follows_from_clock(&problem.measurement, &problem.model) => {
+            convert(&mut samples.time_s);
+        }
+        TIME | POSITION | ANGLE => {
+            if column == TIME {
+                convert(&mut samples.time_s);
+            }
             convert(&mut samples.position_mm);
             convert(&mut samples.angle_rev);
         }

@@ -8,6 +8,7 @@ use super::common::{curves, slopes};
 use super::doubt::Suspect;
 use super::hypothesis::{Hypothesis, with_effects};
 use super::view::{View, rough_noises};
+use super::worst_pass::rows_of;
 use crate::hypotheses::{candidate, try_candidate};
 use crate::model::{Columns, Component, Fit, Problem, Stage, noises_of, settle, with_noise};
 use crate::numerics::count;
@@ -18,8 +19,8 @@ pub(super) struct Court<'a> {
     problem: &'a Problem,
     /// What is so common that no mistake is seen by it: nothing, slopes, or curves and drifts too.
     common: [Columns; 3],
-    /// Predictions of nothing at all, and of a machine without effects.
-    absent: Vec<Vec<f64>>,
+    /// The problem where nothing at all is predicted, and that of a machine without effects.
+    absent: Vec<Problem>,
     /// What the number of mistakes that are tried costs.
     looks: f64,
 }
@@ -37,7 +38,9 @@ impl<'a> Court<'a> {
         let curves = lines.and(&curves(problem));
         let bare = Model { effects: Vec::new(), ..problem.model.clone() };
         let bare = predicted_by(problem, &bare).filter(|_| !problem.model.effects.is_empty());
-        let absent = std::iter::once(vec![0.0; problem.samples.len()]).chain(bare).collect();
+        let nothing = vec![0.0; problem.samples.len()];
+        let absent = std::iter::once(nothing).chain(bare);
+        let absent = absent.map(|predicted| saying(problem, predicted)).collect();
         Self { problem, common: [Columns::default(), lines, curves], absent, looks }
     }
 
@@ -52,7 +55,7 @@ impl<'a> Court<'a> {
         if all.is_empty() {
             return (None, Vec::new());
         }
-        let (base, fit) = self.evidence(&self.problem.predicted, &Columns::default());
+        let (base, fit) = self.evidence(self.problem, &Columns::default());
         let gains = [self.gains(&rough, &all), self.gains(&self.view(&fit.noises), &all)];
         let worth = worth_a_fit(&all, &gains);
         let judged = all.into_iter().zip(worth).filter(|(_, worth)| *worth).map(|(one, _)| one);
@@ -81,8 +84,8 @@ impl<'a> Court<'a> {
     }
 
     fn suspect(&self, one: Hypothesis) -> Suspect {
-        let both = one.mended.predicted.iter().zip(&self.problem.predicted);
-        let change = both.map(|(after, before)| after - before).collect();
+        let both = self.problem.residual().into_iter().zip(one.mended.residual());
+        let change = both.map(|(before, after)| before - after).collect();
         // A mistake is one of a list, as the name is in whose place it stands.
         let price = self.price(&one) - self.looks;
         Suspect { doubt: one.doubt(), change, price, mended: one.mended }
@@ -99,49 +102,51 @@ impl<'a> Court<'a> {
         if DOUBT < one.usual {
             return true;
         }
-        let left = |predicted: &[f64]| rough.left(self.problem, predicted);
-        let (before, after) = (left(&self.problem.predicted), left(&one.mended.predicted));
-        let flat = |predicted: &[f64]| plain.left(self.problem, predicted);
-        let flatter = flat(&one.mended.predicted) < SMALLER * flat(&self.problem.predicted);
+        let (before, after) = (rough.left(self.problem), rough.left(&one.mended));
+        let flatter = plain.left(&one.mended) < SMALLER * plain.left(self.problem);
         let moved: Vec<f64> =
             one.mended.predicted.iter().zip(&self.problem.predicted).map(|(a, b)| a - b).collect();
         let smaller = after < SMALLER * before || flatter && after <= before + WORTH_A_FIT;
-        let needed = one.lets_go() || self.absent.iter().all(|bare| after < SMALLER * left(bare));
-        WORTH_A_FIT < rough.square(moved) + one.usual && smaller && needed
+        let needed =
+            one.lets_go() || self.absent.iter().all(|bare| after < SMALLER * rough.left(bare));
+        let is_felt = one.pass.is_some() || WORTH_A_FIT < rough.square(moved) + one.usual;
+        is_felt && smaller && needed
     }
 
     /// What each mistake gains under a fixed noise.
     fn gains(&self, view: &View, all: &[Hypothesis]) -> Vec<f64> {
-        let before = view.left(self.problem, &self.problem.predicted);
-        let gain =
-            |one: &Hypothesis| before - view.left(self.problem, &one.mended.predicted) + one.usual;
+        let before = view.left(self.problem);
+        let gain = |one: &Hypothesis| before - view.left(&one.mended) + one.rescaled + one.usual;
         all.iter().map(gain).collect()
     }
 
     fn own_evidence(&self, one: &Hypothesis) -> f64 {
-        self.evidence(&one.mended.predicted, &Columns::default()).0 - self.price(one)
+        self.evidence(&one.mended, &Columns::default()).0 - self.price(one)
     }
 
-    /// What a mistake pays: its numbers, and all looks; how much more usual it is takes some of it back.
+    /// What a mistake pays: its numbers, and all looks; how much more usual it is takes some of it back, and
+    /// that observations are written in another unit is no evidence.
     fn price(&self, one: &Hypothesis) -> f64 {
         let numbers = one.numbers * self.problem.price_of_a_number();
-        self.looks + 2.0 * libm::log(one.looks) + numbers - one.usual
+        self.looks + 2.0 * libm::log(one.looks) + numbers - one.usual - one.rescaled
     }
 
-    /// Evidence of a prediction of nothing: whatever makes a wrong prediction vanish looks like a mend.
+    /// Evidence of a prediction of nothing, everywhere or in the pass that is mended: whatever makes a wrong
+    /// prediction vanish looks like a mend.
     fn nothing(&self, best: &Hypothesis) -> f64 {
-        let absent = self.absent.iter().filter(|_| !best.last_resort());
-        let evidence = absent.map(|predicted| self.evidence(predicted, &Columns::default()).0);
-        evidence.fold(f64::NEG_INFINITY, f64::max)
+        let evidence = |problem: &Problem| self.evidence(problem, &Columns::default()).0;
+        let absent = self.absent.iter().filter(|_| !best.last_resort()).map(evidence);
+        let in_pass = best.pass.map(|pass| evidence(&silent(self.problem, pass)));
+        absent.chain(in_pass).fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// The best of all other explanations.
     fn rival(&self, best: &Hypothesis) -> f64 {
-        let evidence = |predicted: &[f64]| self.evidence(predicted, &Columns::default()).0;
+        let evidence = |other: &Problem| self.evidence(other, &Columns::default()).0;
         let mut rivals = vec![self.freed()];
         if best.physics {
             rivals.push(self.loosened());
-            rivals.extend(self.with_physics().iter().map(|predicted| evidence(predicted)));
+            rivals.extend(self.with_physics().iter().map(evidence));
         }
         if best.shifts() {
             rivals.extend(self.delayed());
@@ -149,10 +154,10 @@ impl<'a> Court<'a> {
         rivals.into_iter().fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Twice the log likelihood of a prediction with what is common, less the price of that.
-    fn evidence(&self, predicted: &[f64], more: &Columns) -> (f64, Fit) {
+    /// Twice the log likelihood of what a problem predicts with what is common, less the price of that.
+    fn evidence(&self, problem: &Problem, more: &Columns) -> (f64, Fit) {
         let of = |common: &Columns| {
-            let fit = self.fitted(predicted, &common.and(more));
+            let fit = fitted(problem, &common.and(more));
             let number = self.problem.price_of_a_number();
             let variances = with_the_rest_held(&fit, common.raw.len());
             let price = |(value, variance): (&f64, f64)| {
@@ -166,14 +171,6 @@ impl<'a> Court<'a> {
             .into_iter()
             .map(of)
             .fold(of(none), |best, other| if best.0 < other.0 { other } else { best })
-    }
-
-    /// A prediction with its noise, columns free.
-    fn fitted(&self, predicted: &[f64], columns: &Columns) -> Fit {
-        let trial = Problem { predicted: predicted.to_vec().into(), ..self.problem.clone() };
-        let noises = rough_noises(&trial);
-        let rough = with_noise(&trial.layout, columns, &trial.residual(), &noises);
-        settle(&trial, columns, &noises_of(&trial, &rough.left))
     }
 
     /// Evidence of the file's own effects at any size, integrated over sizes as large as theirs.
@@ -203,7 +200,7 @@ impl<'a> Court<'a> {
     fn evidence_beside(&self, effect: &Component) -> Option<f64> {
         let columns = Columns::of(self.problem, std::slice::from_ref(effect)).ok()?;
         let numbers = count(effect.width() + effect.term.nonlinear().len());
-        let (evidence, _) = self.evidence(&self.problem.predicted, &columns);
+        let (evidence, _) = self.evidence(self.problem, &columns);
         Some(evidence - numbers * self.problem.price_of_a_number())
     }
 
@@ -212,7 +209,7 @@ impl<'a> Court<'a> {
         if more.raw.is_empty() {
             return f64::NEG_INFINITY;
         }
-        let (evidence, fit) = self.evidence(&self.problem.predicted, &more);
+        let (evidence, fit) = self.evidence(self.problem, &more);
         let width = more.raw.len();
         let from = fit.linear.coefficients.len() - width;
         let posterior = fit.linear.covariance.view((from, from), (width, width)).determinant();
@@ -220,8 +217,8 @@ impl<'a> Court<'a> {
         evidence - (prior - libm::log(posterior.max(f64::MIN_POSITIVE))).max(0.0)
     }
 
-    /// Predictions with every set of the effects of known size that the file does not have.
-    fn with_physics(&self) -> Vec<Vec<f64>> {
+    /// The problem with every set of the effects of known size that the file does not have.
+    fn with_physics(&self) -> Vec<Problem> {
         let all = all_physics(self.problem);
         let all = &all[..all.len().min(MOST_PHYSICS)];
         let member = |set: usize| move |(index, _): &(usize, &Term)| set & (1 << index) != 0;
@@ -229,8 +226,10 @@ impl<'a> Court<'a> {
             all.iter().enumerate().filter(member(set)).map(|(_, term)| term.clone()).collect()
         });
         let model = &self.problem.model;
-        sets.filter_map(|set: Vec<Term>| predicted_by(self.problem, &with_effects(model, &set)))
-            .collect()
+        let with = |set: Vec<Term>| {
+            Some(saying(self.problem, predicted_by(self.problem, &with_effects(model, &set))?))
+        };
+        sets.filter_map(with).collect()
     }
 }
 
@@ -244,6 +243,24 @@ fn with_the_rest_held(fit: &Fit, width: usize) -> Vec<f64> {
     let told = of_rest.try_inverse().map(|inverse| across * inverse * across.transpose());
     let left = |at: usize| covariance[(at, at)] - told.as_ref().map_or(0.0, |told| told[(at, at)]);
     (0..width).map(left).collect()
+}
+
+/// A prediction with its noise, columns free.
+fn fitted(problem: &Problem, columns: &Columns) -> Fit {
+    let rough = with_noise(&problem.layout, columns, &problem.residual(), &rough_noises(problem));
+    settle(problem, columns, &noises_of(problem, &rough.left))
+}
+
+/// A problem that predicts something else.
+fn saying(problem: &Problem, predicted: Vec<f64>) -> Problem {
+    Problem { predicted: predicted.into(), ..problem.clone() }
+}
+
+/// A problem that predicts nothing in a pass.
+fn silent(problem: &Problem, pass: usize) -> Problem {
+    let mut predicted = problem.predicted.to_vec();
+    rows_of(problem, pass).for_each(|rows| predicted[rows].fill(0.0));
+    saying(problem, predicted)
 }
 
 fn predicted_by(problem: &Problem, model: &Model) -> Option<Vec<f64>> {

@@ -28,18 +28,7 @@ pub(super) fn other_dividers(problem: &Problem) -> Option<Hypothesis> {
     let alike = mended.has_rows_of(problem);
     let usual = slope(&mended) - slope(problem);
     let mended = Problem { layout: problem.layout.clone(), ..mended };
-    alike.then_some(Hypothesis {
-        what: "dividers",
-        says,
-        mend,
-        mended,
-        physics: false,
-        scales: false,
-        usual,
-        numbers: 0.0,
-        looks: 1.0,
-        evidence: 0.0,
-    })
+    alike.then(|| Hypothesis { usual, ..Hypothesis::new(("dividers", says, mend), mended) })
 }
 
 /// Twice the log probability of the slope that is left, but for a constant.

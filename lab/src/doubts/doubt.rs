@@ -27,7 +27,7 @@ pub(crate) struct Suspect {
     pub(crate) doubt: Doubt,
     /// The problem with the mistake put right.
     pub(crate) mended: Problem,
-    /// By what that changes the prediction.
+    /// By what that changes the prediction, against the observations as they were read.
     pub(crate) change: Vec<f64>,
     /// What it pays for its numbers and looks.
     pub(crate) price: f64,
@@ -41,4 +41,9 @@ pub(super) fn said_by(rows: usize) -> f64 {
 /// The part of an import's recipe that reads a column otherwise.
 pub(super) fn recipe(column: &str, how: &str) -> String {
     format!("[[column]]\nfrom = \"{column}\"\nto = \"{column}\"\n{how}")
+}
+
+/// What is to be done where that is so of one pass only, which no recipe tells apart.
+pub(super) fn of_pass_read(column: &str, pass: f64, how: &str) -> String {
+    format!("read `{column}` of pass {pass} with {}", how.replace('\n', " and "))
 }

@@ -9,6 +9,9 @@ use crate::policy::mistakes::MACHINE_OF_EFFECTS;
 use super::doubt::Doubt;
 use super::law::usualness;
 
+/// What kind of mistake, the mistake in a sentence, and the line that puts it right.
+pub(super) type Words = (&'static str, String, String);
+
 /// A mistake before the court.
 #[derive(Debug)]
 pub(super) struct Hypothesis {
@@ -18,9 +21,13 @@ pub(super) struct Hypothesis {
     pub(super) says: String,
     /// The line that puts it right.
     pub(super) mend: String,
-    /// The problem with the mistake put right; its observations stay as they were read, so that
-    /// likelihoods compare.
+    /// The problem with the mistake put right.
     pub(super) mended: Problem,
+    /// Evidence that comes of observations being written in another unit there; 0 where they stay as
+    /// they were read.
+    pub(super) rescaled: f64,
+    /// The pass that the mistake is in, by its index, where it is in one alone.
+    pub(super) pass: Option<usize>,
     /// True when it needs effects of known size that the file does not have.
     pub(super) physics: bool,
     /// True for a factor on what a sensor shows.
@@ -35,6 +42,24 @@ pub(super) struct Hypothesis {
 }
 
 impl Hypothesis {
+    /// A mistake without a free number.
+    pub(super) fn new((what, says, mend): Words, mended: Problem) -> Self {
+        Self {
+            what,
+            says,
+            mend,
+            mended,
+            rescaled: 0.0,
+            pass: None,
+            physics: false,
+            scales: false,
+            usual: 0.0,
+            numbers: 0.0,
+            looks: 1.0,
+            evidence: 0.0,
+        }
+    }
+
     /// True when it lets the prediction grow, shrink or vanish: then nothing is told from what is
     /// not there at all.
     pub(super) fn lets_go(&self) -> bool {
@@ -61,9 +86,9 @@ impl Hypothesis {
     pub(super) fn of_measurement(
         problem: &Problem,
         mended: &Measurement,
-        (what, says, mend): (&'static str, String, String),
+        words: Words,
     ) -> Option<Self> {
-        Self::with(problem, mended, &[], (what, says, mend))
+        Self::with(problem, mended, &[], words)
     }
 
     /// The same with further effects that the machine must then have.
@@ -71,25 +96,14 @@ impl Hypothesis {
         problem: &Problem,
         mended: &Measurement,
         more: &[Term],
-        (what, says, mend): (&'static str, String, String),
+        words: Words,
     ) -> Option<Self> {
         let model = with_effects(&problem.model, more);
         let usual = usualness(mended, &model) - usualness(&problem.measurement, &model);
         let mended = Problem::new(&model, mended).ok()?;
-        let alike = mended.has_rows_of(problem);
+        let alike = mended.has_samples_of(problem);
         let mended = Problem { layout: problem.layout.clone(), ..mended };
-        alike.then_some(Self {
-            what,
-            says,
-            mend,
-            mended,
-            physics: !more.is_empty(),
-            scales: false,
-            usual,
-            numbers: 0.0,
-            looks: 1.0,
-            evidence: 0.0,
-        })
+        alike.then_some(Self { physics: !more.is_empty(), usual, ..Self::new(words, mended) })
     }
 }
 
@@ -109,16 +123,10 @@ pub(super) fn another_machine(problem: &Problem) -> Option<Hypothesis> {
     let told = problem.model.effects.iter().filter(|term| !held(term)).count();
     let bare = Model { effects: Vec::new(), ..problem.model.clone() };
     let mended = Problem::new(&bare, &problem.measurement).ok()?;
-    (MACHINE_OF_EFFECTS <= told && mended.has_rows_of(problem)).then(|| Hypothesis {
-        what: "another-machine",
-        says: format!("none of the file's {effects} effects is in the data: is it this machine?"),
-        mend: "take the machine file that belongs to the data".to_owned(),
-        mended: Problem { layout: problem.layout.clone(), ..mended },
-        physics: false,
-        scales: false,
-        usual: 0.0,
-        numbers: 0.0,
-        looks: 1.0,
-        evidence: 0.0,
+    let says = format!("none of the file's {effects} effects is in the data: is it this machine?");
+    let mend = "take the machine file that belongs to the data".to_owned();
+    (MACHINE_OF_EFFECTS <= told && mended.has_rows_of(problem)).then(|| {
+        let mended = Problem { layout: problem.layout.clone(), ..mended };
+        Hypothesis::new(("another-machine", says, mend), mended)
     })
 }

@@ -2,18 +2,23 @@
 //!
 //! The clock's zero is none of this: time counts from the start of a record, whatever its clock says.
 
-use std::ops::Range;
-
 use rayon::prelude::*;
 
-use super::hypothesis::Hypothesis;
+use super::hypothesis::{Hypothesis, Words};
+use super::law::follows_from_clock;
+use super::view::rough_noises;
+use super::worst_pass::worst_pass;
 use crate::measurement::Measurement;
-use crate::model::{Columns, Problem, Stage, noises_of};
-use crate::numerics::{count, golden_maximum, mean};
-use crate::policy::mistakes::{NEAR_THE_BEST_DOUBT, SHIFT_TURNS, WORSE_PASS, WORTH_A_FIT};
+use crate::model::{Columns, Gain, Problem, Stage, noises_of};
+use crate::noise::rms;
+use crate::numerics::{count, golden_maximum};
+use crate::policy::mistakes::{A_PLACE, NEAR_THE_BEST_DOUBT, SHIFT_TURNS, WORTH_A_FIT};
 
 /// Places looked at, a turn of the spindle: each shortest wave of a screw more than four times.
 const PLACES_A_TURN: u16 = 20;
+
+/// Finest grid of the places of a turn that is a whole one, as a power of two.
+const FINEST: i32 = 11;
 
 /// Most places of the grid that are looked at closely: a wave comes back every turn.
 const TOPS: usize = 6;
@@ -24,126 +29,148 @@ const STEPS: usize = 16;
 /// Whose zero is another.
 #[derive(Clone, Copy, Debug)]
 enum Zero {
-    Position,
-    /// The position's, which counts the other way.
+    All,
+    /// That of a position which counts the other way.
     FarEnd,
-    /// The position of a pass, by its index.
+    /// That of a pass, by its index.
     Pass(usize),
 }
 
 /// For each zero the shift that brings what the file predicts nearest to the data; none where nothing
 /// that it predicts depends on it.
 pub(super) fn shifts(problem: &Problem) -> Vec<Hypothesis> {
-    if problem.measurement.rotary || problem.model.effects.is_empty() {
+    let (rotary, effects) = (problem.measurement.rotary, &problem.model.effects);
+    if effects.is_empty() || rotary && follows_from_clock(&problem.measurement, &problem.model) {
         return Vec::new();
     }
-    let stage = Stage::new(problem, &Columns::default(), &noises_of(problem, &problem.residual()));
-    zeros(problem).into_iter().filter_map(|zero| shift(&stage, zero)).collect()
+    // Of waves on a drift, either the noise of the file as it is or that of neighbours tells more.
+    let noises = [noises_of(problem, &problem.residual()), rough_noises(problem)];
+    let stages = noises.map(|noises| Stage::new(problem, &Columns::default(), &noises));
+    let of_all: &[Zero] = if rotary { &[Zero::All] } else { &[Zero::All, Zero::FarEnd] };
+    let zeros = of_all.iter().copied().chain(worst_pass(problem).map(Zero::Pass));
+    zeros.flat_map(|zero| hypotheses(&stages, zero)).collect()
 }
 
-/// The position's zero, at either end, and that of the pass which the file explains far worse than the others.
-fn zeros(problem: &Problem) -> Vec<Zero> {
-    let left = problem.residual();
-    let passes = problem.measurement.pass_names.len();
-    let mut sizes: Vec<(f64, usize)> = (0..passes)
-        .map(|pass| {
-            let blocks = problem.layout.blocks.iter();
-            let of_pass = |rows: &Range<usize>| {
-                rows.start < rows.end && problem.record.pass[problem.samples[rows.start]] == pass
-            };
-            let rows = blocks.map(|block| block.rows.clone()).filter(of_pass);
-            let (squares, number) = rows.fold((0.0, 0), |(squares, number), rows| {
-                let values = &left[rows];
-                let mean = mean(values);
-                let own: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
-                (squares + own, number + values.len())
-            });
-            (squares / count(number.max(1)), pass)
-        })
-        .collect();
-    sizes.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let worst = match sizes.as_slice() {
-        [(most, pass), (next, _), ..] if WORSE_PASS * next < *most => Some(Zero::Pass(*pass)),
-        _ => None,
+/// The best shift of a zero under either noise; both pay for as many looks.
+fn hypotheses(stages: &[Stage<'_>], zero: Zero) -> Vec<Hypothesis> {
+    let problem = stages[0].problem;
+    let Some(grid) = grid(problem, zero) else { return Vec::new() };
+    let found: Vec<Found> = stages.iter().filter_map(|stage| best(stage, zero, grid)).collect();
+    let looks = found.iter().map(|one| one.looks).fold(1.0, f64::max);
+    let hypothesis = |one: &Found| {
+        let shifted = zero.shifted(problem, one.turns);
+        let one = Hypothesis::of_measurement(problem, &shifted, zero.words(problem, one.turns))?;
+        Some(Hypothesis { numbers: 1.0, looks, usual: 0.0, ..one })
     };
-    [Zero::Position, Zero::FarEnd].into_iter().chain(worst).collect()
+    found.iter().filter_map(hypothesis).collect()
 }
 
-fn shift(stage: &Stage<'_>, zero: Zero) -> Option<Hypothesis> {
-    let problem = stage.problem;
-    let gain = |shift: f64| gain(stage, zero, shift).unwrap_or(f64::NEG_INFINITY);
-    let step = problem.model.workpiece.lead.mm() / f64::from(PLACES_A_TURN);
-    // Half a place off a turn: what repeats every turn would not show that it moves.
-    let probe = moved(problem, zero, 0.5 * step)?;
-    if probe.iter().all(|value| value.abs() <= 0.0) {
-        return None;
-    }
-    let most = i32::from(SHIFT_TURNS * PLACES_A_TURN);
+/// A shift, in turns of the spindle.
+struct Found {
+    turns: f64,
+    /// Places that it was looked for at. Shifts by a period more are no other shift.
+    looks: f64,
+}
+
+fn best(stage: &Stage<'_>, zero: Zero, (step, most): (f64, i32)) -> Option<Found> {
+    let evidence = |turns: f64| evidence(stage, zero, turns).unwrap_or(f64::NEG_INFINITY);
     let places: Vec<f64> = (-most..=most).map(f64::from).collect();
-    let gains: Vec<f64> = places.par_iter().map(|place| gain(place * step)).collect();
-    let most = gains.iter().copied().fold(0.0, f64::max);
+    let said: Vec<f64> = places.par_iter().map(|place| evidence(place * step)).collect();
+    let highest = said.iter().copied().fold(0.0, f64::max);
     let is_top = |&at: &usize| {
-        let near = &gains[at.saturating_sub(1)..(at + 2).min(gains.len())];
-        let is_high = 0.0 < most && NEAR_THE_BEST_DOUBT * most <= gains[at];
-        is_high && near.iter().all(|gain| *gain <= gains[at])
+        let near = &said[at.saturating_sub(1)..(at + 2).min(said.len())];
+        let is_high = 0.0 < highest && NEAR_THE_BEST_DOUBT * highest <= said[at];
+        is_high && near.iter().all(|other| *other <= said[at])
     };
-    let mut tops: Vec<usize> = (0..gains.len()).filter(is_top).collect();
-    // Shifts by a period more are no other shift.
+    let mut tops: Vec<(usize, f64)> =
+        (0..said.len()).filter(is_top).map(|at| (at, height(&said, at))).collect();
     let looks = count(places.len()) / count(tops.len().max(1));
-    tops.sort_by(|&a, &b| gains[b].total_cmp(&gains[a]));
+    tops.sort_by(|a, b| b.1.total_cmp(&a.1));
     tops.truncate(TOPS);
-    let refined = tops.into_par_iter().map(|at| {
+    let refined = tops.into_par_iter().map(|(at, _)| {
         let (from, to) = ((places[at] - 1.0) * step, (places[at] + 1.0) * step);
-        golden_maximum(&mut |place| gain(place), (from, to), STEPS)
+        golden_maximum(&mut |turns| evidence(turns), (from, to), STEPS)
     });
-    let shift = nearest_of_the_best(refined.collect())?;
-    let shifted = zero.shifted(problem, shift);
-    let one = Hypothesis::of_measurement(problem, &shifted, zero.words(problem, shift))?;
-    Some(Hypothesis { numbers: 1.0, looks, usual: 0.0, ..one })
+    Some(Found { turns: nearest_of_the_best(refined.collect())?, looks })
 }
 
-/// The least shift of those that gain as much as the best: a wave comes back every turn.
+/// Distance of the places of a grid, in turns of the spindle, and how many there are either way; `None` where
+/// nothing that is predicted depends on the zero.
+///
+/// A rotary chain has one turn, and gears of any speed in it.
+fn grid(problem: &Problem, zero: Zero) -> Option<(f64, i32)> {
+    let change = |turns: f64| Some(rms(&problem.layout, &moved(problem, zero, turns)?));
+    let step = 1.0 / f64::from(PLACES_A_TURN);
+    if !problem.measurement.rotary {
+        // Half a place off a turn: what repeats every turn would not show that it moves.
+        let is_moved = 0.0 < change(0.5 * step)?;
+        return is_moved.then_some((step, i32::from(SHIFT_TURNS * PLACES_A_TURN)));
+    }
+    let most = A_PLACE.sqrt() * std::f64::consts::SQRT_2 * rms(&problem.layout, &problem.predicted);
+    let is_near = |power: &i32| change(libm::exp2(-f64::from(*power))).is_some_and(|by| by < most);
+    let power = (1..FINEST).rev().take_while(is_near).last().unwrap_or(FINEST);
+    (0.0 < most).then(|| (libm::exp2(-f64::from(power)), 1 << (power - 1)))
+}
+
+/// Height of a parabola through the top of a grid and its neighbours.
+fn height(said: &[f64], at: usize) -> f64 {
+    let top = said[at];
+    let (Some(before), Some(after)) = (at.checked_sub(1).map(|at| said[at]), said.get(at + 1))
+    else {
+        return top;
+    };
+    let bend = 2.0 * top - before - after;
+    if 0.0 < bend { top + (after - before).powi(2) / (8.0 * bend) } else { top }
+}
+
+/// The least shift of those that explain as much as the best: a wave comes back every turn.
 fn nearest_of_the_best(mut refined: Vec<(f64, f64)>) -> Option<f64> {
-    let most = refined.iter().map(|(_, gain)| *gain).fold(f64::NEG_INFINITY, f64::max);
-    refined.retain(|(_, gain)| most - WORTH_A_FIT <= *gain);
+    let most = refined.iter().map(|(_, said)| *said).fold(f64::NEG_INFINITY, f64::max);
+    refined.retain(|(_, said)| most - WORTH_A_FIT <= *said);
     refined.into_iter().map(|(shift, _)| shift).min_by(|a, b| a.abs().total_cmp(&b.abs()))
 }
 
 impl Zero {
-    fn shifted(self, problem: &Problem, shift_mm: f64) -> Measurement {
+    fn shifted(self, problem: &Problem, turns: f64) -> Measurement {
         let measurement = &problem.measurement;
-        let (mut mended, by_mm) = match self {
-            Self::FarEnd => (measurement.turned(), shift_mm - both_ends_mm(measurement)),
-            Self::Position | Self::Pass(_) => (measurement.clone(), shift_mm),
+        let lead_mm = problem.model.workpiece.lead.mm();
+        let (mut mended, by) = match self {
+            Self::FarEnd => (measurement.turned(), turns - both_ends_mm(measurement) / lead_mm),
+            Self::All | Self::Pass(_) => (measurement.clone(), turns),
         };
-        let turns = by_mm / problem.model.workpiece.lead.mm();
         for (row, pass) in problem.record.pass.iter().enumerate() {
             if !matches!(self, Self::Pass(only) if only != *pass) {
-                mended.samples.position_mm[row] -= by_mm;
-                mended.samples.angle_rev[row] -= turns;
+                mended.samples.position_mm[row] -= by * lead_mm;
+                mended.samples.angle_rev[row] -= by;
             }
         }
         mended
     }
 
-    fn words(self, problem: &Problem, shift_mm: f64) -> (&'static str, String, String) {
-        let (what, of_pass) = match self {
-            Self::FarEnd => return far_end(problem, shift_mm),
-            Self::Position => ("the position".to_owned(), String::new()),
-            Self::Pass(pass) => {
-                let name = problem.measurement.pass_names[pass];
-                (format!("the position of pass {name}"), format!(" of pass {name}"))
-            }
+    fn words(self, problem: &Problem, turns: f64) -> Words {
+        let of_pass = match self {
+            Self::FarEnd => return far_end(problem, turns),
+            Self::All => String::new(),
+            Self::Pass(pass) => format!(" of pass {}", problem.measurement.pass_names[pass]),
         };
-        let says = format!("the data's zero of {what} lies {shift_mm:.3} mm from the file's");
-        let (less, more) = if shift_mm < 0.0 { ("add", "to") } else { ("take", "off") };
-        let mend = format!("{less} {:.3} mm {more} `position_mm`{of_pass}", shift_mm.abs());
+        let (what, column, shift, unit) = if problem.measurement.rotary {
+            ("angle", "angle_rev", format!("{:.4}", turns.abs()), "turns")
+        } else {
+            let shift_mm = turns * problem.model.workpiece.lead.mm();
+            ("position", "position_mm", format!("{:.3}", shift_mm.abs()), "mm")
+        };
+        let (sign, less, more) = if turns < 0.0 { ("-", "add", "to") } else { ("", "take", "off") };
+        let says = format!(
+            "the data's zero of the {what}{of_pass} lies {sign}{shift} {unit} from the file's"
+        );
+        let mend = format!("{less} {shift} {unit} {more} `{column}`{of_pass}");
         ("shift", format!("{says} (offset)"), mend)
     }
 }
 
 /// What is said of a position that counts from the other end.
-fn far_end(problem: &Problem, shift_mm: f64) -> (&'static str, String, String) {
+fn far_end(problem: &Problem, turns: f64) -> Words {
+    let shift_mm = turns * problem.model.workpiece.lead.mm();
     let from_mm = both_ends_mm(&problem.measurement) - shift_mm;
     let says = format!("`position_mm` counts the other way, from {from_mm:.3} mm (reversed)");
     ("shift", says, format!("take `position_mm` from {from_mm:.3} mm"))
@@ -155,15 +182,18 @@ fn both_ends_mm(measurement: &Measurement) -> f64 {
     places().fold(f64::INFINITY, f64::min) + places().fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// By how much a shift moves what is predicted.
-fn moved(problem: &Problem, zero: Zero, shift: f64) -> Option<Vec<f64>> {
-    let mended = Problem::new(&problem.model, &zero.shifted(problem, shift)).ok()?;
-    let pairs = mended.predicted.iter().zip(&problem.predicted);
-    mended.has_rows_of(problem).then(|| pairs.map(|(a, b)| a - b).collect())
+/// By how much a shift by so many turns moves what is predicted; `None` where an effect cannot be worked out.
+fn moved(problem: &Problem, zero: Zero, turns: f64) -> Option<Vec<f64>> {
+    let said = |measurement: &Measurement| problem.predicted_of(measurement).ok();
+    let (after, before) = (said(&zero.shifted(problem, turns))?, said(&problem.measurement)?);
+    Some(after.iter().zip(&before).map(|(after, before)| after - before).collect())
 }
 
-/// What a shift takes away under the noise of the file as it is.
-fn gain(stage: &Stage<'_>, zero: Zero, shift: f64) -> Option<f64> {
-    let moved = moved(stage.problem, zero, shift)?;
-    Some(stage.gain(&Columns { fixed: Some(moved.into()), ..Columns::default() }).gain)
+/// What a shift explains under noise of the stage's slowness and of whatever size it leaves.
+fn evidence(stage: &Stage<'_>, zero: Zero, turns: f64) -> Option<f64> {
+    let moved = moved(stage.problem, zero, turns)?;
+    let Gain { gain, fit } =
+        stage.gain(&Columns { fixed: Some(moved.into()), ..Columns::default() });
+    let left = fit.residual_square.max(f64::MIN_POSITIVE);
+    Some(count(stage.problem.samples.len()) * libm::log((gain + left) / left))
 }

@@ -1,27 +1,35 @@
-//! Columns that stand under each other's names.
+//! Columns that stand under each other's names, and an error under another's.
+
+use helixlock_plant::prediction::Sensor;
+use helixlock_plant::{Bridging, LOGGED_COLUMNS, LoggedColumn, Part};
 
 use super::column::physics;
-use super::hypothesis::Hypothesis;
+use super::hypothesis::{Hypothesis, Words};
 use super::law::usualness;
 use crate::measurement::sensor_column;
 use crate::model::Problem;
+use crate::policy::mistakes::RARER_THAN_A_SIGN;
 
-/// Columns of alike readings.
-const ALIKE: [&str; 3] = ["air_temperature_c", "workpiece_temperature_c", "bed_temperature_c"];
-
-/// Every exchange of two columns that nobody would notice by looking at them.
+/// Every exchange of two readings of instruments, and of the errors.
 pub(super) fn swaps(problem: &Problem) -> Vec<Hypothesis> {
+    let read = LOGGED_COLUMNS.iter().filter(|column| column.bridging != Bridging::Never);
+    let read: Vec<&LoggedColumn> = read.collect();
     let mut all = Vec::new();
-    for (index, one) in ALIKE.iter().enumerate() {
-        for other in &ALIKE[index + 1..] {
+    for (index, one) in read.iter().enumerate() {
+        for other in &read[index + 1..] {
             all.extend(exchanged(problem, one, other));
         }
     }
     all.extend(place_for_error(problem));
+    all.extend(another_sensor(problem));
     all
 }
 
-fn exchanged(problem: &Problem, one: &str, other: &str) -> Vec<Hypothesis> {
+/// Only readings of one unit, which nobody would miss by looking at them, may be exchanged where the file has no
+/// effect of them: a pitch under the name of a temperature would make air of whatever leans.
+fn exchanged(problem: &Problem, one: &LoggedColumn, other: &LoggedColumn) -> Vec<Hypothesis> {
+    let is_alike = one.units.first() == other.units.first();
+    let (one, other) = (one.name, other.name);
     let logged = &problem.measurement.covariates;
     let (Some(first), Some(second)) = (logged.get(one), logged.get(other)) else {
         return Vec::new();
@@ -29,14 +37,39 @@ fn exchanged(problem: &Problem, one: &str, other: &str) -> Vec<Hypothesis> {
     let mut mended = problem.measurement.clone();
     mended.samples.covariates.insert(one.to_owned(), second.clone());
     mended.samples.covariates.insert(other.to_owned(), first.clone());
-    let sets = std::iter::once(Vec::new()).chain(physics(problem, &[one, other]));
+    let more = if is_alike { physics(problem, &[one, other]) } else { Vec::new() };
+    let sets = std::iter::once(Vec::new()).chain(more);
     sets.filter_map(|more| Hypothesis::with(problem, &mended, &more, words(one, other))).collect()
 }
 
-fn words(one: &str, other: &str) -> (&'static str, String, String) {
+fn words(one: &str, other: &str) -> Words {
     let says = format!("columns `{one}` and `{other}` are exchanged (swapped)");
-    let read = |from: &str, to: &str| format!("[[column]]\nfrom = \"{from}\"\nto = \"{to}\"");
-    ("swap", says, format!("{}\n{}", read(one, other), read(other, one)))
+    ("swap", says, format!("{}\n{}", read_as(one, other), read_as(other, one)))
+}
+
+fn read_as(from: &str, to: &str) -> String {
+    format!("[[column]]\nfrom = \"{from}\"\nto = \"{to}\"")
+}
+
+/// The thread's error under the recorder's name, or the other way round.
+fn another_sensor(problem: &Problem) -> Option<Hypothesis> {
+    let [sensor] = *problem.sensors else { return None };
+    let other = match sensor {
+        Sensor::Recorder => Sensor::Thread,
+        Sensor::Thread => Sensor::Recorder,
+        Sensor::Counter => return None,
+    };
+    if problem.model.lacks(&[Part::Table, Part::Workpiece]).is_some() {
+        return None;
+    }
+    let [found, meant] = [sensor, other].map(|sensor| sensor_column(sensor, false));
+    let mut mended = problem.measurement.clone();
+    let values = mended.observations.remove(&sensor)?;
+    mended.observations.insert(other, values);
+    let says = format!("`{found}` behaves as `{meant}` does: it has the other's name");
+    let words = ("swap", says, read_as(found, meant));
+    let one = Hypothesis::of_measurement(problem, &mended, words)?;
+    Some(Hypothesis { usual: 2.0 * libm::log(RARER_THAN_A_SIGN), ..one })
 }
 
 /// The error under the position's name: told by the travel and the speed alone, for what such a
@@ -51,17 +84,7 @@ fn place_for_error(problem: &Problem) -> Option<Hypothesis> {
     let mut mended = measurement.clone();
     mended.samples.position_mm = values.clone();
     mended.samples.angle_rev = values.iter().map(|place| place / lead_mm).collect();
-    let (what, says, mend) = words(sensor_column(sensor, false), "position_mm");
-    Some(Hypothesis {
-        what,
-        says,
-        mend,
-        mended: problem.clone(),
-        physics: false,
-        scales: false,
-        usual: usualness(&mended, &problem.model) - usualness(measurement, &problem.model),
-        numbers: 0.0,
-        looks: 1.0,
-        evidence: 0.0,
-    })
+    let words = words(sensor_column(sensor, false), "position_mm");
+    let usual = usualness(&mended, &problem.model) - usualness(measurement, &problem.model);
+    Some(Hypothesis { usual, ..Hypothesis::new(words, problem.clone()) })
 }

@@ -1,3 +1,6 @@
+mod one_pass;
+mod places_and_names;
+
 use std::path::Path;
 
 use helixlock_plant::Model;

@@ -24,10 +24,9 @@ impl View {
         fit(&views, &self.whitener.whiten(values)).residual_square
     }
 
-    /// That of what a prediction leaves.
-    pub(super) fn left(&self, problem: &Problem, predicted: &[f64]) -> f64 {
-        let pairs = problem.observed.iter().zip(predicted);
-        self.square(pairs.map(|(seen, said)| seen - said).collect())
+    /// That of what a problem's prediction leaves.
+    pub(super) fn left(&self, problem: &Problem) -> f64 {
+        self.square(problem.residual())
     }
 }
 

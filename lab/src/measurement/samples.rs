@@ -257,6 +257,17 @@ impl Measurement {
         both
     }
 
+    /// The same with the coordinates and logs of one pass as in other samples of the same rows.
+    pub(crate) fn with_pass_of(&self, mut other: Self, pass: usize) -> Self {
+        let mut mixed = self.clone();
+        let columns = mixed.samples.columns_mut().zip(other.samples.columns_mut());
+        for (values, others) in columns {
+            let rows = values.iter_mut().zip(others.iter()).zip(&self.samples.pass);
+            rows.filter(|(_, of)| **of == pass).for_each(|((value, other), _)| *value = *other);
+        }
+        mixed
+    }
+
     /// Leaves out the samples that are not kept, and the passes that have none.
     pub(crate) fn keep(&mut self, kept: &[bool]) {
         let of = |values: &mut Column| {

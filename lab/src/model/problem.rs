@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
 use helixlock_plant::prediction::{Sensor, gain, meter_um, observe, shown};
-use helixlock_plant::{Column, Effect, EffectError, Entry, Model, Part, Record, Term};
+use helixlock_plant::{Column, Effect, EffectError, Entry, Model, Part, Record, Sum, Term};
 
 use super::columns::Columns;
 use super::designs::Designs;
@@ -210,6 +210,12 @@ impl Problem {
         self.sensors == other.sensors && self.samples == other.samples
     }
 
+    /// True when every row is of the same sample as that of another problem, of whichever sensor.
+    #[must_use]
+    pub(crate) fn has_samples_of(&self, other: &Self) -> bool {
+        self.sensors.len() == other.sensors.len() && self.samples == other.samples
+    }
+
     /// What a free number costs as evidence (Bayesian information criterion).
     #[must_use]
     pub(crate) fn price_of_a_number(&self) -> f64 {
@@ -394,6 +400,21 @@ impl Problem {
         steps.map(|step| step * step).sum()
     }
 
+    /// What the model says of every row if the samples were taken elsewhere or told otherwise, without what the
+    /// recorder shows of the times between them.
+    pub(crate) fn predicted_of(&self, measurement: &Measurement) -> Result<Vec<f64>, EffectError> {
+        let mut record = Record::new(&self.model, measurement);
+        let effects = self.effects_on(&record)?;
+        record.error_um = meter_um(&self.model, &record, &effects).into();
+        Ok(self.stacked(|sensor| shown(&self.model, &record, &effects, sensor)))
+    }
+
+    /// The model's effects, ready for a record.
+    fn effects_on(&self, record: &Record) -> Result<Vec<(Entry, Sum)>, EffectError> {
+        let effects = self.model.effects.iter();
+        effects.map(|term| Ok((term.entry, term.effect(&self.model, &record.columns)?))).collect()
+    }
+
     /// What the model says of every row, each pass from its own zero. The records get the error
     /// that it predicts, for effects that depend on it: what was measured carries the noise, and a
     /// column made of the noise explains it.
@@ -402,10 +423,7 @@ impl Problem {
         record: &mut Record,
         finer: &mut Option<Arc<Finer>>,
     ) -> Result<Vec<f64>, EffectError> {
-        let effects = self.model.effects.iter();
-        let effects = effects
-            .map(|term| Ok((term.entry, term.effect(&self.model, &record.columns)?)))
-            .collect::<Result<Vec<_>, EffectError>>()?;
+        let effects = self.effects_on(record)?;
         record.error_um = meter_um(&self.model, record, &effects).into();
         if let Some(finer) = finer.as_mut().map(Arc::make_mut) {
             finer.record.error_um = meter_um(&self.model, &finer.record, &effects).into();

@@ -75,6 +75,12 @@ pub(crate) const OTHERWISE: f64 = 0.1;
 /// unit is doubted only where two quantities speak against it.
 pub(crate) const OTHERWISE_DEVIATION: f64 = 1.5;
 
+/// How often an error has another sensor's name, against how often it has the wrong sign: of what the table
+/// alone does, the thread's error is the recorder's with the other sign.
+///
+/// Chosen. Doubled: where nothing tells them apart, the sign still leads by 3.
+pub(crate) const RARER_THAN_A_SIGN: f64 = 0.1;
+
 /// Fewest effects in a file, but for those of logs that hold their readings, whose absence says that the measurement is another machine's.
 ///
 /// Derived: one effect can have been repaired. Doubled: files of two and three are not doubted.
@@ -85,7 +91,13 @@ pub(crate) const MACHINE_OF_EFFECTS: usize = 2;
 /// Chosen. Doubled: twice the time.
 pub(crate) const SHIFT_TURNS: u16 = 6;
 
-/// Square that a pass leaves, over that of any other one, from which on its own zero is looked for.
+/// Share of its whole change by which one place of a grid of zeros changes a prediction.
+///
+/// Derived: a wave's twelfth, of which a parabola through three places tells the height to a thousandth.
+/// Doubled: an eighth of a wave; the best wave of hundreds alike may be passed over.
+pub(crate) const A_PLACE: f64 = 0.13;
+
+/// Square that a pass leaves, over that of any other one, from which on a mistake in it alone is looked for.
 ///
 /// Chosen: noise of forty samples that depend on nothing differs by less. Doubled: a shift by which
 /// an effect leaves less than its noise is not seen.

@@ -5,6 +5,7 @@ use super::court::{Court, groups};
 use super::polish::polished;
 use super::rivals::Rivals;
 use crate::doubts::{Doubt, Suspect};
+use crate::hypotheses::structures;
 use crate::model::{Problem, State};
 use crate::policy::evidence::MARGIN;
 
@@ -18,6 +19,8 @@ pub(crate) struct Suspected {
 }
 
 /// Holds mistakes against the effects of a model, each in the place of one, of several and of all.
+///
+/// All that the data hold has been searched for by now: a mistake that leaves more than noise is told of no one.
 #[must_use]
 pub(crate) fn suspected(
     problem: &Problem,
@@ -28,36 +31,53 @@ pub(crate) fn suspected(
     let court = Court::new(problem, state, found, &[], (0, 0.0));
     let mut said = Suspected::default();
     for suspect in suspects {
-        let Some((ahead, group)) = best_group(&court, suspect) else { continue };
+        let Some(mended) = mended(problem, suspect) else { continue };
+        let Some(best) = best_in_place(&court, suspect, &mended) else { continue };
         let farthest = said.doubt.as_ref().map_or(MARGIN, |doubt| doubt.evidence);
-        if farthest < ahead {
-            said.doubt = Some(Doubt { evidence: ahead, ..suspect.doubt.clone() });
-        } else if -MARGIN < ahead {
+        let leaves_noise = || structures(&mended, &best.state.columns, &best.state.fit).is_empty();
+        if farthest < best.ahead && leaves_noise() {
+            said.doubt = Some(Doubt { evidence: best.ahead, ..suspect.doubt.clone() });
+        } else if best.ahead.abs() <= MARGIN {
             let says = || suspect.doubt.says.clone();
-            said.witnesses.extend(group.into_iter().map(|index| (index, says())));
+            said.witnesses.extend(best.beaten.iter().map(|&index| (index, says())));
         }
     }
     said
 }
 
-/// By how much a mistake is at best ahead of some effects, and of which.
-fn best_group(court: &Court<'_>, suspect: &Suspect) -> Option<(f64, Vec<usize>)> {
-    let (problem, state) = (court.problem, court.state);
+/// A problem with a mistake put right.
+fn mended(problem: &Problem, suspect: &Suspect) -> Option<Problem> {
     let predicted = problem.predicted.iter().zip(&suspect.change).map(|(said, by)| said + by);
     let mended = Problem {
         predicted: predicted.collect::<Vec<f64>>().into(),
+        observed: problem.observed.clone(),
         layout: problem.layout.clone(),
         free: problem.free.clone(),
         ..suspect.mended.clone()
     };
-    if !mended.has_rows_of(problem) {
-        return None;
-    }
-    let of = |group: Vec<usize>| {
-        let fewer = State::settled(&mended, state.without(&group), &state.fit.noises)?;
-        let fewer = polished(&mended, fewer);
-        Some((court.ahead(&group, &fewer.fit) - suspect.price, group))
+    mended.has_samples_of(problem).then_some(mended)
+}
+
+/// A mistake in the place of effects.
+struct Mended {
+    /// By how much it is ahead of them.
+    ahead: f64,
+    /// Their places in the model.
+    beaten: Vec<usize>,
+    /// What is left of the model then.
+    state: State,
+}
+
+/// The mistake where it is farthest ahead.
+fn best_in_place(court: &Court<'_>, suspect: &Suspect, mended: &Problem) -> Option<Mended> {
+    let of = |in_place_of: Vec<usize>| {
+        let fewer = court.state.without(&in_place_of);
+        let state = State::settled(mended, fewer, &court.state.fit.noises)?;
+        let state = polished(mended, state);
+        let ahead = court.ahead(&in_place_of, &state.fit) - suspect.price;
+        Some(Mended { ahead, beaten: in_place_of, state })
     };
-    let all = groups(state.components.len()).into_iter().filter(|group| !group.is_empty());
-    all.filter_map(of).max_by(|a, b| a.0.total_cmp(&b.0))
+    let all = groups(court.state.components.len());
+    let all = all.into_iter().filter(|group| !group.is_empty());
+    all.filter_map(of).max_by(|a, b| a.ahead.total_cmp(&b.ahead))
 }

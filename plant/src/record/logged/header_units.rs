@@ -40,6 +40,9 @@ pub(super) const ARCSECONDS: &[HeaderUnit] = &[
     ("arcsec", 1.0, 0.0),
     ("arcmin", 60.0, 0.0),
     ("deg", 3600.0, 0.0),
+    ("mdeg", 3.6, 0.0),
+    ("gon", 3240.0, 0.0),
+    ("mgon", 3.24, 0.0),
     ("rad", 648_000.0 / std::f64::consts::PI, 0.0),
     ("mrad", 648.0 / std::f64::consts::PI, 0.0),
     ("urad", 0.648 / std::f64::consts::PI, 0.0),
@@ -63,4 +66,4 @@ pub(super) const HECTOPASCALS: &[HeaderUnit] = &[
 ];
 pub(super) const PER_CENT: &[HeaderUnit] = &[("%", 1.0, 0.0), ("pct", 1.0, 0.0), ("%rh", 1.0, 0.0)];
 pub(super) const NEWTONS: &[HeaderUnit] =
-    &[("n", 1.0, 0.0), ("kn", 1e3, 0.0), ("kgf", 9.806_65, 0.0)];
+    &[("n", 1.0, 0.0), ("kn", 1e3, 0.0), ("kgf", 9.806_65, 0.0), ("lbf", 4.448_221_615_260_5, 0.0)];

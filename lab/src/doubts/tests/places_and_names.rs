@@ -1,0 +1,117 @@
+//! Places that are counted otherwise, on tables and on rotary axes, and columns with another's name.
+
+use super::*;
+
+/// A table with a worm of 90 and an eccentric grating.
+fn rotary(speed: &str) -> Model {
+    let text = format!(
+        "output.rotary = true\nspindle.speed = '{speed}'\n\
+         grating = {{ lines = 36000, diameter = '150 mm' }}\n\
+         [[gear]]\nname = 'worm'\norder = 90\n\
+         [[effect]]\nkind = 'gear-error'\norder = 90\namplitude = '6 arcsec'\nphase = '17 deg'\n\
+         [[effect]]\nkind = 'grating-eccentricity'\neccentricity = '2 um'\nphase = '33 deg'\n"
+    );
+    Model::parse(&text, Path::new("machine.toml")).expect("a machine")
+}
+
+/// A turn at 1 rpm in 900 rows, what `known` shows of it with noise of 0.3″; the angle as it was read.
+fn turn(known: &Model, read: impl Fn(f64) -> f64) -> Table {
+    let column = |name: &str, values: Vec<f64>| Column { name: name.to_owned(), values };
+    let turns: Vec<f64> = (0..900_u32).map(|row| f64::from(row) / 900.0).collect();
+    let of = |error: Vec<f64>, angle: Vec<f64>| {
+        let time_s = turns.iter().map(|turn| 60.5 * turn).collect();
+        Table::new(vec![
+            column("time_s", time_s),
+            column("angle_rev", angle),
+            column("error_arcsec", error),
+        ])
+    };
+    let clean = problem(known, &of(vec![0.0; 900], turns.clone())).predicted;
+    let mut chance = ChaCha8Rng::seed_from_u64(7);
+    let mut noise = || -> f64 { StandardNormal.sample(&mut chance) };
+    let shown = clean.iter().map(|value| value + 0.3 * noise()).collect();
+    of(shown, turns.iter().map(|turn| read(*turn)).collect())
+}
+
+#[test]
+fn degrees_and_another_zero_of_an_angle_are_told() {
+    let known = rotary("1 rpm");
+    assert_eq!(doubted(&known, &turn(&known, |turn| turn)), None);
+    let (what, mend) = doubted(&known, &turn(&known, |turn| 360.0 * turn)).expect("a doubt");
+    assert!(what == "unit" && mend.contains("angle_rev") && mend.ends_with("\"deg\""), "{mend}");
+    let shifted = problem(&known, &turn(&known, |turn| turn + 0.253));
+    let (doubts, suspects) = doubts_and_suspects(&shifted);
+    let all = doubts.iter().chain(suspects.iter().map(|one| &one.doubt));
+    let mend = "take 0.2530 turns off `angle_rev`";
+    assert!(all.into_iter().any(|one| one.mend == mend), "{doubts:?} {}", suspects.len());
+}
+
+/// An axis whose angle follows from its clock: only the worm tells that the clock is in minutes.
+#[test]
+fn a_clock_that_is_all_that_tells_the_angle_is_told_by_a_wave() {
+    let known = rotary("1 rpm");
+    let mut table = turn(&known, |turn| turn);
+    table.columns.remove(1);
+    let table = changed(table, "time_s", |time_s| time_s / 60.5);
+    let (what, mend) = doubted(&known, &table).expect("a doubt");
+    assert!(what == "unit" && mend.contains("time_s") && mend.ends_with("\"min\""), "{mend}");
+}
+
+#[test]
+fn a_position_that_counts_twice_is_told() {
+    let known = machine(150, WAVES);
+    for (factor, unit) in [(2.0, "0.5 mm"), (0.5, "2 mm")] {
+        let table = changed(measured(&known), "position_mm", |place| factor * place);
+        let (what, mend) = doubted(&known, &table).expect("a doubt");
+        assert!(what == "unit" && mend.ends_with(&format!("unit = \"{unit}\"")), "{mend}");
+    }
+}
+
+#[test]
+fn fringes_that_nobody_made_a_length_of_are_told() {
+    let known = machine(150, WAVES);
+    let table = changed(measured(&known), "error_um", |value| value / 0.316_409_9);
+    let (what, mend) = doubted(&known, &table).expect("a doubt");
+    assert!(what == "unit" && mend.ends_with("unit = \"0.3164099 um\""), "{what} {mend}");
+}
+
+#[test]
+fn the_threads_error_under_the_recorders_name_is_told() {
+    let grown = machine(150, &format!("{WAVES}[[effect]]\nkind = 'workpiece-expansion'\n"));
+    let warm = |mut table: Table| {
+        let warm = (0..600).map(|row| 20.0 + 0.005 * crate::numerics::count(row));
+        let values = warm.collect();
+        table.columns.push(Column { name: "workpiece_temperature_c".to_owned(), values });
+        table
+    };
+    let mut thread = warm(table(&[0.0; 600]));
+    let error = |table: &mut Table, name: &str| name.clone_into(&mut table.columns[3].name);
+    error(&mut thread, "lead_error_um");
+    let clean = problem(&grown, &thread).predicted;
+    let mut chance = ChaCha8Rng::seed_from_u64(7);
+    let mut row = 0;
+    let mut thread = changed(thread, "lead_error_um", |_| {
+        row += 1;
+        let fresh: f64 = StandardNormal.sample(&mut chance);
+        clean[row - 1] + 0.05 * fresh
+    });
+    assert_eq!(doubted(&grown, &thread), None);
+    error(&mut thread, "error_um");
+    let (what, mend) = doubted(&grown, &thread).expect("a doubt");
+    assert!(what == "swap" && mend.contains("to = \"lead_error_um\""), "{what} {mend}");
+    // Of the table alone, the thread shows what the recorder does with the other sign.
+    let turned = changed(measured(&machine(150, WAVES)), "error_um", |value| -value);
+    assert_eq!(doubted(&machine(150, WAVES), &turned).expect("a doubt").0, "sign");
+}
+
+#[test]
+fn a_temperature_under_the_humiditys_name_is_told() {
+    let known = machine(150, "[[effect]]\nkind = 'air-temperature'\n");
+    let mut table = measured(&known);
+    let humidity = (0..600).map(|row| 45.0 + 3.0 * libm::sin(0.07 * crate::numerics::count(row)));
+    table.columns.push(Column { name: "humidity_pct".to_owned(), values: humidity.collect() });
+    assert_eq!(doubted(&known, &table), None);
+    table.columns[2].name = "humidity_pct".to_owned();
+    table.columns[4].name = "air_temperature_c".to_owned();
+    assert_eq!(doubted(&known, &table).expect("a doubt").0, "swap");
+}
