@@ -97,6 +97,7 @@ fn a_key_that_no_machine_has_is_refused_before_anything_is_written() {
     for (key, expected) in [
         ("drive.frequenzy=80,160 Hz", "unknown key `frequenzy` in `drive`"),
         ("effect.9.amplitude=1,2 um", "there is no place `9`"),
+        ("dividers.b=150", "`dividers.b` is varied twice"),
     ] {
         let run = Command::new(env!("CARGO_BIN_EXE_helixlock"))
             .args(["sweep", "examples/sg7430-6mm/machine.toml", "--length", "0.5"])

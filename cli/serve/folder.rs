@@ -39,6 +39,10 @@ impl Folder {
             bail!(outside());
         }
         let path = self.root.join(path);
+        // A pipe would be waited for, a device read without end.
+        if path.metadata().is_ok_and(|there| !there.is_file() && !there.is_dir()) {
+            bail!("`{name}`: found a pipe or a device, expected a file");
+        }
         let there = path.ancestors().find_map(|part| part.canonicalize().ok());
         if !there.is_some_and(|there| there.starts_with(&self.root)) {
             bail!(outside());

@@ -1,11 +1,13 @@
 //! A dropped file: how it is read, what is asked about it, and the table it becomes.
 
+use std::collections::VecDeque;
 use std::path::Path;
 use std::sync::Mutex;
 
 use anyhow::{anyhow, bail};
 use helixlock_import::recipe::{KEYS, Kind};
 use helixlock_import::{ColumnRule, Proposal, Recipe, Source, Value, propose};
+use helixlock_lab::fnv1a64;
 use helixlock_plant::LOGGED_COLUMNS;
 use helixlock_traces::csv::write_csv;
 use helixlock_traces::{LONGEST_BYTES, unpacked};
@@ -18,10 +20,13 @@ use super::refusal::{Answered, Refusal, json};
 /// Rows of the table that are shown.
 const SHOWN: usize = 8;
 
-/// Files that were dropped and are not saved yet, by the tab that did it.
+/// Most files that are held: one for each tab that a user has open, about.
+const HELD: usize = 4;
+
+/// Files that were dropped, the newest last; a tab says which one it means.
 #[derive(Debug, Default)]
 pub(crate) struct Dropped {
-    last: Mutex<Option<File>>,
+    files: Mutex<VecDeque<File>>,
 }
 
 #[derive(Clone, Debug)]
@@ -30,15 +35,18 @@ struct File {
     bytes: Vec<u8>,
 }
 
-/// What a user says otherwise: pieces of recipes.
+/// What a user says otherwise of a file that was dropped: pieces of recipes.
 #[derive(Debug, Default, Deserialize)]
 pub(crate) struct Said {
+    #[serde(default)]
+    file: String,
     #[serde(default)]
     recipes: Vec<String>,
 }
 
 #[derive(Serialize)]
 struct ReadingJson {
+    file: String,
     name: String,
     lines: Vec<String>,
     settings: Vec<SettingJson>,
@@ -99,19 +107,25 @@ impl Dropped {
         let file = File { name: name.strip_suffix(".gz").unwrap_or(name).to_owned(), bytes };
         let reading = read(&file, &Said::default())?;
         let answer = reading_json(&file, &reading);
-        *held(&self.last) = Some(file);
+        let mut files = held(&self.files);
+        files.retain(|known| known.mark() != answer.file);
+        files.push_back(file);
+        while HELD < files.len() {
+            files.pop_front();
+        }
+        drop(files);
         json(&answer)
     }
 
     /// The same file read otherwise.
     pub(crate) fn read(&self, said: &Said) -> Answered {
-        let file = self.file()?;
+        let file = self.file(said)?;
         json(&reading_json(&file, &read(&file, said)?))
     }
 
     /// Writes the table, its recipe, and the file as it was dropped.
     pub(crate) fn save(&self, folder: &Folder, said: &Said) -> Answered {
-        let file = self.file()?;
+        let file = self.file(said)?;
         let proposal = read(&file, said)?;
         if let Some(open) = proposal.questions.first() {
             return Err(anyhow!("{}", open.text).into());
@@ -132,15 +146,24 @@ impl Dropped {
         json(&SavedJson { data, recipe: Some(recipe_name) })
     }
 
-    fn file(&self) -> anyhow::Result<File> {
-        held(&self.last).clone().ok_or_else(|| anyhow!("no file was dropped yet"))
+    fn file(&self, said: &Said) -> anyhow::Result<File> {
+        let files = held(&self.files);
+        let one = files.iter().rfind(|file| file.mark() == said.file);
+        one.cloned().ok_or_else(|| anyhow!("this file is held no more: drop it once more"))
+    }
+}
+
+impl File {
+    /// What tells it from others.
+    fn mark(&self) -> String {
+        format!("{:016x}", fnv1a64(self.name.as_bytes()) ^ fnv1a64(&self.bytes).rotate_left(1))
     }
 }
 
 /// Reads a table of the folder by a mend, and writes it beside.
 pub(crate) fn mend(folder: &Folder, data: &str, recipe: &str) -> Answered {
     let file = File { name: data.to_owned(), bytes: folder.read(data)? };
-    let proposal = read(&file, &Said { recipes: vec![recipe.to_owned()] })?;
+    let proposal = read(&file, &Said { recipes: vec![recipe.to_owned()], ..Said::default() })?;
     if let Some(open) = proposal.questions.first() {
         return Err(anyhow!("{}", open.text).into());
     }
@@ -209,6 +232,7 @@ fn reading_json(file: &File, proposal: &Proposal) -> ReadingJson {
         })
         .collect();
     ReadingJson {
+        file: file.mark(),
         name: file.name.clone(),
         lines: proposal.beginning.iter().map(printable).collect(),
         settings: settings(&proposal.recipe),
@@ -288,5 +312,29 @@ mod tests {
         assert!(
             Dropped::default().take("run.csv.gz", packed[..packed.len() / 2].to_vec()).is_err()
         );
+    }
+
+    #[test]
+    fn each_tab_reads_the_file_that_it_dropped() {
+        let all = Dropped::default();
+        let mark = |answer: Answered| {
+            let body = answer.ok().unwrap().body;
+            serde_json::from_slice::<serde_json::Value>(&body).unwrap()["file"]
+                .as_str()
+                .map(str::to_owned)
+        };
+        let drop = |error: u32| {
+            let rows: Vec<String> = (0..40).map(|row| format!("{row},{error}.{row}")).collect();
+            let text = format!("position_mm,error_um\n{}\n", rows.join("\n"));
+            mark(all.take("run.csv", text.into_bytes())).unwrap()
+        };
+        let said = |file: &str| Said { file: file.to_owned(), recipes: Vec::new() };
+        let (first, second) = (drop(1), drop(2));
+        assert_ne!(first, second);
+        assert_eq!(mark(all.read(&said(&first))), Some(first.clone()));
+        for more in 3..3 + u32::try_from(HELD).unwrap() {
+            drop(more);
+        }
+        assert!(all.read(&said(&first)).is_err() && all.read(&said("")).is_err());
     }
 }

@@ -93,7 +93,9 @@ impl Sim {
         } else {
             summary.print(out)?;
             written.print(out)?;
-
+            for other in self.wave.others_in(output) {
+                writeln!(out, "note: {} is of an earlier run", other.display())?;
+            }
             Next::command("compare").words([&self.machine, &output.join(TRACE)]).print(out)?;
         }
         if self.open {

@@ -1,6 +1,7 @@
 //! The waveform of a run, written while it goes on, so that no window is too long for memory.
 
 use std::io::{self, BufWriter};
+use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use clap::ValueEnum;
@@ -37,6 +38,13 @@ impl WaveFormat {
             Self::Compressed => "wave.vcd.gz",
             Self::Fst => "wave.fst",
         }
+    }
+
+    /// Waveforms in a folder that another run has left in another form.
+    pub(super) fn others_in(self, folder: &Path) -> Vec<PathBuf> {
+        let others = Self::value_variants().iter().filter(|other| **other != self);
+        let files = others.map(|other| folder.join(other.file_name()));
+        files.filter(|file| file.is_file()).collect()
     }
 }
 

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use helixlock_lab::divider_doubt;
 use helixlock_plant::Machine;
+use helixlock_plant::motion::LeftOut;
 use helixlock_sim::{Course, Findings, Hunting, Pass, PassFindings, Playback, Simulation};
 
 use crate::shared::keys::keys;
@@ -148,9 +149,9 @@ fn notes(machine: &Machine, simulation: &Simulation, findings: &Findings) -> Vec
             "compensation {asked} um/m is set as {given:.4} um/m: four digits of F can be dialled"
         ));
     }
-    for effect in &simulation.left_out {
+    for LeftOut { effect, column } in &simulation.left_out {
         notes.push(format!(
-            "effect `{effect}` did nothing: `[environment]` does not say what drives it"
+            "effect `{effect}` did nothing: `[environment]` does not say what `{column}` is"
         ));
     }
     if findings.slew_limited {

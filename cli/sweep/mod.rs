@@ -128,6 +128,14 @@ impl Sweep {
         let drawn =
             self.drawn.iter().map(|text| DrawnAxis::parse(text)).collect::<Result<_, _>>()?;
         let plan = Plan { grid, drawn, samples: self.samples, seed: self.seed };
+        let keys = plan.columns();
+        if let Some(twice) = keys
+            .iter()
+            .enumerate()
+            .find_map(|(at, key)| keys[..at].iter().find(|other| *other == key))
+        {
+            bail!("`{twice}` is varied twice, expected each key once");
+        }
         let all = plan.cases();
         let range = self.shard.map_or(0..all, |shard| shard.cases(all));
         let cases = range.end - range.start;

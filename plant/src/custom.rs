@@ -53,6 +53,11 @@ const ALWAYS_THERE: &[(&str, Reading)] = &[
     ("error_um", |now| now.error_um),
 ];
 
+/// Names of those.
+pub(crate) fn words() -> impl Iterator<Item = &'static str> {
+    ALWAYS_THERE.iter().map(|(name, _)| *name)
+}
+
 /// Where a variable of the formula gets its value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Variable {
@@ -317,7 +322,11 @@ fn read_memory(call: &Call, parameters: &[String]) -> Result<Memory, String> {
             .or_else(number)
             .ok_or_else(|| format!("`{word}` in a memory is neither a parameter nor a number"))
     };
-    let arguments = call.arguments.iter().map(argument).collect::<Result<_, _>>()?;
+    let arguments = call.arguments.iter().map(argument).collect::<Result<Vec<_>, _>>()?;
+    // The last is a time constant or a width.
+    if let Some(Argument::Number(..0.0)) = arguments.last() {
+        return Err(format!("a memory is written `{}`, the last 0 or more", call.kind.usage()));
+    }
     let of = variable(&call.of, parameters);
     if matches!(of, Variable::Parameter(_)) {
         return Err(format!(

@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 
 use helixlock_traces::{At, TraceError};
 
+use crate::nearest::nearest;
+use crate::record::LOGGED_COLUMNS;
 use crate::units::LARGEST_UM;
 
 /// The place of byte `offset` of `text`.
@@ -191,12 +193,21 @@ fn lines(errors: &[MachineError]) -> String {
     errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
 
+/// What a misspelt column may have been meant to be.
+fn meant(column: &str) -> String {
+    let known = crate::custom::words().chain(LOGGED_COLUMNS.iter().map(|known| known.name));
+    match nearest(column, known).filter(|near| *near != column) {
+        Some(near) => format!("; is `{near}` meant?"),
+        None => String::new(),
+    }
+}
+
 /// Why an effect cannot be worked out.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum EffectError {
     /// It is driven by a column that is not there.
-    #[error("effect `{effect}` needs the column `{column}`, which is not there")]
+    #[error("effect `{effect}` needs the column `{column}`, which is not there{}", meant(column))]
     MissingColumn {
         /// The effect.
         effect: String,

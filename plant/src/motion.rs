@@ -97,7 +97,16 @@ pub struct Motion {
     lead_mm: f64,
     number: usize,
     /// Effects that do nothing because the machine file does not say what drives them.
-    pub left_out: Vec<String>,
+    pub left_out: Vec<LeftOut>,
+}
+
+/// An effect that does nothing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LeftOut {
+    /// Its name.
+    pub effect: String,
+    /// The column that drives it.
+    pub column: String,
 }
 
 impl Motion {
@@ -119,7 +128,9 @@ impl Motion {
                     effects.push((term.entry, effect));
                     names.push(format!("effect {} `{}`", index + 1, term.name));
                 }
-                Err(EffectError::MissingColumn { .. }) => left_out.push(term.name.clone()),
+                Err(EffectError::MissingColumn { effect, column }) => {
+                    left_out.push(LeftOut { effect, column });
+                }
                 Err(error) => return Err(error),
             }
         }

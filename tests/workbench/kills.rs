@@ -85,12 +85,13 @@ const UNDO: Deed =
 const RECIPE: Deed = Deed {
     name: "a reading",
     asked: |server| {
-        server.answered(
+        let reading = server.answered(
             "POST",
             "drop?name=dial.txt",
             "position_mm;error_um\n1,0;0,5\n2,0;0,25\n3,0;0,5\n",
         );
-        (server.change("save"), "{ \"recipes\": [] }".into())
+        let file = serde_json::json!({ "file": reading["file"], "recipes": [] });
+        (server.change("save"), file.to_string())
     },
     before: 0,
 };

@@ -21,6 +21,7 @@ use crate::error::{At, TraceError};
 use crate::table::{Column, Table, TextColumn, shortened};
 
 mod checks;
+mod checksum;
 
 use checks::{
     check_compression, check_dictionary, check_places, check_rows, check_type, declared_rows,
@@ -76,6 +77,11 @@ fn read_columns(bytes: Vec<u8>, path: &Path) -> Result<Table, TraceError> {
     if let (true, Some(first)) = (columns.is_empty(), text.first()) {
         return Err(first.refused());
     }
+    if !checksum::holds(reader.metadata().file_metadata().created_by(), &columns) {
+        let message =
+            "found other numbers than were written, by their checksum: the file is damaged";
+        return Err(broken(ParquetError::General(message.into())));
+    }
     let table = Table { path: path.to_owned(), columns, text, ..Table::default() };
     check_rows(&table)?;
     Ok(table)
@@ -91,7 +97,10 @@ pub fn write_parquet(table: &Table, out: &mut (impl Write + Send)) -> io::Result
     let schema = fields
         .and_then(|fields| Type::group_type_builder("table").with_fields(fields).build())
         .map_err(io::Error::other)?;
-    let properties = WriterProperties::builder().set_compression(Compression::SNAPPY).build();
+    let properties = WriterProperties::builder()
+        .set_compression(Compression::SNAPPY)
+        .set_created_by(checksum::created_by(&table.columns))
+        .build();
     let mut writer = SerializedFileWriter::new(out, Arc::new(schema), Arc::new(properties))
         .map_err(io::Error::other)?;
     for start in (0..table.rows()).step_by(GROUP_ROWS) {
@@ -261,5 +270,25 @@ mod tests {
         let bits: Vec<_> = again.columns[0].values.iter().map(|value| value.to_bits()).collect();
         assert_eq!(again.columns[0].name, "error_um");
         assert_eq!(bits, table.columns[0].values.iter().map(|v| v.to_bits()).collect::<Vec<_>>());
+    }
+
+    /// Bits of its pages turned one by one: what is read at all is what was written.
+    #[test]
+    fn a_damaged_file_is_refused() {
+        let values: Vec<f64> = (0..40).map(|row| 0.1 * f64::from(row)).collect();
+        let table = Table::new(vec![Column { name: "error_um".into(), values: values.clone() }]);
+        let mut bytes = Vec::new();
+        write_parquet(&table, &mut bytes).unwrap();
+        let pages = bytes.len() / 2;
+        let mut refused = 0;
+        for (at, bit) in (0..pages).flat_map(|at| (0..8).map(move |bit| (at, bit))) {
+            let mut damaged = bytes.clone();
+            damaged[at] ^= 1 << bit;
+            match read_parquet(damaged, Path::new("data.parquet")) {
+                Ok(table) => assert_eq!(table.columns[0].values, values, "byte {at}, bit {bit}"),
+                Err(_) => refused += 1,
+            }
+        }
+        assert!(4 * pages < refused, "{refused} of {}", 8 * pages);
     }
 }

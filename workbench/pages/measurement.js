@@ -56,14 +56,14 @@ function render(root, page, reading) {
   const otherwise = (recipe) => page.attempt(async () => {
     said.push(recipe);
     try {
-      render(root, page, await told(await post("reread", {}, { recipes: said })));
+      render(root, page, await told(await post("reread", {}, { file: reading.file, recipes: said })));
     } catch (error) {
       said.pop();
       throw error;
     }
   });
   const save = () => page.attempt(async () => {
-    const saved = await post("save", {}, { recipes: said });
+    const saved = await post("save", {}, { file: reading.file, recipes: said });
     await page.refresh({ data: saved.data });
     await page.show("measurement");
     showMessage(saved.recipe ? t("measurement.saved", { data: saved.data, recipe: saved.recipe }) : t("measurement.as_it_is", { data: saved.data }));

@@ -73,7 +73,7 @@ pub fn final_check(
         pass: problem.measurement.pass_names[problem.record.pass[rows.start]],
         hunting_um: after.course.swing_um / f64::sqrt(2.0),
         sensors: measured(problem).into_iter().filter_map(check).collect(),
-        left_out: after.left_out,
+        left_out: after.left_out.into_iter().map(|one| one.effect).collect(),
     }))
 }
 

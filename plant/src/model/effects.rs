@@ -142,7 +142,8 @@ fn refused<T>(section: &Section<'_>, key: &str, reason: EffectError) -> Option<T
 
 fn value_of(section: &Section<'_>, parameter: &Parameter) -> Option<f64> {
     let name = parameter.name.as_ref();
-    // Plausible ranges bound a search; what a user states is only held to be a finite number.
+    // Plausible ranges bound a search; what a user states is only held to be a finite number, and a width,
+    // a frequency or a time above 0, as there is none below.
     let finite = -1e12..=1e12;
     let whole = parameter.search == Search::Whole;
     let found = match parameter.unit.dimension {
@@ -152,6 +153,9 @@ fn value_of(section: &Section<'_>, parameter: &Parameter) -> Option<f64> {
     };
     if whole && found.is_some_and(|value| value.fract() != 0.0) {
         return section.refuse(section.wrong(name, "a whole number"));
+    }
+    if 0.0 < *parameter.range.start() && found.is_some_and(|value| value <= 0.0) {
+        return section.refuse(section.wrong(name, "more than 0"));
     }
     if section.has(name) {
         return found;

@@ -1,7 +1,7 @@
 //! The plant as the closed loop sees it.
 
 use helixlock_plant::edges::Edges;
-use helixlock_plant::motion::Pass;
+use helixlock_plant::motion::{LeftOut, Pass};
 use helixlock_plant::{EffectError, Model};
 
 use super::process::{Place, Process};
@@ -31,7 +31,7 @@ impl Grinder {
 
     /// Effects that do nothing because the machine file does not say what drives them.
     #[must_use]
-    pub fn left_out(&self) -> &[String] {
+    pub fn left_out(&self) -> &[LeftOut] {
         &self.edges.motion().left_out
     }
 }

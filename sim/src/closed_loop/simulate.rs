@@ -2,6 +2,7 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use helixlock_plant::motion::LeftOut;
 use helixlock_plant::{LowPass, Machine, Model};
 
 use super::grinder::Grinder;
@@ -70,7 +71,7 @@ pub struct Simulation {
     /// Loop closed, played back at the end.
     pub closed: Pass,
     /// Effects that did nothing because the machine file does not say what drives them.
-    pub left_out: Vec<String>,
+    pub left_out: Vec<LeftOut>,
 }
 
 impl Course {
