@@ -41,7 +41,15 @@ pub(super) fn commit(folder: &Path, files: Vec<(Unfinished, PathBuf)>) -> anyhow
     if renames.len() < 2 {
         return rename(folder, &renames);
     }
-    write_journal(folder, &renames)?;
+    if let Err(error) = write_journal(folder, &renames) {
+        // On a full disk, where the files had room and the journal has none: nothing speaks of them yet.
+        for (temporary, _) in &renames {
+            let _ = std::fs::remove_file(folder.join(temporary));
+        }
+        return Err(
+            error.context(format!("{}: cannot be written", folder.join(&renames[0].1).display()))
+        );
+    }
     finish(folder)
 }
 
