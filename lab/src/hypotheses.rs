@@ -2,6 +2,7 @@
 //! a name, and structure that is nobody's; each tried, with its chance in noise.
 
 mod agreement;
+mod alternating;
 mod calibration;
 mod candidates;
 mod chirps;

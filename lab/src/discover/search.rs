@@ -96,7 +96,7 @@ pub fn discover(problem: &Problem) -> Discovery {
             None => break,
         }
     }
-    now.told(problem, &small)
+    now.without_lost(&small).told(problem, &small)
 }
 
 /// The answer to mistaken input.
@@ -122,7 +122,7 @@ impl Now {
             let may_join = |claim: &Claim<'_>| kept_out(problem, &self.state, claim).is_none();
             let best = simplest(&claims, may_join)?;
             let next = self.with(problem, &claims, &claims[best])?;
-            if is_held(problem, &next.state) {
+            if is_held(problem, &next.state, next.state.components.len() - 1) {
                 return Some(next);
             }
             claims.remove(best);
@@ -154,6 +154,21 @@ impl Now {
         granted.push(one);
         let state = State::settled(problem, components, &best.fit.noises)?;
         Some(Self { state: polished(problem, state), found: Vec::new(), granted })
+    }
+
+    /// The same without formulas whose size is lost in its error beside later ones.
+    fn without_lost(mut self, problem: &Problem) -> Self {
+        loop {
+            let named = self.state.components.len() - self.granted.len();
+            let mut places = 0..self.granted.len();
+            let lost = places.find(|place| !is_held(problem, &self.state, named + place));
+            let Some(place) = lost else { return self };
+            let others = self.state.without(&[named + place]);
+            let state = State::settled(problem, others, &self.state.fit.noises);
+            let Some(state) = state else { return self };
+            self.granted.remove(place);
+            self.state = polished(problem, state);
+        }
     }
 
     /// The answer, fitted to all rows.
@@ -227,12 +242,11 @@ fn kept_out(problem: &Problem, state: &State, claim: &Claim<'_>) -> Option<&'sta
     (!left).then_some("too small to change a figure")
 }
 
-/// True unless every size of the last component is lost in its error, as where the samples meet a
-/// wave always at the same two phases.
-fn is_held(problem: &Problem, state: &State) -> bool {
-    let last = state.components.len() - 1;
-    let term = state.components[last].valued(state.coefficients(last).0);
-    let sizes = term.parameters.iter().zip(&term.values).zip(errors(problem, state, last));
+/// True unless every size of a component is lost in its error, as where the samples meet a wave always
+/// at the same two phases.
+fn is_held(problem: &Problem, state: &State, index: usize) -> bool {
+    let term = state.components[index].valued(state.coefficients(index).0);
+    let sizes = term.parameters.iter().zip(&term.values).zip(errors(problem, state, index));
     let mut sizes =
         sizes.filter(|((what, _), _)| matches!(what.role, Role::Linear | Role::Amplitude));
     sizes.any(|((_, value), stderr)| {

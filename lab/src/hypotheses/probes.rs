@@ -3,6 +3,7 @@
 //! Each probe is a set of columns that belong to no effect. Its likelihood against the model, the
 //! noise fitted anew on both sides, says whether something is left, and its shape says what.
 
+use super::alternating::alternating;
 use super::calibration;
 use super::chirps::chirps;
 use super::common_curve::common_curve;
@@ -163,6 +164,7 @@ pub(crate) fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> V
     all.extend(waves::bands(problem, fit));
     all.extend(chirps(problem, model, fit));
     all.extend(step(problem, model, fit));
+    all.push(alternating(problem, model, fit));
     all.extend(covariates(problem, model, fit));
     all.extend(curves_of_logs(problem, model, fit));
     all.sort_by(|a, b| a.p_value.total_cmp(&b.p_value).then(b.rms_um.total_cmp(&a.rms_um)));

@@ -36,6 +36,11 @@ pub(crate) fn complete(table: &Table, nominal: &Nominal) -> Result<Coordinates, 
     let angle_rev = match (angle, position, time) {
         (Some(angle), _, _) => angle.to_vec(),
         (None, Some(position), _) if !nominal.rotary => scaled(position, 1.0 / nominal.lead_mm),
+        (None, _, Some(time)) if turns_back(table) => {
+            let note = "`direction` turns back, and nothing says how far: no angle follows from the clock";
+            notes.push(note.to_owned());
+            scaled(time, 0.0)
+        }
         (None, _, Some(time)) => {
             notes.push("angle and travel follow from `time_s` and the spindle speed".to_owned());
             scaled(time, turns_per_second)
@@ -60,6 +65,13 @@ pub(crate) fn complete(table: &Table, nominal: &Nominal) -> Result<Coordinates, 
     };
     let placed = position.is_some() || angle.is_some();
     Ok(Coordinates { time_s, position_mm, angle_rev, timed: time.is_some(), placed, notes })
+}
+
+/// True for an axis that goes either way.
+fn turns_back(table: &Table) -> bool {
+    let direction = table.column("direction").unwrap_or_default();
+    let goes = |sign: f64| direction.iter().any(|value| 0.0 < sign * value);
+    goes(1.0) && goes(-1.0)
 }
 
 /// Time from the first sample of the record, so that clock times may be given.

@@ -68,7 +68,7 @@ pub(crate) const FAST_LINE: f64 = 1e-6;
 /// Probes for structure beside those of logged columns: every chance is multiplied by their
 /// number (Bonferroni).
 ///
-/// Derived: fifteen on one pass, twenty-one on several of one sensor; this stands for both. Doubled:
+/// Derived: sixteen on one pass, twenty-two on several of one sensor; this stands for both. Doubled:
 /// structure at the limit needs 1.4 more evidence.
 pub(crate) const PROBES: f64 = 18.0;
 
