@@ -50,6 +50,7 @@ mod licences;
 mod linuxcnc;
 mod lockstep;
 mod logic_analyser;
+mod loud_ripple;
 mod make_sim;
 mod metrology;
 mod mistakes_beside_effects;

@@ -7,6 +7,7 @@ mod diagnosis;
 mod experiment;
 mod final_check;
 mod learn;
+mod searched;
 
 pub use adding::{Added, add};
 pub use compare::{Comparison, NoiseSize, PassSize, SensorResidual, SlowSize, compare};

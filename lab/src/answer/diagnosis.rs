@@ -3,13 +3,13 @@
 use std::collections::BTreeSet;
 
 use helixlock_plant::{Role, Search, Term};
-use rayon::prelude::*;
 
 use super::experiment::{self, Advice};
+use super::searched::{Searched, search_on_all_rows, without_dropped};
 use crate::doubts::{Doubt, Suspect, doubts_and_suspects};
 use crate::hypotheses::{
-    Likelihood, Structure, at_targets, disagreements, is_left, no_all_clear, no_larger_than,
-    samples_a_pass, slow_without, structures, waves_left,
+    Likelihood, Structure, disagreements, no_all_clear, no_larger_than, samples_a_pass,
+    slow_without, structures, waves_left,
 };
 use crate::model::{
     Component, JointCovariance, Judged, Problem, State, covariance_of_all_values, holdout_rms,
@@ -20,8 +20,7 @@ use crate::numerics::least_squares::covariance_rows;
 use crate::policy::chance::{AT_AN_END, STANDARD_ERRORS};
 use crate::policy::extent::{COMPARED_ROWS, SEARCHED_ROWS};
 use crate::search::{
-    Dropped, Refusal, Rivals, Step, hear, nobodys, not_told, own_errors, polished, pruned,
-    pruned_in_doubt, rivals, search, suspected, take_for_a_shape,
+    Dropped, Refusal, Rivals, Step, hear, nobodys, not_told, pruned, rivals, suspected,
 };
 
 /// What can be said about a model and a measurement.
@@ -176,41 +175,8 @@ fn doubtful(problem: &Problem, doubts: Vec<Doubt>) -> Diagnosis {
     }
 }
 
-/// What a search has found, on few rows and on all.
-struct Searched {
-    small: Problem,
-    problem: Problem,
-    steps: Vec<Step>,
-    states: Vec<State>,
-    /// What targets show at every visit and no effect explains.
-    of_targets: Option<Structure>,
-}
-
-fn search_on_all_rows(problem: &Problem) -> Searched {
-    let mut small = problem.thinned(SEARCHED_ROWS).unwrap_or_else(|| problem.clone());
-    let mut steps = search(&mut small);
-    let of_targets =
-        left_at_targets(problem, &small, &steps).or_else(|| own_errors(&small, &steps));
-    if of_targets.is_some() {
-        small = small.with_targets_free();
-        steps = search(&mut small);
-    }
-    take_for_a_shape(&mut small, &mut steps);
-    let (problem, mut states) = on_all_rows(problem, &small, &steps);
-    if let Some(last) = states.pop() {
-        states.push(polished(&problem, last));
-    }
-    let of_small = &steps[steps.len() - 1].state;
-    if let Some((step, state)) = pruned_again(&problem, &small, of_small, &states[states.len() - 1])
-    {
-        steps.push(step);
-        states.push(state);
-    }
-    Searched { small, problem, steps, states, of_targets }
-}
-
 fn searched(problem: &Problem, suspects: &[Suspect]) -> Diagnosis {
-    let Searched { small, problem, mut steps, mut states, of_targets } =
+    let Searched { small, problem, mut steps, mut states, of_targets, fine } =
         search_on_all_rows(problem);
     let last = &steps[steps.len() - 1].state;
     let mut found = rivals(&small, last, &steps[0].tried);
@@ -242,6 +208,9 @@ fn searched(problem: &Problem, suspects: &[Suspect]) -> Diagnosis {
     if residual.is_empty() {
         residual.extend(thinned_away(&problem, &small, last));
     }
+    if let Some(fine) = fine.as_ref().and_then(|fine| left_on(fine, &steps)) {
+        residual = fine;
+    }
     no_larger_than(noise_um, &mut residual);
     residual.extend(of_targets);
     residual.extend(no_all_clear(&problem, state, &residual));
@@ -258,6 +227,12 @@ fn searched(problem: &Problem, suspects: &[Suspect]) -> Diagnosis {
         before: problem.residual(),
         left: states.pop().map(|state| state.fit.left).unwrap_or_default(),
     }
+}
+
+/// What a model leaves of other rows, if it leaves any structure.
+fn left_on(problem: &Problem, steps: &[Step]) -> Option<Vec<Structure>> {
+    let state = steps[steps.len() - 1].state.on(problem)?;
+    Some(structures(problem, &state.columns, &state.fit)).filter(|left| !left.is_empty())
 }
 
 /// Waves that a comparison finds in so many more rows than were searched.
@@ -288,51 +263,6 @@ fn confuse(found: &mut [Rivals], witnesses: impl Iterator<Item = (usize, String)
             rivals.confused.push(witness);
         }
     }
-}
-
-/// What targets show at every visit and no effect explains; of means, none.
-fn left_at_targets(problem: &Problem, small: &Problem, steps: &[Step]) -> Option<Structure> {
-    if !small.has_rows_of(problem) {
-        return None;
-    }
-    let State { columns, fit, .. } = &steps[steps.len() - 1].state;
-    at_targets(small, columns, fit).filter(|structure| is_left(small, fit, structure))
-}
-
-/// Every state of a search fitted to all rows, outliers marked as the last one leaves them.
-fn on_all_rows(problem: &Problem, small: &Problem, steps: &[Step]) -> (Problem, Vec<State>) {
-    if small.samples.len() == problem.samples.len() {
-        return (small.clone(), steps.iter().map(|step| step.state.clone()).collect());
-    }
-    let mut whole = problem.clone();
-    let last = steps[steps.len() - 1].state.on(&whole).unwrap_or_else(|| State::bare(&whole));
-    whole.mark_outliers(&last.fit.left);
-    // The last noise is the one that no effect is left in: all begin with it.
-    let near = |step: &Step| {
-        State::of(&whole, step.state.components.clone(), &last.fit.noises)
-            .unwrap_or_else(|| State::bare(&whole))
-    };
-    let states = steps.par_iter().map(near).collect();
-    (whole, states)
-}
-
-/// One more step without the effects that all rows show to be superfluous, if there are any.
-fn pruned_again(
-    problem: &Problem,
-    small: &Problem,
-    of_small: &State,
-    last: &State,
-) -> Option<(Step, State)> {
-    let (state, dropped) = pruned_in_doubt(problem, last, (small, of_small));
-    if dropped.is_empty() {
-        return None;
-    }
-    without_dropped(small, state, dropped)
-}
-
-/// A step to a state of all rows that some effects were taken out of.
-fn without_dropped(small: &Problem, state: State, dropped: Vec<Dropped>) -> Option<(Step, State)> {
-    Some((Step::to(state.on(small)?, None, dropped), state))
 }
 
 /// Why an effect is taken out in whose place a shape without a name explains more.

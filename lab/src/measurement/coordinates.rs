@@ -37,7 +37,8 @@ pub(crate) fn complete(table: &Table, nominal: &Nominal) -> Result<Coordinates, 
         (Some(angle), _, _) => angle.to_vec(),
         (None, Some(position), _) if !nominal.rotary => scaled(position, 1.0 / nominal.lead_mm),
         (None, _, Some(time)) if turns_back(table) => {
-            let note = "`direction` turns back, and nothing says how far: no angle follows from the clock";
+            let note =
+                "`direction` turns back, and nothing says how far: no angle follows from the clock";
             notes.push(note.to_owned());
             scaled(time, 0.0)
         }

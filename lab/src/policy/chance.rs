@@ -112,8 +112,10 @@ pub(crate) const BEYOND_DOUBT: f64 = 40.0;
 /// against more of it.
 ///
 /// Derived: what is beyond [`SIGNIFICANCE`] is beyond six, and sixteen draws tell three from it on one
-/// side, and twelve on the other. Doubled: half of it is missed.
-pub(crate) const WORTH_DRAWING: std::ops::RangeInclusive<f64> = 3.0..=12.0;
+/// side. On the other they do not know how skewed a figure is: at twelve of their deviations noise was as far
+/// as that once in hundreds of records, and by an exponential law thirty are 1e-9 if half of them are true.
+/// Doubled: half of it is missed on the one side, nothing on the other.
+pub(crate) const WORTH_DRAWING: std::ops::RangeInclusive<f64> = 3.0..=30.0;
 
 /// Changes from one stretch of a pass to the next from which on their median says what is usual.
 ///

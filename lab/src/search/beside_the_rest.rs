@@ -47,7 +47,7 @@ pub(crate) fn not_told(problem: &Problem, steps: &[Step], left: &[Structure]) ->
 
 /// Places of the effects that are not worth their price on a problem that more is free on, or count
 /// no whole number there.
-fn not_told_beside(problem: &Problem, state: &State, prices: &[f64]) -> Vec<usize> {
+pub(super) fn not_told_beside(problem: &Problem, state: &State, prices: &[f64]) -> Vec<usize> {
     let noises = &state.fit.noises;
     let Some(all) = State::of(problem, state.components.clone(), noises) else { return Vec::new() };
     let is_worth_it = |index: usize| {

@@ -7,10 +7,11 @@
 
 use std::collections::BTreeSet;
 
-use helixlock_plant::{CATALOGUE, Entry};
+use helixlock_plant::{CATALOGUE, Column, Entry, Role};
 
 use super::acceptance::chance_in_any_noise;
 use super::analysis::Step;
+use super::beside_the_rest::not_told_beside;
 use super::judging::plain_noises;
 use super::refusal::Refusal;
 use super::rivals::Rivals;
@@ -226,8 +227,13 @@ impl Claim<'_> {
 
     /// What the shape shows at its best, by itself.
     pub(crate) fn shown(&self, problem: &Problem) -> Structure {
-        let rms_um = rms(&problem.layout, &self.left_of_nothing(problem));
+        let rms_um = self.size_um(problem);
         structure(&self.placed, self.placed.shape.words, rms_um, self.p_value)
+    }
+
+    /// Size of that, µm.
+    fn size_um(&self, problem: &Problem) -> f64 {
+        rms(&problem.layout, &self.left_of_nothing(problem))
     }
 
     /// The shape at its best, of the other sign.
@@ -280,13 +286,42 @@ impl<'a> Court<'a> {
         if group.is_empty() {
             return Some(Winner { shown: self.beside_all(&claim)?, beaten: group, ahead });
         }
-        // What is hardly another shape explains what the effects leave of themselves, and not them away.
-        let hardly = self.hardly_another(&group, &claim);
-        let rms_um = hardly.unwrap_or_else(|| {
-            rms(&self.problem.layout, &settle(self.problem, base, &self.state.fit.noises).left)
-        });
-        let shown = self.better_than(&group, rms_um, &claim);
-        Some(Winner { shown, beaten: if hardly.is_some() { Vec::new() } else { group }, ahead })
+        // What is hardly another shape, or the effect and more, explains what the effects leave of themselves,
+        // and not them away.
+        if self.is_hardly_another(&group, &claim) {
+            let shown = self.better_than(&group, self.apart_um(&group, &claim)?, &claim);
+            return Some(Winner { shown, beaten: Vec::new(), ahead });
+        }
+        if let Some(more) = self.more_than(&group, &claim) {
+            let shown = self.better_than(&group, self.apart_um(&group, &claim)?, &claim);
+            return Some(Winner { shown: shown.drawn_by(more), beaten: Vec::new(), ahead });
+        }
+        let left = settle(self.problem, base, &self.state.fit.noises).left;
+        let shown = self.better_than(&group, rms(&self.problem.layout, &left), &claim);
+        Some(Winner { shown, beaten: group, ahead })
+    }
+
+    /// What a shape is made of beside the waves that it contains, where these are worth their price beside that:
+    /// a wave that swells is that wave. Of a curve, a further power makes another one.
+    fn more_than(&self, group: &[usize], claim: &Claim<'_>) -> Option<Vec<Column>> {
+        let is_wave = |index: &usize| {
+            let parameters = &self.state.components[*index].term.parameters;
+            parameters.iter().any(|what| what.role == Role::Phase)
+        };
+        if !group.iter().all(is_wave) || !self.contains(&claim.placed, group) {
+            return None;
+        }
+        let components: Vec<Component> =
+            group.iter().map(|&index| self.state.components[index].clone()).collect();
+        let own = Columns::of(self.problem, &components).ok()?;
+        let own = Span::of(self.problem, &own.raw);
+        let is_own = |column: &&Column| own.has(&about_means(&self.problem.layout, column), SHAPE);
+        let all = claim.placed.columns.raw.iter();
+        let more: Vec<Column> = all.filter(|column| !is_own(column)).cloned().collect();
+        let beside = self.problem.beside(&Columns::free(more.clone()));
+        let prices: Vec<f64> = self.prices.iter().map(Price::whole).collect();
+        let not_told = not_told_beside(&beside, self.state, &prices);
+        group.iter().all(|index| !not_told.contains(index)).then_some(more)
     }
 
     /// The relation to a logged column that explains more than the only effect of a group, which
@@ -319,6 +354,7 @@ impl<'a> Court<'a> {
     fn claims(&self, group: &[usize], base: &Columns) -> Vec<Claim<'a>> {
         let noises = [self.state.fit.noises.clone(), plain_noises(self.problem, &self.state.fit)];
         let nothing = self.without_shape(base);
+        let least_um = SHARE_OF_AN_EFFECT * self.shown_um(group);
         let mut claims = Vec::new();
         for noises in noises {
             let stage = Stage::new(self.problem, base, &noises);
@@ -336,7 +372,18 @@ impl<'a> Court<'a> {
                 Claim { placed, fit, ahead, group: group.to_vec(), p_value }
             }));
         }
+        // What is far smaller has let the noise explain the effects.
+        claims.retain(|claim| least_um <= claim.size_um(self.problem));
         claims
+    }
+
+    /// Size of what some effects show together, µm.
+    fn shown_um(&self, group: &[usize]) -> f64 {
+        let mut all = vec![0.0; self.problem.samples.len()];
+        for shown in group.iter().filter_map(|&index| shown(self.problem, self.state, index)) {
+            all.iter_mut().zip(shown).for_each(|(all, shown)| *all += shown);
+        }
+        rms(&self.problem.layout, &all)
     }
 
     /// The shapes that take the most away under a stage's noise.
@@ -459,17 +506,21 @@ impl<'a> Court<'a> {
         structure(&claim.placed, &shape, rms_um, claim.p_value)
     }
 
-    /// By how much a shape differs from what some effects show together, if that is hardly anything.
-    fn hardly_another(&self, group: &[usize], claim: &Claim<'_>) -> Option<f64> {
+    /// True for a shape that differs from what some effects show together by hardly anything.
+    fn is_hardly_another(&self, group: &[usize], claim: &Claim<'_>) -> bool {
+        let least_um = SHARE_OF_AN_EFFECT * claim.size_um(self.problem);
+        self.apart_um(group, claim).is_some_and(|apart| apart < least_um)
+    }
+
+    /// By how much a shape differs from what some effects show together.
+    fn apart_um(&self, group: &[usize], claim: &Claim<'_>) -> Option<f64> {
         let layout = &self.problem.layout;
         let mut apart = about_means(layout, &claim.left_of_nothing(self.problem));
-        let all_um = rms(layout, &apart);
         for &index in group {
             let shown = shown(self.problem, self.state, index)?;
             apart.iter_mut().zip(shown).for_each(|(apart, shown)| *apart += shown);
         }
-        let apart_um = rms(layout, &apart);
-        (apart_um < SHARE_OF_AN_EFFECT * all_um).then_some(apart_um)
+        Some(rms(layout, &apart))
     }
 }
 

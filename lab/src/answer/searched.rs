@@ -1,0 +1,125 @@
+//! A search on few rows, and what it has found on all.
+//!
+//! Where it leaves structure it is made once more on fewer rows: waves that are short against a turn make
+//! noise so loud from row to row that it draws any long one.
+
+use rayon::prelude::*;
+
+use crate::hypotheses::{Structure, at_targets, is_left, structures};
+use crate::model::{Component, Problem, State};
+use crate::policy::extent::{COARSER, FEWEST_COARSE, SEARCHED_ROWS};
+use crate::search::{
+    Dropped, Step, own_errors, polished, pruned_in_doubt, search, take_for_a_shape,
+};
+
+/// What a search has found, on few rows and on all.
+pub(super) struct Searched {
+    pub(super) small: Problem,
+    pub(super) problem: Problem,
+    pub(super) steps: Vec<Step>,
+    pub(super) states: Vec<State>,
+    /// What targets show at every visit and no effect explains.
+    pub(super) of_targets: Option<Structure>,
+    /// Where the search had to be on fewer rows, those that show all that is left.
+    pub(super) fine: Option<Problem>,
+}
+
+/// The search that finds more.
+pub(super) fn search_on_all_rows(problem: &Problem) -> Searched {
+    let fine = search_on(problem, SEARCHED_ROWS);
+    let rows = fine.small.samples.len() / COARSER;
+    if rows < FEWEST_COARSE || !leaves_structure(&fine) {
+        return fine;
+    }
+    let coarse = search_on(problem, rows);
+    if adds_to(&coarse, &fine) { Searched { fine: Some(fine.small), ..coarse } } else { fine }
+}
+
+fn leaves_structure(searched: &Searched) -> bool {
+    let last = &searched.steps[searched.steps.len() - 1].state;
+    !structures(&searched.small, &last.columns, &last.fit).is_empty()
+}
+
+/// True when a search has found all names that another one has, each as often, and more.
+fn adds_to(more: &Searched, known: &Searched) -> bool {
+    let last = |searched: &Searched| searched.states[searched.states.len() - 1].clone();
+    let mut beside = last(more).components;
+    let known = last(known).components;
+    let is_there = |one: &Component| {
+        let place = beside.iter().position(|other| other.term.name == one.term.name);
+        place.map(|place| beside.swap_remove(place)).is_some()
+    };
+    known.iter().all(is_there) && !beside.is_empty()
+}
+
+fn search_on(problem: &Problem, rows: usize) -> Searched {
+    let mut small = problem.thinned(rows).unwrap_or_else(|| problem.clone());
+    let mut steps = search(&mut small);
+    let of_targets =
+        left_at_targets(problem, &small, &steps).or_else(|| own_errors(&small, &steps));
+    if of_targets.is_some() {
+        small = small.with_targets_free();
+        steps = search(&mut small);
+    }
+    take_for_a_shape(&mut small, &mut steps);
+    let (problem, mut states) = on_all_rows(problem, &small, &steps);
+    if let Some(last) = states.pop() {
+        states.push(polished(&problem, last));
+    }
+    let of_small = &steps[steps.len() - 1].state;
+    if let Some((step, state)) = pruned_again(&problem, &small, of_small, &states[states.len() - 1])
+    {
+        steps.push(step);
+        states.push(state);
+    }
+    Searched { small, problem, steps, states, of_targets, fine: None }
+}
+
+/// What targets show at every visit and no effect explains; of means, none.
+fn left_at_targets(problem: &Problem, small: &Problem, steps: &[Step]) -> Option<Structure> {
+    if !small.has_rows_of(problem) {
+        return None;
+    }
+    let State { columns, fit, .. } = &steps[steps.len() - 1].state;
+    at_targets(small, columns, fit).filter(|structure| is_left(small, fit, structure))
+}
+
+/// Every state of a search fitted to all rows, outliers marked as the last one leaves them.
+fn on_all_rows(problem: &Problem, small: &Problem, steps: &[Step]) -> (Problem, Vec<State>) {
+    if small.samples.len() == problem.samples.len() {
+        return (small.clone(), steps.iter().map(|step| step.state.clone()).collect());
+    }
+    let mut whole = problem.clone();
+    let last = steps[steps.len() - 1].state.on(&whole).unwrap_or_else(|| State::bare(&whole));
+    whole.mark_outliers(&last.fit.left);
+    // The last noise is the one that no effect is left in: all begin with it.
+    let near = |step: &Step| {
+        State::of(&whole, step.state.components.clone(), &last.fit.noises)
+            .unwrap_or_else(|| State::bare(&whole))
+    };
+    let states = steps.par_iter().map(near).collect();
+    (whole, states)
+}
+
+/// One more step without the effects that all rows show to be superfluous, if there are any.
+fn pruned_again(
+    problem: &Problem,
+    small: &Problem,
+    of_small: &State,
+    last: &State,
+) -> Option<(Step, State)> {
+    let (state, dropped) = pruned_in_doubt(problem, last, (small, of_small));
+    if dropped.is_empty() {
+        return None;
+    }
+    without_dropped(small, state, dropped)
+}
+
+/// A step to a state of all rows that some effects were taken out of.
+pub(super) fn without_dropped(
+    small: &Problem,
+    state: State,
+    dropped: Vec<Dropped>,
+) -> Option<(Step, State)> {
+    Some((Step::to(state.on(small)?, None, dropped), state))
+}
