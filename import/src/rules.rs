@@ -1,7 +1,10 @@
 //! What becomes of each column: from its name, its unit and what it holds.
 
 mod runs;
+mod sign;
 mod units;
+
+use std::collections::BTreeMap;
 
 use crate::data::{self, Target, Word};
 use crate::decide::Decisions;
@@ -71,7 +74,7 @@ pub(crate) fn propose(
         .collect();
     candidates.iter_mut().for_each(by_content);
     counters(&mut candidates);
-    let runs = run_columns(&mut candidates);
+    let runs = run_columns(&mut candidates, decisions);
     positions(&mut candidates, runs, decisions);
     candidates.iter_mut().for_each(by_word);
     one_of_each(&mut candidates, decisions);
@@ -174,8 +177,8 @@ fn positions(candidates: &mut [Candidate<'_>], runs: bool, decisions: &mut Decis
     if let Some(target) = target_of(candidates) {
         given_as_error(candidates, target);
     }
-    let Some(target) = targets.first().filter(|_| targets.len() == 1) else { return };
-    let target = candidates[*target].header.name.clone();
+    let &[aimed_at] = targets.as_slice() else { return };
+    let target = candidates[aimed_at].header.name.clone();
     let found = candidates.iter().any(|candidate| {
         matches!(candidate.meaning(), "error" | "angular error" | "lead error")
             && candidate.rule.to.is_none()
@@ -184,6 +187,9 @@ fn positions(candidates: &mut [Candidate<'_>], runs: bool, decisions: &mut Decis
     let found_at: Vec<usize> = (0..candidates.len())
         .filter(|at| open(&candidates[*at], "actual") || open(&candidates[*at], "position"))
         .collect();
+    if let (true, Some(actual)) = (found, found_at.first()) {
+        sign::shown(candidates, aimed_at, *actual);
+    }
     for (place, at) in found_at.iter().enumerate() {
         let candidate = &mut candidates[*at];
         if found {
@@ -289,20 +295,17 @@ fn by_word(candidate: &mut Candidate<'_>) {
     candidate.decide(target.column, reason);
 }
 
-/// No column of ours may come from two of the file.
+/// No column of ours may come from two of the file, or from two of a run.
 fn one_of_each(candidates: &mut [Candidate<'_>], decisions: &mut Decisions<'_>) {
     join_clock(candidates);
-    for target in data::targets()
-        .iter()
-        .map(|target| target.column)
-        .collect::<std::collections::BTreeSet<_>>()
-    {
-        let same: Vec<usize> = (0..candidates.len())
-            .filter(|at| candidates[*at].is(target) && candidates[*at].rule.pass.is_none())
-            .collect();
-        if same.len() < 2 {
-            continue;
+    let mut columns = BTreeMap::<_, Vec<usize>>::new();
+    for (at, candidate) in candidates.iter().enumerate() {
+        let rule = &candidate.rule;
+        if let Some(target) = rule.to.as_deref().and_then(by_column) {
+            columns.entry((target.column, rule.pass, rule.direction)).or_default().push(at);
         }
+    }
+    for ((target, ..), same) in columns.into_iter().filter(|(_, same)| 1 < same.len()) {
         let given: Vec<usize> = same.iter().copied().filter(|at| candidates[*at].given).collect();
         let needed = OBSERVED.contains(&target) || COORDINATES.contains(&target);
         if given.is_empty() && two_positions(candidates, &same, decisions) {

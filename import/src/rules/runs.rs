@@ -1,10 +1,17 @@
 //! Columns that each hold a run.
 
-use super::{Candidate, difference};
+use super::{Candidate, NONE, difference};
+use crate::decide::Decisions;
+use crate::error::quoted;
+use crate::header::Header;
+use crate::question::Answer;
 use crate::samples::Holds;
 
+/// A column that holds a run: its place, and the number and direction that its name tells.
+type Found = (usize, Option<i64>, Option<i64>);
+
 /// Columns that each hold a run; true when there are some.
-pub(super) fn run_columns(candidates: &mut [Candidate<'_>]) -> bool {
+pub(super) fn run_columns(candidates: &mut [Candidate<'_>], decisions: &mut Decisions<'_>) -> bool {
     let open = |candidate: &Candidate<'_>| {
         candidate.rule.to.is_none() && candidate.samples.holds == Holds::Numbers
     };
@@ -12,7 +19,7 @@ pub(super) fn run_columns(candidates: &mut [Candidate<'_>]) -> bool {
         candidate.header.bare.parse::<i64>().ok().filter(|number| (0..10_000).contains(number))
     };
     let indexed = |candidate: &Candidate<'_>| index_of(&candidate.header.bare);
-    let mut found: Vec<(usize, Option<i64>, Option<i64>)> = Vec::new();
+    let mut found: Vec<Found> = Vec::new();
     for (index, candidate) in candidates.iter().enumerate().filter(|(_, c)| open(c)) {
         let run = candidate.header.run.filter(|_| {
             !["pass", "direction"].contains(&candidate.meaning())
@@ -30,6 +37,7 @@ pub(super) fn run_columns(candidates: &mut [Candidate<'_>]) -> bool {
             found.push((index, number, direction));
         }
     }
+    found.extend(first_run(candidates, &found, decisions));
     if found.len() < 2 {
         return candidates.iter().any(|candidate| candidate.rule.pass.is_some());
     }
@@ -42,6 +50,56 @@ pub(super) fn run_columns(candidates: &mut [Candidate<'_>]) -> bool {
     true
 }
 
+/// `Error` beside `Run 2 Error` is the first run, with its own `Position` or one for both.
+///
+/// Beside `Run 1 Error` it may be their mean: that is asked. Positions alone are read as where each run came
+/// to, and the one without a number as what they were aimed at.
+fn first_run(
+    candidates: &[Candidate<'_>],
+    found: &[Found],
+    decisions: &mut Decisions<'_>,
+) -> Vec<Found> {
+    let numbers = || found.iter().filter_map(|(_, number, _)| *number);
+    let (Some(least), Some(most)) = (numbers().min(), numbers().max()) else { return Vec::new() };
+    let meanings: Vec<&str> =
+        found.iter().map(|(index, ..)| candidates[*index].meaning()).collect();
+    let same = |at: &usize| {
+        let candidate = &candidates[*at];
+        meanings.contains(&candidate.meaning())
+            && candidate.header.run.is_none()
+            && candidate.samples.holds == Holds::Numbers
+            && candidate.rule.pass.is_none()
+            && !candidate.given
+    };
+    let is_error = |at: &usize| candidates[*at].meaning().ends_with("error");
+    let mut same: Vec<usize> = (0..candidates.len()).filter(same).collect();
+    if !same.iter().any(is_error) {
+        return Vec::new();
+    }
+    if 1 < least {
+        return same.into_iter().map(|at| (at, Some(1), None)).collect();
+    }
+    same.retain(is_error);
+    for at in same {
+        ask_whether_a_run(candidates[at].header, most + 1, decisions);
+    }
+    Vec::new()
+}
+
+fn ask_whether_a_run(header: &Header, next: i64, decisions: &mut Decisions<'_>) {
+    let text = format!("column {} names no run, as others of its kind do", quoted(&header.name));
+    let from = toml_edit::Value::from(header.name.as_str());
+    let answer = |label: String, line: String| Answer {
+        label,
+        recipe: format!("[[column]]\nfrom = {from}\n{line}"),
+    };
+    let ways = vec![
+        answer("it is left out".to_owned(), format!("to = \"{NONE}\"")),
+        answer(format!("it is run {next}"), format!("pass = {next}")),
+    ];
+    decisions.question_at(&header.place, &text, ways);
+}
+
 /// The last number of `x(i,3)` or `ref_pos[3]`.
 fn index_of(bare: &str) -> Option<i64> {
     let inside = bare.trim_end().strip_suffix([')', ']'])?;
@@ -50,18 +108,20 @@ fn index_of(bare: &str) -> Option<i64> {
 }
 
 /// Runs as they are numbered; there and back under numbers of their own make one run together.
-fn passes(found: &[(usize, Option<i64>, Option<i64>)]) -> Vec<i64> {
+fn passes(found: &[Found]) -> Vec<i64> {
     let numbers: Vec<i64> = found.iter().filter_map(|(_, number, _)| *number).collect();
     let alternate = found.len().is_multiple_of(2)
         && found.chunks(2).all(|pair| {
             matches!((pair[0].2, pair[1].2), (Some(1), Some(-1)) | (Some(-1), Some(1)))
         })
         && numbers.windows(2).all(|pair| pair[0] != pair[1]);
+    // Who counts from 0 has a run more than the highest number.
+    let begin = i64::from(numbers.contains(&0));
     let counted = |direction: Option<i64>, until: usize| {
         1 + found[..until].iter().filter(|(_, _, other)| *other == direction).count()
     };
-    let pass = |(place, (_, number, direction)): (usize, &(usize, Option<i64>, Option<i64>))| {
-        let number = number.filter(|number| 0 < *number && !alternate);
+    let pass = |(place, (_, number, direction)): (usize, &Found)| {
+        let number = number.filter(|_| !alternate).map(|number| number + begin);
         number.unwrap_or_else(|| i64::try_from(counted(*direction, place)).unwrap_or(1))
     };
     found.iter().enumerate().map(pass).collect()
