@@ -35,6 +35,11 @@ impl<'a> Decisions<'a> {
         self.made.get(section, name)
     }
 
+    /// True where a recipe says it, and it was not found out.
+    pub(crate) fn is_told(&self, section: &str, name: &str) -> bool {
+        self.given.get(section, name).is_some()
+    }
+
     /// The rule of the recipe for a column.
     pub(crate) fn given_column(&self, from: &str) -> Option<&'a ColumnRule> {
         self.given.column(from)

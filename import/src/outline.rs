@@ -1,5 +1,8 @@
 //! Where in a grid the header stands, and where the rows of data are.
 
+mod refused;
+mod summary;
+
 use std::ops::Range;
 
 use crate::data;
@@ -10,40 +13,6 @@ use crate::instant::is_instant;
 use crate::number::{MISSING, Reading, read};
 use crate::place::Place;
 use crate::runs;
-
-/// What rows that sum a table up begin with.
-const SUMMARIES: [&str; 30] = [
-    "mean",
-    "average",
-    "avg",
-    "median",
-    "min",
-    "minimum",
-    "max",
-    "maximum",
-    "sum",
-    "total",
-    "range",
-    "std",
-    "std dev",
-    "stdev",
-    "standard deviation",
-    "mittelwert",
-    "mittel",
-    "durchschnitt",
-    "summe",
-    "spannweite",
-    "standardabweichung",
-    "平均",
-    "平均值",
-    "最大",
-    "最大值",
-    "最小",
-    "最小值",
-    "标准差",
-    "合计",
-    "极差",
-];
 
 /// Rows of names and units, and stretches of rows of data.
 #[derive(Clone, Debug)]
@@ -106,6 +75,8 @@ pub(crate) fn outline(
         let first = quoted(looks.first_filled(end).map_or("", |(_, cell)| cell));
         decisions.note(format!("left out below the table, from {first} on: it sums the table up"));
     }
+    looks.check_above(preamble, body..end, decisions)?;
+    looks.check_names(&filled, body..end, decisions)?;
     let blocks = looks.blocks(body..end, found.width, &filled)?;
     Ok(Outline { header: filled, blocks, preamble: (0..preamble).collect(), width: found.width })
 }
@@ -273,25 +244,6 @@ impl Looks<'_> {
         let first = (0..rows).find(|row| !self.grid.is_blank(*row)).unwrap_or(0);
         let lines = if rows == 1 { "line" } else { "lines" };
         format!("{rows} {lines} above the table, from {}", quoted(self.grid.cell(first, 0)))
-    }
-
-    /// The row behind the data: above the rows at the end that sum the table up, if there are any.
-    fn end(&self, body: usize) -> usize {
-        let filled = (body..self.grid.rows()).rev().filter(|row| !self.grid.is_blank(*row));
-        filled.take_while(|row| self.sums_up(*row, body)).last().unwrap_or(self.grid.rows())
-    }
-
-    /// A word such as `Mittelwert` in a column of other things than words.
-    fn sums_up(&self, row: usize, body: usize) -> bool {
-        self.first_filled(row).is_some_and(|(at, cell)| {
-            let word = cell.trim_end_matches([':', '：', '.']).to_lowercase();
-            SUMMARIES.contains(&word.as_str()) && self.look(self.grid.cell(body, at)) != Look::Words
-        })
-    }
-
-    fn first_filled(&self, row: usize) -> Option<(usize, &str)> {
-        let mut cells = self.grid.cells_of(row).map(str::trim).enumerate();
-        cells.find(|(_, cell)| !cell.is_empty())
     }
 
     /// Rows of data, and what interrupts them.
