@@ -1,5 +1,6 @@
 //! From samples and rules to the table of measured data.
 
+mod anew;
 mod figures;
 mod instants;
 mod runs;
@@ -16,9 +17,9 @@ use crate::outline::Outline;
 use crate::recipe::ColumnRule;
 use crate::rules::{NONE, by_column};
 use crate::runs::{counts_rows, direction_of, run_of};
-use crate::samples::{Holds, Samples, rows, seconds};
+use crate::samples::{Holds, Samples, rows};
 use figures::{difference, micro, whole};
-use instants::{decide_order, decide_zone};
+use instants::{decide_clock, decide_order, decide_zone, of_calendar, of_stopwatch};
 use table::in_order;
 
 pub(crate) use figures::rounded;
@@ -61,11 +62,12 @@ impl Understood<'_> {
                     origin_s = origin;
                     values
                 }
-                _ => self.values(index, rule)?,
+                _ => self.values(index, rule, decisions)?,
             };
             columns.push(Column { name: to.to_owned(), values });
         }
-        let columns = self.with_runs(columns, decisions)?;
+        let mut columns = self.with_runs(columns, decisions)?;
+        self.within_runs(&mut columns, decisions);
         Ok(Built { columns: in_order(columns), origin_s })
     }
 
@@ -83,8 +85,16 @@ impl Understood<'_> {
     }
 
     /// Values of a column in our unit.
-    fn values(&self, index: usize, rule: &ColumnRule) -> Result<Vec<f64>, ImportError> {
+    fn values(
+        &self,
+        index: usize,
+        rule: &ColumnRule,
+        decisions: &mut Decisions<'_>,
+    ) -> Result<Vec<f64>, ImportError> {
         let mut values = self.numbers(index)?.to_vec();
+        if rule.to.as_deref() == Some("time_s") {
+            self.counted_on(index, &mut values, decisions);
+        }
         if let Some(minus) = &rule.minus {
             let other = self.find(minus, &rule.from)?;
             let turned = if self.rules[other].sign == Some(-1) { -1.0 } else { 1.0 };
@@ -177,7 +187,9 @@ impl Understood<'_> {
             .collect();
         let order = decide_order(&cells, decisions);
         let zone = decide_zone(&cells, decisions)?;
-        let (mut values, day) = seconds(&cells, order, zone, self.missing).map_err(|at| {
+        let minutes = clock.is_none() && decide_clock(&cells, &self.headers[index], decisions);
+        let read = if minutes { of_stopwatch } else { of_calendar };
+        let (mut values, day) = read(&cells, (order, zone), self.missing).map_err(|at| {
             let place = self.grid.place(rows[at], Some(index));
             ImportError::found(place, quoted(&cells[at]), "an instant as in the rows before")
         })?;

@@ -2,6 +2,8 @@
 
 use chrono::NaiveDate;
 
+use crate::stopwatch;
+
 /// What a date begins with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Order {
@@ -68,9 +70,10 @@ pub(crate) fn parse(text: &str, order: Order) -> Option<Instant> {
     Some(Instant { second, zone_min, ..date })
 }
 
-/// True when the text is an instant in some order of day and month.
+/// True when the text is an instant in some order of day and month, or of a stopwatch.
 pub(crate) fn is_instant(text: &str) -> bool {
     [Order::Year, Order::Day, Order::Month].iter().any(|order| parse(text, *order).is_some())
+        || stopwatch::seconds(text).is_some()
 }
 
 /// True when the text can only be a date with the day first, or only with the month first.

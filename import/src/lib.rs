@@ -31,6 +31,8 @@ pub mod recipe;
 mod rules;
 mod runs;
 mod samples;
+mod steps;
+mod stopwatch;
 mod text;
 
 pub use error::ImportError;

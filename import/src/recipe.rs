@@ -153,6 +153,12 @@ pub const KEYS: &[Key] = &[
     ),
     key("table", "period_s", Kind::Number, "from row to row, where no column tells the time"),
     key("table", "date_order", Kind::Text(&["day", "month", "year"]), "what a date begins with"),
+    key(
+        "table",
+        "clock",
+        Kind::Text(&["hours", "minutes"]),
+        "what a time with one colon begins with",
+    ),
     key("table", "zone", Kind::Text(&[]), "the zone of times that name none, such as `+02:00`"),
     key(
         "table",

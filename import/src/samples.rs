@@ -1,7 +1,7 @@
 //! Columns of a grid as numbers.
 
 use crate::grid::Grid;
-use crate::instant::{Instant, Order, is_instant, order_of, parse};
+use crate::instant::{Order, is_instant, order_of, parse};
 use crate::number::{Reading, read};
 use crate::outline::Outline;
 
@@ -78,36 +78,4 @@ pub(crate) fn date_order(cells: &[&str]) -> Option<Order> {
         None if cells.iter().any(doubtful) => None,
         None => Some(Order::Day),
     }
-}
-
-/// Instants of a column as seconds since midnight of the first day; rolls over at midnight where no date is
-/// written. Gives the index of a cell that is no instant instead.
-pub(crate) fn seconds(
-    cells: &[String],
-    order: Order,
-    zone_min: i64,
-    missing: &[String],
-) -> Result<(Vec<f64>, i64), usize> {
-    const DAY_S: f64 = 86_400.0;
-    let mut first_day = None;
-    let (mut last, mut days_s) = (f64::NAN, 0.0);
-    let mut seconds = Vec::with_capacity(cells.len());
-    for (index, cell) in cells.iter().enumerate() {
-        if cell.trim().is_empty() || missing.iter().any(|word| word == cell) {
-            seconds.push(f64::NAN);
-            continue;
-        }
-        let instant: Instant = parse(cell, order).ok_or(index)?;
-        let day = *first_day.get_or_insert(instant.day.unwrap_or(0));
-        let mut second = instant.since(day, zone_min);
-        if instant.day.is_none() {
-            if second + days_s < last - DAY_S / 2.0 {
-                days_s += DAY_S;
-            }
-            second += days_s;
-        }
-        last = second;
-        seconds.push(second);
-    }
-    Ok((seconds, first_day.unwrap_or(0)))
 }

@@ -3,28 +3,28 @@
 use helixlock_import::{Proposal, Recipe, Source, propose};
 
 /// A table of forty rows.
-fn file(header: &str, row: impl Fn(u32) -> String) -> String {
+pub(crate) fn file(header: &str, row: impl Fn(u32) -> String) -> String {
     let rows: Vec<String> = (0..40).map(|index| row(index) + "\n").collect();
     format!("{header}\n{}", rows.concat())
 }
 
-fn proposed(text: &str, recipe: &str) -> Proposal {
+pub(crate) fn proposed(text: &str, recipe: &str) -> Proposal {
     let recipe = Recipe::parse(recipe, "given").expect("a recipe");
     let source = Source { name: "data.csv", bytes: text.as_bytes() };
     propose(&[source], &recipe).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn refused(text: &str, recipe: &str) -> String {
+pub(crate) fn refused(text: &str, recipe: &str) -> String {
     let recipe = Recipe::parse(recipe, "given").expect("a recipe");
     let source = Source { name: "data.csv", bytes: text.as_bytes() };
     propose(&[source], &recipe).expect_err("it cannot be read").to_string()
 }
 
-fn asked(text: &str) -> Vec<String> {
+pub(crate) fn asked(text: &str) -> Vec<String> {
     proposed(text, "").questions.into_iter().map(|question| question.text).collect()
 }
 
-fn column(proposal: &Proposal, name: &str) -> Vec<f64> {
+pub(crate) fn column(proposal: &Proposal, name: &str) -> Vec<f64> {
     proposal.table.column(name).unwrap_or_else(|| panic!("no {name}")).to_vec()
 }
 

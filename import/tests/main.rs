@@ -3,6 +3,7 @@
 mod broken;
 mod fringes;
 mod guesses;
+mod misread;
 mod properties;
 mod samples;
 mod stage;

@@ -53,7 +53,7 @@ impl Understood<'_> {
             }
         });
         let runs = match found.as_str() {
-            "columns" => return self.unpivot(&columns),
+            "columns" => return self.unpivot(&columns, decisions),
             "blocks" => layout::of_blocks(&self.outline.blocks, path),
             "sweeps" => layout::of_sweeps(&path.map(layout::sweeps).unwrap_or_default(), count),
             _ => Runs::default(),
@@ -100,7 +100,11 @@ impl Understood<'_> {
     }
 
     /// One row a target and run, run after run.
-    fn unpivot(&self, shared: &[Column]) -> Result<Vec<Column>, ImportError> {
+    fn unpivot(
+        &self,
+        shared: &[Column],
+        decisions: &mut Decisions<'_>,
+    ) -> Result<Vec<Column>, ImportError> {
         let mut keys: Vec<(i64, i64)> = self
             .rules
             .iter()
@@ -127,7 +131,7 @@ impl Understood<'_> {
                     continue;
                 }
                 let (name, values) =
-                    (rule.to.clone().unwrap_or_default(), self.values(index, rule)?);
+                    (rule.to.clone().unwrap_or_default(), self.values(index, rule, decisions)?);
                 let column =
                     if let Some(at) = held.iter_mut().position(|column| column.name == name) {
                         &mut held[at]

@@ -172,14 +172,16 @@ fn shown_ref(value: &DataRef<'_>) -> String {
     }
 }
 
-/// A day of the calendar, or the seconds of a duration.
+/// An instant of the calendar, a time of day where there is no date, or the seconds of a duration.
 fn date(instant: &ExcelDateTime) -> String {
     const DAY_S: f64 = 86_400.0;
     if instant.is_duration() {
         return (instant.as_f64() * DAY_S).to_string();
     }
     let (year, month, day, hour, minute, second, milli) = instant.to_ymd_hms_milli();
-    format!("{year:04}-{month:02}-{day:02} {hour:02}:{minute:02}:{second:02}.{milli:03}")
+    let time = format!("{hour:02}:{minute:02}:{second:02}.{milli:03}");
+    let is_dated = 1.0 <= instant.as_f64();
+    if is_dated { format!("{year:04}-{month:02}-{day:02} {time}") } else { time }
 }
 
 /// Refuses archives that unpack to more than a measurement can be, before anything is built of them.

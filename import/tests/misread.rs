@@ -1,0 +1,169 @@
+//! What looks like one thing and is another: read as it is, asked for, refused, or told.
+
+use crate::guesses::{asked, column, file, proposed, refused};
+
+fn read(text: &str) -> helixlock_import::Proposal {
+    let proposal = proposed(text, "");
+    assert!(proposal.questions.is_empty(), "{:?}", proposal.questions);
+    proposal
+}
+
+fn same(found: f64, expected: f64) {
+    assert!((found - expected).abs() < 1e-9, "found {found}, expected {expected}");
+}
+
+/// The first run needs no number; what may be a mean of the runs is asked about.
+#[test]
+fn a_column_without_a_number_is_the_run_before_the_second() {
+    let row = |row: u32| format!("{row}.0,1.{row},{row}.5,2.{row}");
+    for header in [
+        "Position [mm],Error [um],Run 2 Position [mm],Run 2 Error [um]",
+        "position_mm,error_um,run2 position_mm,run2 error_um",
+    ] {
+        let proposal = read(&file(header, row));
+        let at = |name: &str, row: usize| column(&proposal, name)[row];
+        assert_eq!(proposal.table.rows(), 80, "{header}");
+        for (place, pass, position, error) in [(3, 1.0, 3.0, 1.3), (43, 2.0, 3.5, 2.3)] {
+            same(at("pass", place), pass);
+            same(at("position_mm", place), position);
+            same(at("error_um", place), error);
+        }
+    }
+    let text = file("Position [mm],Run 1 Error [um],Run 2 Error [um],Error [um]", row);
+    assert_eq!(asked(&text), ["column `Error [um]` names no run, as others of its kind do"]);
+    let counted = read(&file("Position [mm],Run 0 Error [um],Run 1 Error [um]", |row| {
+        format!("{row}.0,1.{row},2.{row}")
+    }));
+    same(column(&counted, "error_um")[43], 2.3);
+}
+
+/// Target and actual beside an error show its sign, whatever it is called.
+#[test]
+fn the_sign_of_an_error_is_the_one_its_rows_show() {
+    for (name, sign) in [("Error", -1.0), ("Error", 1.0), ("Deviation", -1.0), ("Deviation", 1.0)] {
+        let row = |row: u32| {
+            let [row, error] = [f64::from(row), f64::from(row * 7 % 11)];
+            format!("{row},{},{}", row + error / 1000.0, sign * error)
+        };
+        let proposal = read(&file(&format!("Target [mm],Actual [mm],{name} [um]"), row));
+        same(column(&proposal, "error_um")[1], -7.0);
+    }
+}
+
+/// A day ends at midnight, a counter at its last bit, a circle after a turn: all go on from there.
+#[test]
+fn what_begins_anew_goes_on() {
+    let clock = |minute: u32| format!("{:02}:{:02}:00", (23 + minute / 60) % 24, minute % 60);
+    let forward =
+        file("Time,Position [mm],Error [um]", |row| format!("{},{row}.5,0.{row}", clock(40 + row)));
+    let reverse =
+        file("Time,Position [mm],Error [um]", |row| format!("{},{row}.5,0.{row}", clock(80 - row)));
+    let counter = |bits: u32| {
+        let end = 1_u64 << bits;
+        file("Time [ms],Position [mm],Error [um]", |row| {
+            format!("{},{row}.5,0.{row}", (end - 9_500 + u64::from(row) * 1000) % end)
+        })
+    };
+    let angle =
+        file("Angle [deg],Error [arcsec]", |row| format!("{},0.{row}", (300 + 9 * row) % 360));
+    for (text, name, last) in [
+        (&forward, "time_s", 39.0 * 60.0),
+        (&reverse, "time_s", -39.0 * 60.0),
+        (&counter(16), "time_s", 39.0),
+        (&counter(32), "time_s", 39.0),
+        (&angle, "angle_rev", 39.0 * 9.0 / 360.0),
+    ] {
+        let values = column(&read(text), name);
+        assert!((values[39] - values[0] - last).abs() < 1e-6, "{values:?}");
+    }
+    assert_eq!(
+        read(&counter(16)).notes,
+        ["`Time [ms]` begins anew at data.csv:12:1: counted on from 2^16"]
+    );
+    assert_eq!(
+        read(&angle).notes,
+        ["the angle begins anew at data.csv:9:1: counted on after a turn"]
+    );
+}
+
+/// What a clock that goes back was cannot be known; that it does, and where, is told.
+#[test]
+fn a_clock_that_goes_back_is_told() {
+    let log = |clock: &dyn Fn(u32) -> String| {
+        let text = file("Timestamp,Position [mm],Error [um]", |row| {
+            format!("{},{row}.5,0.{row}", clock(row))
+        });
+        read(&text).notes
+    };
+    let summer = log(&|row| format!("2026-10-25 02:{:02}:00", (45 + row) % 60));
+    let twelve = log(&|row| {
+        let minute = 20 + 2 * row;
+        format!("{:02}:{:02}:00", [12, 1][(minute / 60) as usize], minute % 60)
+    });
+    let steady = log(&|row| format!("2026-10-25 02:{row:02}:00"));
+    let runs = read(&file("time_s,position_mm,error_um,pass", |row| {
+        format!("{},{}.5,0.{row},{}", row % 20, row % 20, 1 + row / 20)
+    }));
+    assert_eq!([steady, runs.notes], [[""; 0]; 2]);
+    let why = "the end of summer time, which a zone with each time would tell";
+    assert_eq!(
+        summer,
+        [format!("the time goes back once, first by 3540 s at data.csv:17:1: {why}")]
+    );
+    let why = "a clock of 12 hours, which `am` and `pm` would tell";
+    let told = format!("the time goes back once, first by 43080 s at data.csv:22:1: {why}");
+    assert_eq!(twelve, [told]);
+}
+
+/// `1:30` is half past one or a minute and a half; sixty times as much is asked for.
+#[test]
+fn times_with_one_colon_are_asked_about_unless_they_tell() {
+    let log = |name: &str, time: &dyn Fn(u32) -> String| {
+        file(&format!("{name},Position [mm],Error [um]"), |row| {
+            format!("{},{row}.5,0.{row}", time(row))
+        })
+    };
+    let half = |row: u32| format!("{}:{:02}", row / 2, 30 * (row % 2));
+    let open = log("Time", &half);
+    assert_eq!(asked(&open), ["`0:00` may be hours and minutes, or minutes and seconds"]);
+    for (word, step_s) in [("minutes", 30.0), ("hours", 1800.0)] {
+        let proposal = proposed(&open, &format!("[table]\nclock = \"{word}\""));
+        assert!(proposal.questions.is_empty());
+        same(column(&proposal, "time_s")[1], step_s);
+    }
+    for (text, step_s) in [
+        (log("Time [m:ss]", &half), 30.0),
+        (log("Time [hh:mm]", &half), 1800.0),
+        (log("Uhrzeit", &half), 1800.0),
+        (log("Time", &|row| format!("59:{row:02}")), 1.0),
+        (log("Time", &|row| format!("5:{row:02}.5")), 1.0),
+    ] {
+        same(column(&read(&text), "time_s")[1], step_s);
+    }
+}
+
+/// No column and no block of a table is lost, or read under another's name.
+#[test]
+fn a_table_is_read_whole_or_not_at_all() {
+    let commas = file("Position [mm],Error [um]", |row| format!("{row},5,0,{row}"));
+    let longer = file("Position [mm],Error [um]", |row| format!("{row}.0,0.{row}"))
+        + &file("Position [mm],Error [um],Temp [C]", |row| format!("{row}.0,0.{row},20"));
+    for (text, start) in [
+        (
+            &commas,
+            "data.csv:2:5: found rows of 4 cells below 2 names, expected a name for every cell",
+        ),
+        (
+            &longer,
+            "data.csv:2: found 40 rows of 2 numbers above another table, expected one table a file",
+        ),
+    ] {
+        let message = refused(text, "");
+        assert!(message.starts_with(start), "{message}");
+    }
+    let below = proposed(&longer, "[table]\npreamble = 41");
+    assert_eq!(below.table.rows(), 40);
+    let mean =
+        file("Position [mm],Error [um]", |row| format!("{row}.0,{}", row % 2)) + "\n19.5,0.5\n";
+    assert_eq!(read(&mean).table.rows(), 40);
+}
