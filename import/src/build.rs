@@ -1,6 +1,7 @@
 //! From samples and rules to the table of measured data.
 
 mod anew;
+mod directions;
 mod figures;
 mod instants;
 mod runs;
@@ -66,6 +67,7 @@ impl Understood<'_> {
             };
             columns.push(Column { name: to.to_owned(), values });
         }
+        self.directed(&mut columns, decisions)?;
         let mut columns = self.with_runs(columns, decisions)?;
         self.within_runs(&mut columns, decisions);
         Ok(Built { columns: in_order(columns), origin_s })
@@ -201,6 +203,11 @@ impl Understood<'_> {
         Ok((values, origin))
     }
 
+    /// The column that becomes one of ours.
+    fn index_of(&self, target: &str) -> Option<usize> {
+        self.rules.iter().position(|rule| rule.to.as_deref() == Some(target))
+    }
+
     fn find(&self, name: &str, from: &str) -> Result<usize, ImportError> {
         let found = self.headers.iter().position(|header| header.name == name);
         found.ok_or_else(|| {
@@ -225,6 +232,7 @@ impl Understood<'_> {
         scale(unit(from)) / scale(rule.unit.clone().or(unit(to)))
     }
 
+    /// Factor and offset from the unit of the file to ours.
     fn conversion(
         &self,
         index: usize,
@@ -232,7 +240,9 @@ impl Understood<'_> {
         kind: &str,
         ours: &str,
     ) -> Result<(f64, f64), ImportError> {
-        let known = |spelling: &str| data::unit_with_factor(spelling, kind);
+        let known = |spelling: &str| {
+            data::unit_with_factor(spelling, kind).filter(|_| !data::is_doubtful(spelling))
+        };
         let (Some(from), Some(to)) = (known(unit), known(ours)) else {
             let place =
                 self.grid.place(self.outline.header.last().copied().unwrap_or(0), Some(index));
@@ -241,7 +251,15 @@ impl Understood<'_> {
                 quoted(unit),
                 quoted(&self.headers[index].name)
             );
-            return Err(ImportError::found(place, found, format!("a unit of {kind}")));
+            let error = ImportError::found(place, found, format!("a unit of {kind}"));
+            let hint = match kind {
+                "angle" if data::is_doubtful(unit) => "`deg`, or `gon` of 400 a turn",
+                "angle" if data::unit(unit, "count").is_some() => {
+                    "one of 4096 counts a turn is `unit = \"1/4096 rev\"`"
+                }
+                _ => "",
+            };
+            return Err(error.hinted(hint));
         };
         Ok((from.scale / to.scale, (from.offset - to.offset) / to.scale))
     }

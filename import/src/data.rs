@@ -81,6 +81,11 @@ pub(crate) fn unit(spelling: &str, kind: &str) -> Option<Unit> {
     UNITS.iter().find(|(known, unit)| *known == lower && fits(unit)).map(|(_, unit)| *unit)
 }
 
+/// True for a spelling of an angle that is two units: a grad is a degree in German, and elsewhere a gon.
+pub(crate) fn is_doubtful(spelling: &str) -> bool {
+    spelling.trim().eq_ignore_ascii_case("grad")
+}
+
 /// Every word there is.
 pub(crate) fn words() -> &'static [Word] {
     &WORDS

@@ -167,3 +167,58 @@ fn a_table_is_read_whole_or_not_at_all() {
         file("Position [mm],Error [um]", |row| format!("{row}.0,{}", row % 2)) + "\n19.5,0.5\n";
     assert_eq!(read(&mean).table.rows(), 40);
 }
+
+/// A unit that is two, and a name that says ten times: what the numbers are is asked.
+#[test]
+fn units_with_two_meanings_are_asked_about() {
+    let row = |row: u32| format!("{row},{row}.5");
+    for (header, question) in [
+        ("Angle [grad],Error [arcsec]", "`grad` of column `Angle [grad]` is degree or gon"),
+        (
+            "Position [mm],Error x10 [um]",
+            "the name of column `Error x10 [um]` has a factor in it, 10",
+        ),
+        (
+            "Position [mm],Error*100 [um]",
+            "the name of column `Error*100 [um]` has a factor in it, 100",
+        ),
+    ] {
+        let text = file(header, row);
+        let open = proposed(&text, "");
+        let [asked] = open.questions.as_slice() else { panic!("{:?}", open.questions) };
+        assert_eq!(asked.text, question);
+        let answered = proposed(&text, &asked.answers[0].recipe);
+        assert!(answered.questions.is_empty(), "{:?}", answered.questions);
+    }
+    for header in ["Angle [gon],Error [mgon]", "Position x1 [mm],Error [um]"] {
+        assert_eq!(asked(&file(header, row)), [""; 0], "{header}");
+    }
+    let grad = "[[column]]\nfrom = \"Angle\"\nunit = \"grad\"";
+    let counts = grad.replace("grad", "counts");
+    for (recipe, hint) in [(grad, "`gon` of 400 a turn"), (&counts, "`unit = \"1/4096 rev\"`")] {
+        let message = refused(&file("Angle,Error [arcsec]", row), recipe);
+        assert!(message.contains(hint), "{message}");
+    }
+}
+
+/// Directions are 1 and -1, whatever numbers a file has for them; the positions show which is which.
+#[test]
+fn directions_in_other_numbers_are_told_by_the_positions() {
+    let table = |way: &dyn Fn(u32) -> u32, position: &dyn Fn(u32) -> u32| {
+        file("Position [mm],Error [um],Direction", |row| {
+            format!("{},0.{row},{}", position(row), way(row))
+        })
+    };
+    let there_and_back = |row: u32| if row < 20 { row } else { 40 - row };
+    for (there, back) in [(1, 2), (1, 0), (2, 1)] {
+        let way = |row| if row < 20 { there } else { back };
+        let proposal = read(&table(&way, &there_and_back));
+        let found = column(&proposal, "direction");
+        assert_eq!([found[3], found[30]].map(f64::to_bits), [1.0_f64, -1.0].map(f64::to_bits));
+        assert_eq!(proposal.notes, [format!("direction {back} is back, as the positions go")]);
+        let message = refused(&table(&way, &|row| row), "");
+        let start = "data.csv:";
+        let end = "which the positions do not tell, expected 1, -1, or a word for it\n\nhint: `to = \"none\"` leaves the column out";
+        assert!(message.starts_with(start) && message.ends_with(end), "{message}");
+    }
+}

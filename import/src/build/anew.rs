@@ -92,10 +92,6 @@ impl Understood<'_> {
         decisions
             .note(format!("the time goes back {often}, first by {back_s} s at {place}: {why}"));
     }
-
-    fn index_of(&self, target: &str) -> Option<usize> {
-        self.rules.iter().position(|rule| rule.to.as_deref() == Some(target))
-    }
 }
 
 /// Rows at which another run or another way begins.

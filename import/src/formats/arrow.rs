@@ -56,10 +56,11 @@ fn columns(bytes: &[u8]) -> Result<Columns, ArrowError> {
     let reader = FileReader::try_new(Cursor::new(bytes), None)?;
     let schema = reader.schema();
     let mut columns: Vec<Option<Vec<f64>>> = vec![Some(Vec::new()); schema.fields().len()];
+    let mut firsts = vec![None; columns.len()];
     for batch in reader {
         let batch = batch?;
-        for (column, array) in columns.iter_mut().zip(batch.columns()) {
-            match (numbers(array), &mut *column) {
+        for ((column, first), array) in columns.iter_mut().zip(&mut firsts).zip(batch.columns()) {
+            match (numbers(array).or_else(|| instants(array, first)), &mut *column) {
                 (Some(more), Some(values)) => values.extend(more),
                 _ => *column = None,
             }
@@ -73,27 +74,11 @@ fn columns(bytes: &[u8]) -> Result<Columns, ArrowError> {
     let (mut numbers, mut words) = (Vec::new(), Vec::new());
     for (field, column) in schema.fields().iter().zip(columns) {
         match column {
-            Some(values) => numbers.push(named(field, values)),
+            Some(values) => numbers.push((name(field), values)),
             None => words.push(field.name().clone()),
         }
     }
     Ok((numbers, words))
-}
-
-/// A column with its name; instants count from the first one, in seconds.
-fn named(field: &Field, values: Vec<f64>) -> (String, Vec<f64>) {
-    let DataType::Timestamp(unit, _) = field.data_type() else {
-        return (field.name().clone(), values);
-    };
-    let second = match unit {
-        TimeUnit::Second => 1.0,
-        TimeUnit::Millisecond => 1e3,
-        TimeUnit::Microsecond => 1e6,
-        TimeUnit::Nanosecond => 1e9,
-    };
-    let first = values.iter().copied().find(|value| !value.is_nan()).unwrap_or_default();
-    let since = values.iter().map(|value| (value - first) / second).collect();
-    (format!("{} (s)", field.name()), since)
 }
 
 /// The numbers of an array, NaN where there is none; `None` when it holds no numbers.
@@ -109,18 +94,36 @@ fn numbers(array: &dyn Array) -> Option<Vec<f64>> {
         DataType::UInt16 => floats::<UInt16Type>(array, f64::from),
         DataType::UInt32 => floats::<UInt32Type>(array, f64::from),
         DataType::UInt64 => floats::<UInt64Type>(array, unsigned),
-        DataType::Timestamp(TimeUnit::Second, _) => floats::<TimestampSecondType>(array, wide),
-        DataType::Timestamp(TimeUnit::Millisecond, _) => {
-            floats::<TimestampMillisecondType>(array, wide)
-        }
-        DataType::Timestamp(TimeUnit::Microsecond, _) => {
-            floats::<TimestampMicrosecondType>(array, wide)
-        }
-        DataType::Timestamp(TimeUnit::Nanosecond, _) => {
-            floats::<TimestampNanosecondType>(array, wide)
-        }
         _ => return None,
     })
+}
+
+/// Instants of an array, in seconds since the first of the column.
+///
+/// That is taken off while they are whole numbers: a nanosecond of this century is none of a float.
+fn instants(array: &dyn Array, first: &mut Option<i64>) -> Option<Vec<f64>> {
+    let DataType::Timestamp(unit, _) = array.data_type() else { return None };
+    let (ticks, in_a_second) = match unit {
+        TimeUnit::Second => (ticks::<TimestampSecondType>(array), 1.0),
+        TimeUnit::Millisecond => (ticks::<TimestampMillisecondType>(array), 1e3),
+        TimeUnit::Microsecond => (ticks::<TimestampMicrosecondType>(array), 1e6),
+        TimeUnit::Nanosecond => (ticks::<TimestampNanosecondType>(array), 1e9),
+    };
+    let mut since = |tick: i64| {
+        let first = *first.get_or_insert(tick);
+        wide(tick.saturating_sub(first)) / in_a_second
+    };
+    Some(ticks.into_iter().map(|tick| tick.map_or(f64::NAN, &mut since)).collect())
+}
+
+fn ticks<T: ArrowPrimitiveType<Native = i64>>(array: &dyn Array) -> Vec<Option<i64>> {
+    array.as_primitive::<T>().iter().collect()
+}
+
+/// The name of a column, with the unit of instants.
+fn name(field: &Field) -> String {
+    let is_instant = matches!(field.data_type(), DataType::Timestamp(..));
+    if is_instant { format!("{} (s)", field.name()) } else { field.name().clone() }
 }
 
 #[expect(clippy::cast_precision_loss, reason = "counters of 64 bits are read as floats do")]
@@ -135,4 +138,30 @@ fn unsigned(value: u64) -> f64 {
 
 fn floats<T: ArrowPrimitiveType>(array: &dyn Array, number: fn(T::Native) -> f64) -> Vec<f64> {
     array.as_primitive::<T>().iter().map(|value| value.map_or(f64::NAN, number)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use arrow_array::{RecordBatch, TimestampNanosecondArray};
+    use arrow_ipc::writer::FileWriter;
+
+    use super::*;
+
+    /// 100 ns apart, 54 years after 1970: a float has steps of 256 ns there.
+    #[test]
+    fn nanoseconds_stay_apart() {
+        let ticks: Vec<i64> = (0..40).map(|row| 1_717_000_000_000_000_007 + 100 * row).collect();
+        let array: Arc<dyn Array> = Arc::new(TimestampNanosecondArray::from(ticks));
+        let batch = RecordBatch::try_from_iter([("time", array)]).expect("one column");
+        let mut bytes = Vec::new();
+        let mut writer = FileWriter::try_new(&mut bytes, &batch.schema()).expect("memory");
+        writer.write(&batch).expect("memory");
+        writer.finish().expect("memory");
+        drop(writer);
+        let (columns, _) = columns(&bytes).expect("what was written");
+        assert_eq!(columns[0].0, "time (s)");
+        assert!((columns[0].1[39] - 39.0 * 100e-9).abs() < 1e-15, "{:?}", columns[0].1);
+    }
 }

@@ -32,6 +32,10 @@ pub(super) fn units(
             ask_fraction(candidate, decisions);
             continue;
         }
+        if let Some(doubt) = unit.and_then(|unit| Doubt::of(candidate, unit)) {
+            ask_doubt(candidate, &doubt, decisions);
+            continue;
+        }
         match unit.map(ToOwned::to_owned).or_else(|| guessed(candidate, target)) {
             Some(unit) => candidate.rule.unit = Some(unit),
             None if candidate.rule.pass.is_some() => runs.push((candidate, target)),
@@ -117,12 +121,60 @@ fn ask_fraction(candidate: &mut Candidate<'_>, decisions: &mut Decisions<'_>) {
     candidate.rule.reason.push_str("; its unit is not sure");
 }
 
+/// A unit that is told and may yet be another.
+struct Doubt {
+    text: String,
+    units: Vec<String>,
+}
+
+impl Doubt {
+    /// Of a unit with two meanings, and of a name with a factor in it, as `Error x10 [µm]`.
+    fn of(candidate: &Candidate<'_>, unit: &str) -> Option<Self> {
+        let name = quoted(&candidate.header.name);
+        if data::is_doubtful(unit) {
+            let text = format!("`{unit}` of column {name} is degree or gon");
+            return Some(Self { text, units: vec!["deg".to_owned(), "gon".to_owned()] });
+        }
+        let factor = factor_in(&candidate.header.bare)?;
+        let text = format!("the name of column {name} has a factor in it, {factor}");
+        let units = [format!("1/{factor} {unit}"), format!("{factor} {unit}"), unit.to_owned()];
+        Some(Self { text, units: units.into() })
+    }
+}
+
+/// The power of ten of `x10`, `×1000` or `100x` in a name; `x1` is an axis.
+fn factor_in(bare: &str) -> Option<&str> {
+    let tokens = bare.split(|c: char| !c.is_alphanumeric() && !"×*".contains(c));
+    let power = |digits: &&str| {
+        digits
+            .strip_prefix('1')
+            .is_some_and(|zeros| !zeros.is_empty() && zeros.bytes().all(|byte| byte == b'0'))
+    };
+    let marks = ['x', 'X', '×', '*'];
+    let mut factors = tokens.filter_map(|token| {
+        token
+            .rsplit_once(['×', '*'])
+            .map(|(_, digits)| digits)
+            .or_else(|| token.strip_prefix(marks))
+            .or_else(|| token.strip_suffix(marks))
+    });
+    factors.find(power)
+}
+
+fn ask_doubt(candidate: &mut Candidate<'_>, doubt: &Doubt, decisions: &mut Decisions<'_>) {
+    let units: Vec<&str> = doubt.units.iter().map(String::as_str).collect();
+    let answers = unit_answers(&[&candidate.header.name], &units);
+    decisions.question_at(&candidate.header.place, &doubt.text, answers);
+    candidate.rule.unit = Some(units[0].to_owned());
+    candidate.rule.reason.push_str("; its unit is not sure");
+}
+
 /// Asks once for all columns that share their unit.
 fn ask_unit(columns: &mut [&mut Candidate<'_>], target: Target, decisions: &mut Decisions<'_>) {
     let units: &[&str] = match target.kind {
         "length" if target.column == "position_mm" => &["mm", "m", "um", "inch"],
         "length" => &["um", "mm", "nm", "inch"],
-        "angle" => &["arcsec", "deg", "rad", "rev"],
+        "angle" => &["arcsec", "deg", "rad", "rev", "gon"],
         "time" => &["s", "ms", "us", "min"],
         "temperature" => &["°C", "°F", "K"],
         "pressure" => &["hpa", "pa", "kpa", "mmhg"],
