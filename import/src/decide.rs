@@ -16,13 +16,15 @@ pub(crate) struct Decisions<'a> {
     pub(crate) headers: Vec<String>,
     /// How the file begins.
     pub(crate) beginning: Vec<String>,
+    /// Columns that are there and hold no numbers, each with what it holds.
+    pub(crate) left_out: Vec<String>,
 }
 
 impl<'a> Decisions<'a> {
     pub(crate) fn new(file: &'a str, given: &'a Recipe) -> Self {
         let made = Recipe { columns: Vec::new(), ..given.clone() };
-        let (questions, notes, headers, beginning) = Default::default();
-        Self { file, given, made, questions, notes, headers, beginning }
+        let (questions, notes, headers, beginning, left_out) = Default::default();
+        Self { file, given, made, questions, notes, headers, beginning, left_out }
     }
 
     /// The file's name, for messages.
@@ -121,6 +123,14 @@ impl<'a> Decisions<'a> {
     /// Something open, and where it stands.
     pub(crate) fn question_at(&mut self, place: &Place, text: &str, answers: Vec<Answer>) {
         self.questions.push(Question { place: place.clone(), text: text.to_owned(), answers });
+    }
+
+    /// Says which columns a format holds that are no numbers, and so are left out.
+    pub(crate) fn pass_over(&mut self, names: &[String]) {
+        let Some(first) = names.first() else { return };
+        let number = names.len();
+        self.note(format!("{number} columns that hold no numbers are left out, first `{first}`"));
+        self.left_out.extend(names.iter().map(|name| format!("`{name}` holds no numbers")));
     }
 
     pub(crate) fn note(&mut self, note: impl Into<String>) {

@@ -43,7 +43,8 @@ pub(crate) fn grid(lines: &[&str], decisions: &mut Decisions<'_>) -> Result<Grid
         ));
     };
     let grid = Grid::split(file, lines, delimiter)?;
-    decide_decimal(&grid, delimiter, decisions);
+    let cells = (0..grid.rows()).flat_map(|row| grid.cells_of(row));
+    decide_decimal(cells, delimiter != Delimiter::Char(','), decisions);
     Ok(grid)
 }
 
@@ -94,19 +95,23 @@ fn fit(grid: &Grid) -> (f64, usize, usize) {
     (share(*rows, hits) * share(*rows, used) * share(*good, rows * width), *width, *rows)
 }
 
-fn decide_decimal(grid: &Grid, delimiter: Delimiter, decisions: &mut Decisions<'_>) {
+/// The decimal sign of texts; `is_open` says that a mark before three digits is asked about, which commas
+/// between cells leave to the point.
+pub(crate) fn decide_decimal<'a>(
+    cells: impl Iterator<Item = &'a str>,
+    is_open: bool,
+    decisions: &mut Decisions<'_>,
+) {
     if decisions.given("text", "decimal").is_some() {
         return;
     }
     let (mut points, mut commas, mut marked) = (0_usize, 0_usize, None);
-    for row in 0..grid.rows() {
-        for cell in grid.cells_of(row).filter(|cell| cell.contains(['.', ','])) {
-            let (point, comma) = (number(cell, '.').is_some(), number(cell, ',').is_some());
-            points += usize::from(point);
-            commas += usize::from(comma);
-            if point && comma && marked.is_none() {
-                marked = Some(cell.to_owned());
-            }
+    for cell in cells.filter(|cell| cell.contains(['.', ','])) {
+        let (point, comma) = (number(cell, '.').is_some(), number(cell, ',').is_some());
+        points += usize::from(point);
+        commas += usize::from(comma);
+        if point && comma && marked.is_none() {
+            marked = Some(cell.to_owned());
         }
     }
     let (sign, reason) = match points.cmp(&commas) {
@@ -116,7 +121,7 @@ fn decide_decimal(grid: &Grid, delimiter: Delimiter, decisions: &mut Decisions<'
         std::cmp::Ordering::Less => {
             (",", format!("{commas} numbers read with a comma, {points} with a point"))
         }
-        std::cmp::Ordering::Equal if marked.is_some() && delimiter != Delimiter::Char(',') => {
+        std::cmp::Ordering::Equal if marked.is_some() && is_open => {
             (ask_decimal(&marked.unwrap_or_default(), decisions), "not sure".to_owned())
         }
         std::cmp::Ordering::Equal => (".", "no number has a fraction".to_owned()),

@@ -1,7 +1,9 @@
 //! From bytes to characters.
 
+use std::collections::BTreeSet;
+
 use chardetng::{EncodingDetector, Iso2022JpDetection, Utf8Detection};
-use encoding_rs::{Encoding, GB18030, GBK, UTF_8, UTF_16BE, UTF_16LE};
+use encoding_rs::{Encoding, GB18030, GBK, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
 
 use crate::decide::Decisions;
 use crate::error::ImportError;
@@ -54,12 +56,26 @@ fn detect(bytes: &[u8]) -> (&'static Encoding, String) {
     if std::str::from_utf8(bytes).is_ok() {
         return (UTF_8, "every byte fits UTF-8".into());
     }
+    if stands_alone(bytes) {
+        return (WINDOWS_1252, "no UTF-8; single letters beyond ASCII, as `µ` and `ü`".into());
+    }
     let mut detector = EncodingDetector::new(Iso2022JpDetection::Deny);
     detector.feed(bytes, true);
     let guess = detector.guess(None, Utf8Detection::Deny);
     // GB 18030 holds GBK and the rest of Chinese.
     let encoding = if guess == GBK { GB18030 } else { guess };
     (encoding, "no UTF-8; the frequencies of its bytes (chardetng)".into())
+}
+
+/// True where few different letters beyond ASCII stand mostly alone: the frequencies of so few tell nothing,
+/// and `µm` would be Chinese. A script of its own has many of them, one beside the other.
+fn stands_alone(bytes: &[u8]) -> bool {
+    const FEW: usize = 8;
+    let different: BTreeSet<u8> = bytes.iter().copied().filter(|byte| !byte.is_ascii()).collect();
+    let runs = || bytes.chunk_by(|one, next| !one.is_ascii() && !next.is_ascii());
+    let beyond = || runs().filter(|run| !run[0].is_ascii());
+    let alone = beyond().filter(|run| run.len() == 1).count();
+    different.len() < FEW && beyond().count() < 2 * alone
 }
 
 /// UTF-16 without a mark: ASCII shows as noughts on one side.

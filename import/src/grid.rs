@@ -72,7 +72,7 @@ impl Grid {
         Self { origin: Origin::Sheet(sheet.to_owned()), ..Self::of_text(file) }
     }
 
-    /// Columns of numbers below a row of names; what is not finite is an empty cell.
+    /// Columns of numbers below a row of names; what is no number is an empty cell, infinity a word.
     pub(crate) fn of_columns(
         file: &str,
         sheet: &str,
@@ -87,7 +87,7 @@ impl Grid {
         for row in 0..rows {
             grid.start_row(row + 1, false);
             for (index, (_, values)) in columns.iter().enumerate() {
-                let value = Some(values[row]).filter(|value| value.is_finite());
+                let value = Some(values[row]).filter(|value| !value.is_nan());
                 grid.push(&value.map_or_else(String::new, |value| value.to_string()), index + 1)?;
             }
         }

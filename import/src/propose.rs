@@ -11,7 +11,7 @@ use crate::error::{ImportError, quoted};
 use crate::formats;
 use crate::fringes;
 use crate::grid::Grid;
-use crate::header;
+use crate::header::{self, Header};
 use crate::limits;
 use crate::marks;
 use crate::outline::{Outline, outline};
@@ -19,7 +19,7 @@ use crate::place::Place;
 use crate::question::Question;
 use crate::recipe::{ColumnRule, Recipe, Value};
 use crate::rules;
-use crate::samples::samples;
+use crate::samples::{Holds, Samples, samples};
 use crate::text;
 
 /// Lines of a file that show how it begins.
@@ -62,7 +62,7 @@ pub fn propose(sources: &[Source<'_>], given: &Recipe) -> Result<Proposal, Impor
         let mut decisions = Decisions::new(source.name, &recipe);
         let part = read(*source, &mut decisions)?;
         if decisions.questions.is_empty() {
-            build::check(&part.columns, source.name)?;
+            build::check(&part.columns, source.name, &decisions.left_out)?;
         }
         parts.push(part);
         notes.append(&mut decisions.notes);
@@ -134,6 +134,7 @@ fn read(source: Source<'_>, decisions: &mut Decisions<'_>) -> Result<Built, Impo
         return understand(&grid, '.', decisions);
     }
     let content = encoding::decode(source.bytes, decisions)?;
+    formats::check_text(source.name, &content)?;
     let lines = text::lines(&content);
     decisions.beginning = lines.iter().take(SHOWN).map(|line| (*line).to_owned()).collect();
     let format = decisions.text("file", "format", || {
@@ -205,6 +206,8 @@ pub(crate) fn understand(
     let unit = preamble_unit(grid, &outline);
     let rules = rules::propose(&headers, &samples, unit.as_deref(), decisions);
     decisions.made.columns.clone_from(&rules);
+    let left_out = without_numbers(grid, &outline, (&headers, &samples), decisions);
+    decisions.left_out.extend(left_out);
     let understood = Understood {
         grid,
         outline: &outline,
@@ -219,6 +222,36 @@ pub(crate) fn understand(
         return Ok(built);
     }
     Ok(Built { columns: fringes::demodulated(&built.columns, decisions)?, ..built })
+}
+
+/// What columns hold that hold no numbers and that no recipe leaves out; names may stand behind the last
+/// column that is filled.
+fn without_numbers(
+    grid: &Grid,
+    outline: &Outline,
+    (headers, samples): (&[Header], &[Samples]),
+    decisions: &Decisions<'_>,
+) -> Vec<String> {
+    let empty = |name: &str| {
+        let why = if grid.is_sheet() { ", were its formulas never computed?" } else { "" };
+        format!("column {} is empty{why}", quoted(name))
+    };
+    let names = outline.header.last().into_iter().flat_map(|row| grid.cells_of(*row));
+    let behind = names.skip(outline.width).filter(|name| !name.is_empty()).map(empty);
+    let open = |name: &str| decisions.given_column(name).is_none_or(|rule| rule.to.is_none());
+    let columns = headers.iter().zip(samples).enumerate();
+    let described = |(at, (header, samples)): (usize, (&Header, &Samples))| match samples.holds {
+        Holds::Words => {
+            let row = samples.first_word?;
+            let (cell, place) = (quoted(grid.cell(row, at)), grid.place(row, Some(at)));
+            let name = quoted(&header.name);
+            Some(format!("column {name} holds words, first {cell} at {place}"))
+        }
+        Holds::Nothing => Some(empty(&header.name)),
+        Holds::Numbers | Holds::Instants => None,
+    };
+    let described = columns.filter(|(_, (header, _))| open(&header.name)).filter_map(described);
+    described.chain(behind).collect()
 }
 
 /// Counts the time from row to row, where a recipe says how long that takes.

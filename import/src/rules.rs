@@ -426,8 +426,14 @@ fn observed(candidates: &[Candidate<'_>], decisions: &mut Decisions<'_>) {
     if !has(&OBSERVED) && !has(&DETECTORS) && !free.is_empty() {
         let rotary = candidates.iter().any(|candidate| candidate.is("angle_rev"));
         let to = if rotary { "error_arcsec" } else { "error_um" };
-        let text = "no column is known as the measured error";
-        decisions.question_at(&names_line(candidates), text, answers(&free, to));
+        let words = candidates.iter().find(|candidate| {
+            candidate.samples.holds == Holds::Words && candidate.meaning().ends_with("error")
+        });
+        let but = words.map_or_else(String::new, |candidate| {
+            format!(", and {} holds words", quoted(&candidate.header.name))
+        });
+        let text = format!("no column is known as the measured error{but}");
+        decisions.question_at(&names_line(candidates), &text, answers(&free, to));
     }
     let even = decisions.given("table", "period_s").is_some();
     let numbers = candidates.iter().any(|candidate| candidate.samples.holds == Holds::Numbers);

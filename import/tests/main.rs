@@ -8,3 +8,4 @@ mod properties;
 mod samples;
 mod stage;
 mod twincat;
+mod workbooks;

@@ -1,8 +1,10 @@
 //! What looks like one thing and is another: read as it is, asked for, refused, or told.
 
+use helixlock_import::{Proposal, Recipe, Source, propose};
+
 use crate::guesses::{asked, column, file, proposed, refused};
 
-fn read(text: &str) -> helixlock_import::Proposal {
+fn read(text: &str) -> Proposal {
     let proposal = proposed(text, "");
     assert!(proposal.questions.is_empty(), "{:?}", proposal.questions);
     proposal
@@ -220,5 +222,43 @@ fn directions_in_other_numbers_are_told_by_the_positions() {
         let start = "data.csv:";
         let end = "which the positions do not tell, expected 1, -1, or a word for it\n\nhint: `to = \"none\"` leaves the column out";
         assert!(message.starts_with(start) && message.ends_with(end), "{message}");
+    }
+}
+
+/// A column that is there and cannot be read is named, with a cell of it.
+#[test]
+fn what_is_no_number_is_named() {
+    for (cell, row) in [("0.1(2)", "0.{}(2)"), ("0.1±0.05", "0.{}±0.05"), ("0x1", "0x{}")] {
+        let text = file("Position [mm],Error [um]", |index| {
+            format!("{index}.0,{}", row.replace("{}", &(index + 1).to_string()))
+        });
+        let message = refused(&text, "");
+        let hint = format!("hint: column `Error [um]` holds words, first `{cell}` at data.csv:2:5");
+        assert!(message.ends_with(&hint), "{message}");
+        let beside =
+            file("Position [mm],Load,Error [um]", |index| format!("{index}.0,{index}.5,0x{index}"));
+        let question = "no column is known as the measured error, and `Error [um]` holds words";
+        assert_eq!(asked(&beside), [question]);
+    }
+    for text in ["{\"error_um\": [1, 2]}", "[{\"error_um\": 1}]", " [[1, 2], [3, 4]]", "[1, 2]"] {
+        let message = refused(text, "");
+        assert!(message.starts_with("data.csv: found JSON, expected a table"), "{message}");
+    }
+}
+
+/// A lone µ is the Latin-1 of a German instrument; Chinese has characters side by side.
+#[test]
+fn single_letters_beyond_ascii_are_western() {
+    for header in
+        ["Position [mm];Abweichung [µm]", "Größe;Position [mm];Abweichung [µm];Temperatur [°C]"]
+    {
+        let cells = header.matches(';').count();
+        let text = file(header, |row| format!("{row},5{}", format!(";0,{row}").repeat(cells)));
+        let latin = |c: char| u8::try_from(u32::from(c)).expect("a character of Latin-1");
+        let bytes: Vec<u8> = text.chars().map(latin).collect();
+        let proposal = propose(&[Source { name: "data.csv", bytes: &bytes }], &Recipe::default());
+        let proposal = proposal.unwrap_or_else(|error| panic!("{error}"));
+        assert!(proposal.questions.is_empty(), "{:?}", proposal.questions);
+        same(column(&proposal, "error_um")[1], -0.1);
     }
 }

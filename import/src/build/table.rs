@@ -27,8 +27,12 @@ pub(super) fn in_order(mut columns: Vec<Column>) -> Vec<Column> {
     columns
 }
 
-/// What the table cannot do without.
-pub(crate) fn check(columns: &[Column], file: &str) -> Result<(), ImportError> {
+/// What the table cannot do without; `left_out` are columns that could have been it.
+pub(crate) fn check(
+    columns: &[Column],
+    file: &str,
+    left_out: &[String],
+) -> Result<(), ImportError> {
     let has = |names: &[&str]| {
         columns.iter().any(|column| {
             names.contains(&column.name.as_str())
@@ -44,11 +48,8 @@ pub(crate) fn check(columns: &[Column], file: &str) -> Result<(), ImportError> {
     for wanted in [&OBSERVED[..], &COORDINATES[..]] {
         if !has(wanted) {
             let place = crate::place::Place::file(file);
-            return Err(ImportError::found(
-                place,
-                found,
-                format!("one of `{}`", wanted.join("`, `")),
-            ));
+            let expected = format!("one of `{}`", wanted.join("`, `"));
+            return Err(ImportError::found(place, found, expected).hinted(left_out.join("; ")));
         }
     }
     Ok(())

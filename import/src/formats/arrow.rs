@@ -37,11 +37,7 @@ pub(crate) fn grid(bytes: &[u8], decisions: &mut Decisions<'_>) -> Result<Grid, 
     if columns.iter().all(|(_, values)| values.is_empty()) {
         return Err(refused("no row of numbers".to_owned()));
     }
-    if let Some(first) = words.first() {
-        let number = words.len();
-        decisions
-            .note(format!("{number} columns that hold no numbers are left out, first `{first}`"));
-    }
+    decisions.pass_over(&words);
     let views: Vec<(String, &[f64])> =
         columns.iter().map(|(name, values)| (name.clone(), &**values)).collect();
     Grid::of_columns(file, "arrow", &views)

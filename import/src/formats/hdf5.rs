@@ -36,12 +36,13 @@ pub(crate) fn grid(bytes: &[u8], decisions: &mut Decisions<'_>) -> Result<Grid, 
     };
     // A broken file is an error for its user, whatever it is for the library.
     let read = std::panic::catch_unwind(AssertUnwindSafe(|| all(bytes)));
-    let (mut arrays, packed) = match read {
-        Ok(Ok(walk)) => (walk.arrays, walk.packed),
+    let Walk { mut arrays, packed, passed_over, .. } = match read {
+        Ok(Ok(walk)) => walk,
         Ok(Err(error)) => return Err(refused(format!("HDF5 that cannot be read ({error})"))),
         Err(_) => return Err(refused("HDF5 that contradicts itself".to_owned())),
     };
     unpack(&mut arrays, &packed, decisions);
+    decisions.pass_over(&passed_over);
     arrays::grid("data sets", &arrays, decisions)
 }
 
@@ -95,14 +96,17 @@ fn all(bytes: &[u8]) -> Result<Walk, Error> {
         .with_max_read_bytes(limits::UNPACKED)
         .with_max_chunk_bytes(limits::UNPACKED);
     let file = Hdf5File::from_bytes_with_options(bytes, options)?;
-    let mut walk = Walk { arrays: Vec::new(), packed: Vec::new(), numbers: 0, sets: 0 };
+    let mut walk = Walk::default();
     walk.group(&file.root_group()?, "", 0)?;
     Ok(walk)
 }
 
+#[derive(Default)]
 struct Walk {
     arrays: Vec<Array>,
     packed: Vec<(String, Packing)>,
+    /// Names of sets of several elements that are no numbers.
+    passed_over: Vec<String>,
     numbers: usize,
     sets: usize,
 }
@@ -133,7 +137,10 @@ impl Walk {
         };
         let name = format!("{path}{}", last(set.name()));
         let mut members = Vec::new();
-        Member { name, offset: 0, kind: set.dtype() }.numbers(&mut members);
+        Member { name: name.clone(), offset: 0, kind: set.dtype() }.numbers(&mut members);
+        if members.is_empty() && 1 < rows {
+            self.passed_over.push(name);
+        }
         let cells = rows.saturating_mul(columns).saturating_mul(members.len());
         self.numbers = self.numbers.saturating_add(cells);
         if limits::CELLS < self.numbers {
@@ -150,6 +157,7 @@ impl Walk {
             let values: Option<Vec<f64>> =
                 bytes.chunks_exact(element).map(|element| member.value(element)).collect();
             let Some(values) = values.filter(|values| values.len() == rows * columns) else {
+                self.passed_over.push(member.name);
                 continue;
             };
             // HDF5 holds row by row; MATLAB writes its columns as rows.

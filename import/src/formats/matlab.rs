@@ -27,6 +27,8 @@ const CELLS: u32 = 1;
 const STRUCTURE: u32 = 2;
 /// Deepest structures; programs write two or three.
 const DEPTH: usize = 16;
+/// Class of arrays that hold their elements beside zeros alone.
+const SPARSE: u32 = 5;
 /// Classes of arrays whose elements are numbers, and the mark of complex ones.
 const NUMBERS: std::ops::RangeInclusive<u32> = 6..=15;
 const COMPLEX: u32 = 0x800;
@@ -43,16 +45,25 @@ pub(crate) fn grid(bytes: &[u8], decisions: &mut Decisions<'_>) -> Result<Grid, 
     if limits::UNPACKED < plain.len() {
         return Err(refused("more than it may unpack to", &format!("{} bytes", limits::UNPACKED)));
     }
-    let mut arrays = Vec::new();
+    let mut found = Found::default();
     for (kind, body) in (Elements { rest: &plain, is_swapped }) {
         if kind == MATRIX {
-            walk(Elements { rest: body, is_swapped }, "", 0, &mut arrays);
+            walk(Elements { rest: body, is_swapped }, "", 0, &mut found);
         }
     }
-    if arrays.is_empty() {
+    if found.arrays.is_empty() {
         return Err(refused("no array of numbers", "arrays that are columns"));
     }
-    arrays::grid("arrays", &arrays, decisions)
+    decisions.pass_over(&found.passed_over);
+    arrays::grid("arrays", &found.arrays, decisions)
+}
+
+/// What a file holds.
+#[derive(Default)]
+struct Found {
+    arrays: Vec<Array>,
+    /// Names of arrays of complex numbers and of sparse ones, which are no columns.
+    passed_over: Vec<String>,
 }
 
 /// The elements behind the header, those that are packed unpacked, until they are too many.
@@ -110,7 +121,7 @@ impl<'a> Iterator for Elements<'a> {
 /// The arrays of numbers in an element; `path` is where it stands, for its own name is then empty.
 ///
 /// Complex numbers, more than two dimensions, and what contradicts itself are passed over.
-fn walk(mut parts: Elements<'_>, path: &str, depth: usize, found: &mut Vec<Array>) -> Option<()> {
+fn walk(mut parts: Elements<'_>, path: &str, depth: usize, found: &mut Found) -> Option<()> {
     let is_swapped = parts.is_swapped;
     let flags = word(parts.next()?.1, is_swapped);
     let shape: Vec<usize> =
@@ -143,7 +154,11 @@ fn walk(mut parts: Elements<'_>, path: &str, depth: usize, found: &mut Vec<Array
             let (rows, columns) = arrays::upright(&shape)?;
             let values = numbers(kind, body, is_swapped)?;
             let whole = !values.is_empty() && values.len() == rows.checked_mul(columns)?;
-            whole.then(|| found.push(Array { name, rows, values }))
+            whole.then(|| found.arrays.push(Array { name, rows, values }))
+        }
+        class if class == SPARSE || NUMBERS.contains(&class) => {
+            found.passed_over.push(name);
+            None
         }
         _ => None,
     }

@@ -92,6 +92,25 @@ fn refused(name: &str, found: &str, hint: &str) -> ImportError {
     ImportError::found(Place::file(name), found, "a table of measured data").hinted(hint)
 }
 
+/// Refuses JSON: an object, or a list of objects, lists or numbers, which begins as no section `[…]` does.
+pub(crate) fn check_text(name: &str, text: &str) -> Result<(), ImportError> {
+    let text = text.trim_start();
+    let behind = |mark: char| Some(text.strip_prefix(mark)?.trim_start());
+    let object = behind('{').is_some_and(|rest| rest.starts_with(['"', '}']));
+    let list = behind('[').is_some_and(|rest| {
+        let number = rest.starts_with(|c: char| c.is_ascii_digit() || c == '-');
+        rest.starts_with(['{', '[']) || number && rest.contains(',')
+    });
+    if object || list {
+        return Err(refused(
+            name,
+            "JSON",
+            "write its lists as the columns of a table, such as CSV",
+        ));
+    }
+    Ok(())
+}
+
 /// The format of a text, by the words in it.
 pub(crate) fn textual(name: &str, lines: &[&str]) -> (&'static str, &'static str) {
     let head = || lines.iter().take(400);

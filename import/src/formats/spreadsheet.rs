@@ -1,5 +1,7 @@
 //! Workbooks of Excel and `LibreOffice`: a sheet as a grid.
 
+mod meant;
+
 use std::io::Cursor;
 
 use calamine::{Data, DataRef, ExcelDateTime, Reader, Sheets, open_workbook_auto_from_rs};
@@ -10,9 +12,16 @@ use crate::grid::Grid;
 use crate::limits;
 use crate::place::Place;
 use crate::question::Answer;
+use crate::recipe::Value;
+use meant::{unmerge, with_points};
 
-/// A cell that is not empty: row and column from 1, and what it shows.
-type Cell = (usize, usize, String);
+/// A cell that is not empty: row and column from 1, what it shows, and whether that is a text.
+struct Cell {
+    row: usize,
+    column: usize,
+    shown: String,
+    is_text: bool,
+}
 
 /// Reads the sheet that the recipe names, or the one with the most cells.
 pub(crate) fn grid(bytes: &[u8], decisions: &mut Decisions<'_>) -> Result<Grid, ImportError> {
@@ -25,7 +34,7 @@ pub(crate) fn grid(bytes: &[u8], decisions: &mut Decisions<'_>) -> Result<Grid, 
     let mut book = open_workbook_auto_from_rs(Cursor::new(bytes.to_vec())).map_err(broken)?;
     let names = book.sheet_names();
     let chosen = match decisions.given("sheet", "name") {
-        Some(crate::recipe::Value::Text(name)) => Some(name.clone()),
+        Some(Value::Text(name)) => Some(name.clone()),
         _ => None,
     };
     if let Some(name) = chosen.as_ref().filter(|name| !names.contains(name)) {
@@ -42,13 +51,14 @@ pub(crate) fn grid(bytes: &[u8], decisions: &mut Decisions<'_>) -> Result<Grid, 
     let best = sheets
         .into_iter()
         .reduce(|best, next| if best.1.len() < next.1.len() { next } else { best });
-    let Some((name, cells)) = best.filter(|(_, cells)| !cells.is_empty()) else {
+    let Some((name, mut cells)) = best.filter(|(_, cells)| !cells.is_empty()) else {
         return Err(ImportError::found(
             Place::file(file),
             "empty sheets",
             "a table of measured data",
         ));
     };
+    with_points(&mut cells, decisions);
     to_grid(file, &name, cells)
 }
 
@@ -91,16 +101,20 @@ fn cells(
         Err(found)
     };
     if let Sheets::Xlsx(book) = book {
+        let merged =
+            book.merge_cells_by_sheet_name(name).map_err(|error| broken(error.to_string()))?;
         let mut reader =
             book.worksheet_cells_reader(name).map_err(|error| broken(error.to_string()))?;
         while let Some(cell) = reader.next_cell().map_err(|error| broken(error.to_string()))? {
             let (row, column) = cell.get_position();
-            push(&mut cells, row, column, shown_ref(cell.get_value()));
+            let is_text = matches!(cell.get_value(), DataRef::String(_) | DataRef::SharedString(_));
+            push(&mut cells, (row, column), shown_ref(cell.get_value()), is_text);
             if limits::CELLS < cells.len() {
                 return too_many();
             }
         }
-        return Ok(cells);
+        unmerge(&mut cells, &merged);
+        return if limits::CELLS < cells.len() { too_many() } else { Ok(cells) };
     }
     let range = book.worksheet_range(name).map_err(|error| broken(error.to_string()))?;
     let (top, left) = range.start().unwrap_or_default();
@@ -108,26 +122,27 @@ fn cells(
         let at = |first: u32, offset: usize| {
             first.saturating_add(u32::try_from(offset).unwrap_or(u32::MAX))
         };
-        push(&mut cells, at(top, row), at(left, column), shown(value));
+        let is_text = matches!(value, Data::String(_));
+        push(&mut cells, (at(top, row), at(left, column)), shown(value), is_text);
     }
     Ok(cells)
 }
 
-fn push(cells: &mut Vec<Cell>, row: u32, column: u32, text: String) {
+fn push(cells: &mut Vec<Cell>, (row, column): (u32, u32), shown: String, is_text: bool) {
     let from_one = |index: u32| usize::try_from(index).map_or(usize::MAX, |index| index + 1);
-    if !text.is_empty() {
-        cells.push((from_one(row), from_one(column), text));
+    if !shown.is_empty() {
+        cells.push(Cell { row: from_one(row), column: from_one(column), shown, is_text });
     }
 }
 
 /// Rows without a cell are left out; they count for nothing.
 fn to_grid(file: &str, name: &str, mut cells: Vec<Cell>) -> Result<Grid, ImportError> {
-    cells.sort_by_key(|(row, column, _)| (*row, *column));
-    let left = cells.iter().map(|cell| cell.1).min().unwrap_or(1);
+    cells.sort_by_key(|cell| (cell.row, cell.column));
+    let left = cells.iter().map(|cell| cell.column).min().unwrap_or(1);
     let mut grid = Grid::of_sheet(file, name);
     let mut last_row = 0;
     let mut next = left;
-    for (row, column, text) in cells {
+    for Cell { row, column, shown, .. } in cells {
         if limits::COLUMNS < column {
             let mut place = Place::line(file, row);
             (place.at.column, place.sheet) = (Some(column), Some(name.to_owned()));
@@ -147,7 +162,7 @@ fn to_grid(file: &str, name: &str, mut cells: Vec<Cell>) -> Result<Grid, ImportE
         for empty in next..column {
             grid.push("", empty)?;
         }
-        grid.push(text.trim(), column)?;
+        grid.push(shown.trim(), column)?;
         next = column + 1;
     }
     Ok(grid)
