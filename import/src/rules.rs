@@ -313,7 +313,10 @@ fn one_of_each(candidates: &mut [Candidate<'_>], decisions: &mut Decisions<'_>) 
         }
         if given.is_empty() && needed {
             let names: Vec<_> = same.iter().map(|at| candidates[*at].header.name.clone()).collect();
-            let text = format!("`{}` may be `{target}` each", names.join("`, `"));
+            let text = format!(
+                "`{}` may be `{target}` each; `to = \"{NONE}\"` leaves a column out",
+                names.join("`, `")
+            );
             let place = &candidates[same[1]].header.place;
             decisions.question_at(place, &text, answers(&names, target));
         }
@@ -353,7 +356,24 @@ fn two_positions(
     };
     let text = format!("`{}` and `{}` are positions both", names[0], names[1]);
     let [first, second] = [&names[0], &names[1]];
-    let ways = vec![answer([first, second]), answer([second, first])];
+    let left_out = |[kept, other]: [&String; 2]| Answer {
+        label: format!("{} is the position, {} is left out", quoted(kept), quoted(other)),
+        recipe: [
+            answers(std::slice::from_ref(kept), place),
+            answers(std::slice::from_ref(other), NONE),
+        ]
+        .concat()
+        .into_iter()
+        .map(|answer| answer.recipe)
+        .collect::<Vec<_>>()
+        .join("\n\n"),
+    };
+    let ways = vec![
+        answer([first, second]),
+        answer([second, first]),
+        left_out([first, second]),
+        left_out([second, first]),
+    ];
     decisions.question_at(&candidates[other].header.place, &text, ways);
     candidates[other].rule.to = None;
     candidates[other].rule.reason.clear();
@@ -409,6 +429,34 @@ fn covariates(candidates: &mut [Candidate<'_>]) {
 
 pub(crate) fn by_column(name: &str) -> Option<Target> {
     data::target(name).filter(|target| target.column == name)
+}
+
+/// True for a name that no column has and nobody would give one: a word for leaving it out, one of ours
+/// without its unit, or one that is misspelt.
+pub(crate) fn is_slip(to: &str, from: &str) -> bool {
+    const WORDS: [&str; 9] =
+        ["", "ignore", "ignored", "skip", "drop", "omit", "exclude", "no", "null"];
+    let known = |column: &str| by_column(column).is_some() || column == NONE;
+    let without_unit = |column: &str| column.rsplit_once('_').is_some_and(|(bare, _)| bare == to);
+    let mut ours = data::targets().iter().map(|target| target.column);
+    let is_own = to == header::plain_name(&header::read_name(from));
+    !known(to)
+        && !is_own
+        && (WORDS.contains(&to.to_lowercase().as_str())
+            || ours.any(|column| without_unit(column) || nearly(to, column)))
+}
+
+/// True where one letter before the unit is another, missing, or too many.
+fn nearly(one: &str, other: &str) -> bool {
+    const SHORTEST: usize = 5;
+    let unit = |name: &str| name.rsplit_once('_').map(|(_, unit)| unit.to_owned());
+    if other.len() < SHORTEST || unit(one) != unit(other) {
+        return false;
+    }
+    let same = one.chars().zip(other.chars()).take_while(|(a, b)| a == b).count();
+    let [one, other]: [Vec<char>; 2] = [one, other].map(|word| word.chars().skip(same).collect());
+    let rest = |word: &[char]| word.get(1..).unwrap_or_default().to_vec();
+    rest(&one) == rest(&other) || rest(&one) == other || one == rest(&other)
 }
 
 /// Asks for what a measurement cannot do without.

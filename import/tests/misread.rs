@@ -262,3 +262,56 @@ fn single_letters_beyond_ascii_are_western() {
         same(column(&proposal, "error_um")[1], -0.1);
     }
 }
+
+/// Arrays that are no columns are named, and infinity is no missing value.
+#[test]
+fn arrays_that_are_no_numbers_are_named() {
+    let read = |name, bytes: &[u8]| propose(&[Source { name, bytes }], &Recipe::default());
+    let mode = read("enumeration.h5", include_bytes!("samples/enumeration.h5"));
+    let mode = mode.unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(mode.notes[0], "1 columns that hold no numbers are left out, first `mode`");
+    let complex = read("complex.mat", include_bytes!("samples/complex.mat")).expect_err("no error");
+    assert!(complex.to_string().ends_with("hint: `error_um` holds no numbers"), "{complex}");
+    let infinity =
+        read("infinity.mat", include_bytes!("samples/infinity.mat")).expect_err("no number");
+    let start = "infinity.mat: sheet `arrays`, cell B6: found `inf` in column `error_um`";
+    assert!(infinity.to_string().starts_with(start), "{infinity}");
+}
+
+/// A table on its side has a line a column: no row of it is a reading.
+#[test]
+fn a_table_on_its_side_is_said_to_be() {
+    let line = |name: &str, cells: u32| {
+        (0..cells).fold(name.to_owned(), |line, cell| format!("{line},{cell}.5")) + "\n"
+    };
+    for (cells, found) in [
+        (40, "2 rows that each begin with a name, expected a row of names"),
+        (16_384, "16385 columns in 2 rows, expected up to 4096 columns"),
+    ] {
+        let text = line("Angle [deg]", cells) + &line("Error [arcsec]", cells);
+        let hint = "it lies on its side: turn it, so that each row is a reading";
+        assert_eq!(refused(&text, ""), format!("data.csv:1: found {found}\n\nhint: {hint}"));
+    }
+}
+
+/// What a rule calls a column is one of ours, `none`, or a name that nobody takes for either.
+#[test]
+fn a_slip_in_the_name_of_a_column_is_refused() {
+    let text = file("Position [mm],Error [um],Load", |row| format!("{row}.0,0.{row},{row}.5"));
+    let rule = |to: &str| format!("[[column]]\nfrom = \"Load\"\nto = \"{to}\"");
+    for slip in ["ignore", "skip", "error", "eror_um", "positon_mm", "air_temprature_c"] {
+        let message = refused(&text, &rule(slip));
+        let start = format!("given:1:1: found `to = \"{slip}\"`, expected one of `time_s`, ");
+        let end = "hint: `to = \"none\"` leaves a column out";
+        assert!(message.starts_with(&start) && message.ends_with(end), "{message}");
+    }
+    for name in ["load", "motor_load", "force_x", "mass", "target"] {
+        assert!(proposed(&text, &rule(name)).table.column(name).is_some(), "{name}");
+    }
+    assert!(proposed(&text, &rule("none")).table.column("load").is_none());
+    let twice =
+        file("Error [um],Fehler [um],Position [mm]", |row| format!("0.{row},1.{row},{row}.5"));
+    let question =
+        "`Error [um]`, `Fehler [um]` may be `error_um` each; `to = \"none\"` leaves a column out";
+    assert_eq!(asked(&twice), [question]);
+}
