@@ -145,7 +145,7 @@ fn read(source: Source<'_>, decisions: &mut Decisions<'_>) -> Result<Built, Impo
             "arrow" => formats::arrow::grid(source.bytes, decisions)?,
             "matlab" => formats::matlab::grid(source.bytes, decisions)?,
             "hdf5" => formats::hdf5::grid(source.bytes, decisions)?,
-            _ => formats::parquet::grid(source.name, source.bytes)?,
+            _ => formats::parquet::grid(source.bytes, decisions)?,
         };
         let line = |row: usize| grid.cells_of(row).collect::<Vec<_>>().join("\t");
         decisions.beginning = (0..grid.rows().min(SHOWN)).map(line).collect();

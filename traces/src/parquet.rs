@@ -22,11 +22,13 @@ use crate::table::{Column, Table, TextColumn, shortened};
 
 mod checks;
 mod checksum;
+mod instants;
 
 use checks::{
     check_compression, check_dictionary, check_places, check_rows, check_type, declared_rows,
     is_text,
 };
+use instants::{read_instants, ticks_in_a_second};
 
 /// Rows decoded at a time, and rows written to a group.
 const BATCH_ROWS: usize = 1 << 16;
@@ -40,14 +42,37 @@ const GROUP_ROWS: usize = 1 << 20;
 ///
 /// A file that contradicts itself, a column that holds no numbers, an infinite value, no rows.
 pub fn read_parquet(bytes: Vec<u8>, path: &Path) -> Result<Table, TraceError> {
+    guarded(bytes, path, Others::Refused)
+}
+
+/// Reads what is numbers or instants of a Parquet file that another program wrote.
+///
+/// Instants are seconds since the first of their column, which is then called `NAME (s)`; whatever else is
+/// no number is left out and remembered.
+///
+/// # Errors
+///
+/// As [`read_parquet`], without those of single columns.
+pub fn read_foreign_parquet(bytes: Vec<u8>, path: &Path) -> Result<Table, TraceError> {
+    guarded(bytes, path, Others::LeftOut)
+}
+
+/// What becomes of columns that are neither numbers nor words.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Others {
+    Refused,
+    LeftOut,
+}
+
+fn guarded(bytes: Vec<u8>, path: &Path, others: Others) -> Result<Table, TraceError> {
     // Fuzzing found broken pages on which the library panics; for its user that is an error too.
-    std::panic::catch_unwind(|| read_columns(bytes, path)).unwrap_or_else(|_| {
+    std::panic::catch_unwind(|| read_columns(bytes, path, others)).unwrap_or_else(|_| {
         let message = "its pages contradict its footer".into();
         Err(TraceError::Parquet { path: path.to_owned(), message })
     })
 }
 
-fn read_columns(bytes: Vec<u8>, path: &Path) -> Result<Table, TraceError> {
+fn read_columns(bytes: Vec<u8>, path: &Path, others: Others) -> Result<Table, TraceError> {
     let broken = |error: ParquetError| TraceError::Parquet {
         path: path.to_owned(),
         message: error.to_string(),
@@ -58,7 +83,7 @@ fn read_columns(bytes: Vec<u8>, path: &Path) -> Result<Table, TraceError> {
     let rows = declared_rows(&reader).map_err(broken)?;
     let schema = reader.metadata().file_metadata().schema_descr();
     let mut columns = Vec::with_capacity(schema.num_columns());
-    let mut text = Vec::new();
+    let (mut text, mut refused) = (Vec::new(), None);
     for (index, descriptor) in schema.columns().iter().enumerate() {
         let name = descriptor.path().string();
         if name.starts_with("__index_level_") {
@@ -70,9 +95,26 @@ fn read_columns(bytes: Vec<u8>, path: &Path) -> Result<Table, TraceError> {
             text.push(TextColumn { name, first, at: At::file(path), hint: "" });
             continue;
         }
-        check_type(descriptor, &name, path)?;
+        let in_a_second = ticks_in_a_second(descriptor).filter(|_| others == Others::LeftOut);
+        if let Some(in_a_second) = in_a_second {
+            let values =
+                read_instants(&reader, (index, descriptor), rows, in_a_second).map_err(broken)?;
+            columns.push(Column { name: format!("{name} (s)"), values });
+            continue;
+        }
+        match check_type(descriptor, &name, path) {
+            Err(error) if others == Others::LeftOut => {
+                text.push(TextColumn { name, first: String::new(), at: At::file(path), hint: "" });
+                refused.get_or_insert(error);
+                continue;
+            }
+            checked => checked?,
+        }
         let values = read_column(&reader, index, descriptor, rows).map_err(broken)?;
         columns.push(Column { name, values });
+    }
+    if let (true, Some(error)) = (columns.is_empty(), refused) {
+        return Err(error);
     }
     if let (true, Some(first)) = (columns.is_empty(), text.first()) {
         return Err(first.refused());

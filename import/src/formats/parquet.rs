@@ -1,16 +1,18 @@
-//! Parquet: columns with names, numbers only.
+//! Parquet: columns of numbers and of instants, with names.
 
 use std::path::Path;
 
-use helixlock_traces::parquet::read_parquet;
+use helixlock_traces::parquet::read_foreign_parquet;
 
+use crate::decide::Decisions;
 use crate::error::ImportError;
 use crate::grid::Grid;
 use crate::place::Place;
 
 /// Reads the columns as a grid with one row of names.
-pub(crate) fn grid(file: &str, bytes: &[u8]) -> Result<Grid, ImportError> {
-    let table = read_parquet(bytes.to_vec(), Path::new(file)).map_err(|error| {
+pub(crate) fn grid(bytes: &[u8], decisions: &mut Decisions<'_>) -> Result<Grid, ImportError> {
+    let file = decisions.file();
+    let table = read_foreign_parquet(bytes.to_vec(), Path::new(file)).map_err(|error| {
         let text = error.to_string();
         let (found, expected) = text
             .strip_prefix(file)
@@ -20,6 +22,8 @@ pub(crate) fn grid(file: &str, bytes: &[u8]) -> Result<Grid, ImportError> {
             .unwrap_or((text.as_str(), "Parquet"));
         ImportError::found(Place::file(file), found.trim_start_matches("found "), expected)
     })?;
+    let words: Vec<String> = table.text.iter().map(|column| column.name.clone()).collect();
+    decisions.pass_over(&words);
     let columns: Vec<(String, &[f64])> =
         table.columns.iter().map(|column| (column.name.clone(), &*column.values)).collect();
     Grid::of_columns(file, "parquet", &columns)
