@@ -34,6 +34,7 @@ mod samples;
 mod steps;
 mod stopwatch;
 mod text;
+mod upright;
 
 pub use error::ImportError;
 pub use place::Place;

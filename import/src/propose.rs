@@ -20,7 +20,7 @@ use crate::question::Question;
 use crate::recipe::{ColumnRule, Recipe, Value};
 use crate::rules;
 use crate::samples::{Holds, Samples, samples};
-use crate::text;
+use crate::{text, upright};
 
 /// Lines of a file that show how it begins.
 const SHOWN: usize = 8;
@@ -208,7 +208,7 @@ pub(crate) fn understand(
     let plain = marks::without_parentheses(grid, decimal, decisions);
     let grid = plain.as_ref().unwrap_or(grid);
     let outline = outline(grid, decimal, decisions)?;
-    outline.check_upright(grid)?;
+    upright::check(grid, &outline)?;
     let told = decisions.given("table", "missing").is_some();
     let missing = delimited::missing_words(grid, decisions);
     let headers = header::headers(grid, &outline)?;

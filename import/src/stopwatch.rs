@@ -26,3 +26,9 @@ pub(crate) fn no_time_of_day(cell: &str) -> Option<&'static str> {
         None
     }
 }
+
+/// True where 23:59 or so comes before 0:00 or so: a stopwatch goes on to 24:00.
+pub(crate) fn pass_midnight(cells: &[&String]) -> bool {
+    let minutes = |cell: &String| parts(cell).map(|(minutes, _)| minutes);
+    cells.windows(2).any(|pair| minutes(pair[0]) == Some(23) && minutes(pair[1]) == Some(0))
+}

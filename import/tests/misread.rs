@@ -137,6 +137,7 @@ fn times_with_one_colon_are_asked_about_unless_they_tell() {
         (log("Time [m:ss]", &half), 30.0),
         (log("Time [hh:mm]", &half), 1800.0),
         (log("Uhrzeit", &half), 1800.0),
+        (log("Time", &|row| format!("{}:{:02}", (23 + row / 30) % 24, 2 * (row % 30))), 120.0),
         (log("Time", &|row| format!("59:{row:02}")), 1.0),
         (log("Time", &|row| format!("5:{row:02}.5")), 1.0),
     ] {

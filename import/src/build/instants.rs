@@ -65,22 +65,30 @@ pub(super) fn decide_clock(
     header: &Header,
     decisions: &mut Decisions<'_>,
 ) -> bool {
-    let mut told = cells.iter().filter(|cell| !cell.is_empty()).peekable();
-    let Some(first) = told.peek().copied().filter(|cell| stopwatch::seconds(cell).is_some()) else {
+    let told: Vec<&String> = cells.iter().filter(|cell| !cell.is_empty()).collect();
+    let Some((first, begin)) =
+        told.first().and_then(|cell| Some((cell, stopwatch::seconds(cell)?)))
+    else {
         return false;
     };
     let name = header.name.to_lowercase();
     let clock = header::meaning(&header.bare).is_some_and(|word| word.meaning == "clock");
-    let found = told.find_map(|cell| stopwatch::no_time_of_day(cell)).map(|why| ("minutes", why));
-    let found = found
+    let minutes = told.iter().find_map(|cell| stopwatch::no_time_of_day(cell));
+    let found = minutes
+        .map(|why| ("minutes", why))
+        .or_else(|| stopwatch::pass_midnight(&told).then_some(("hours", "they pass midnight")))
         .or((clock || name.contains("h:m")).then_some(("hours", "the header says so")))
         .or(name.contains("m:s").then_some(("minutes", "the header says so")));
+    // A stopwatch begins at nought.
+    let likely = usize::from(60.0 <= begin);
     if found.is_none() && decisions.given("table", "clock").is_none() {
         let text = format!("{} may be hours and minutes, or minutes and seconds", quoted(first));
-        let ways = [("minutes", "minutes and seconds"), ("hours", "hours and minutes of the day")];
+        let mut ways =
+            [("minutes", "minutes and seconds"), ("hours", "hours and minutes of the day")];
+        ways.rotate_left(likely);
         decisions.ask("table", "clock", &text, &ways);
     }
-    let (word, why) = found.unwrap_or(("minutes", "not sure"));
+    let (word, why) = found.unwrap_or((["minutes", "hours"][likely], "not sure"));
     decisions.text("table", "clock", || (word.to_owned(), why.to_owned())) == "minutes"
 }
 

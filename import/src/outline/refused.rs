@@ -3,45 +3,15 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::{Look, Looks, Outline};
+use super::{Look, Looks};
 use crate::decide::Decisions;
 use crate::error::ImportError;
-use crate::grid::Grid;
-use crate::header;
-use crate::limits;
 use crate::recipe::Value;
 
 /// Rows of numbers that are a table, and no remarks above one.
 const TABLE: usize = 3;
 /// How many times longer the table below may be, for them to matter.
 const LONGER: usize = 10;
-
-impl Outline {
-    /// Refuses a table that lies on its side, with its names in the first column, and too many columns.
-    pub(crate) fn check_upright(&self, grid: &Grid) -> Result<(), ImportError> {
-        let rows: Vec<usize> =
-            self.blocks.iter().flat_map(|block| block.rows.iter().copied()).collect();
-        let lies = rows.len() < self.width;
-        let place = grid.place(rows.first().copied().unwrap_or(0), None);
-        let hint = "it lies on its side: turn it, so that each row is a reading";
-        if limits::COLUMNS < self.width {
-            let found = format!("{} columns in {} rows", self.width, rows.len());
-            let error =
-                ImportError::found(place, found, format!("up to {} columns", limits::COLUMNS));
-            return Err(if lies { error.hinted(hint) } else { error });
-        }
-        let name = |row: &usize| header::meaning(&header::read_name(grid.cell(*row, 0)).bare);
-        if lies
-            && !rows.is_empty()
-            && self.header.is_empty()
-            && rows.iter().all(|row| name(row).is_some())
-        {
-            let found = format!("{} rows that each begin with a name", rows.len());
-            return Err(ImportError::found(place, found, "a row of names").hinted(hint));
-        }
-        Ok(())
-    }
-}
 
 impl Looks<'_> {
     /// Refuses data above the header: a table of other columns, unless a recipe leaves them out.
