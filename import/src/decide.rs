@@ -125,12 +125,12 @@ impl<'a> Decisions<'a> {
         self.questions.push(Question { place: place.clone(), text: text.to_owned(), answers });
     }
 
-    /// Says which columns a format holds that are no numbers, and so are left out.
-    pub(crate) fn pass_over(&mut self, names: &[String]) {
-        let Some(first) = names.first() else { return };
-        let number = names.len();
+    /// Says which columns a format holds that are no numbers, each with what it holds, and so are left out.
+    pub(crate) fn pass_over(&mut self, columns: &[(String, String)]) {
+        let Some((first, _)) = columns.first() else { return };
+        let number = columns.len();
         self.note(format!("{number} columns that hold no numbers are left out, first `{first}`"));
-        self.left_out.extend(names.iter().map(|name| format!("`{name}` holds no numbers")));
+        self.left_out.extend(columns.iter().map(|(name, what)| format!("`{name}` holds {what}")));
     }
 
     pub(crate) fn note(&mut self, note: impl Into<String>) {

@@ -14,7 +14,10 @@ pub(crate) fn check(grid: &Grid, outline: &Outline) -> Result<(), ImportError> {
     let place = grid.place(rows.first().copied().unwrap_or(0), None);
     let hint = "it lies on its side: turn it, so that each row is a reading";
     if limits::COLUMNS < outline.width {
-        let found = format!("{} columns in {} rows", outline.width, rows.len());
+        let found = match rows.len() {
+            1 => format!("one row of {} columns", outline.width),
+            rows => format!("{rows} rows of {} columns", outline.width),
+        };
         let error = ImportError::found(place, found, format!("up to {} columns", limits::COLUMNS));
         return Err(if lies { error.hinted(hint) } else { error });
     }

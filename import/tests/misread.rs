@@ -272,7 +272,7 @@ fn arrays_that_are_no_numbers_are_named() {
     let mode = mode.unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(mode.notes[0], "1 columns that hold no numbers are left out, first `mode`");
     let complex = read("complex.mat", include_bytes!("samples/complex.mat")).expect_err("no error");
-    assert!(complex.to_string().ends_with("hint: `error_um` holds no numbers"), "{complex}");
+    assert!(complex.to_string().ends_with("hint: `error_um` holds complex numbers"), "{complex}");
     let infinity =
         read("infinity.mat", include_bytes!("samples/infinity.mat")).expect_err("no number");
     let start = "infinity.mat: sheet `arrays`, cell B6: found `inf` in column `error_um`";
@@ -287,7 +287,7 @@ fn a_table_on_its_side_is_said_to_be() {
     };
     for (cells, found) in [
         (40, "2 rows that each begin with a name, expected a row of names"),
-        (16_384, "16385 columns in 2 rows, expected up to 4096 columns"),
+        (16_384, "2 rows of 16385 columns, expected up to 4096 columns"),
     ] {
         let text = line("Angle [deg]", cells) + &line("Error [arcsec]", cells);
         let hint = "it lies on its side: turn it, so that each row is a reading";

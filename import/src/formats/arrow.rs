@@ -43,8 +43,8 @@ pub(crate) fn grid(bytes: &[u8], decisions: &mut Decisions<'_>) -> Result<Grid, 
     Grid::of_columns(file, "arrow", &views)
 }
 
-/// Columns of numbers, and names of the others.
-type Columns = (Vec<(String, Vec<f64>)>, Vec<String>);
+/// Columns of numbers, and names of the others with what they hold.
+type Columns = (Vec<(String, Vec<f64>)>, Vec<(String, String)>);
 
 fn columns(bytes: &[u8]) -> Result<Columns, ArrowError> {
     let broken = || ArrowError::IpcError("a part reaches beyond its whole".to_owned());
@@ -69,9 +69,11 @@ fn columns(bytes: &[u8]) -> Result<Columns, ArrowError> {
     }
     let (mut numbers, mut words) = (Vec::new(), Vec::new());
     for (field, column) in schema.fields().iter().zip(columns) {
-        match column {
-            Some(values) => numbers.push((name(field), values)),
-            None => words.push(field.name().clone()),
+        if let Some(values) = column {
+            numbers.push((name(field), values));
+        } else {
+            let what = format!("the type {} of Arrow", field.data_type());
+            words.push((field.name().clone(), what));
         }
     }
     Ok((numbers, words))

@@ -25,6 +25,9 @@ const SETS: usize = 10_000;
 /// Most numbers in one element of a compound set.
 const MEMBERS: usize = 1_000;
 
+/// What a set holds that is passed over.
+const NO_NUMBERS: &str = "no numbers";
+
 /// Where MATLAB keeps what its cells refer to.
 const REFERENCES: &str = "#refs#";
 
@@ -105,8 +108,8 @@ fn all(bytes: &[u8]) -> Result<Walk, Error> {
 struct Walk {
     arrays: Vec<Array>,
     packed: Vec<(String, Packing)>,
-    /// Names of sets of several elements that are no numbers.
-    passed_over: Vec<String>,
+    /// Names of sets of several elements that are no numbers, or of a size that none here has.
+    passed_over: Vec<(String, String)>,
     numbers: usize,
     sets: usize,
 }
@@ -139,7 +142,7 @@ impl Walk {
         let mut members = Vec::new();
         Member { name: name.clone(), offset: 0, kind: set.dtype() }.numbers(&mut members);
         if members.is_empty() && 1 < rows {
-            self.passed_over.push(name);
+            self.passed_over.push((name, NO_NUMBERS.to_owned()));
         }
         let cells = rows.saturating_mul(columns).saturating_mul(members.len());
         self.numbers = self.numbers.saturating_add(cells);
@@ -157,7 +160,7 @@ impl Walk {
             let values: Option<Vec<f64>> =
                 bytes.chunks_exact(element).map(|element| member.value(element)).collect();
             let Some(values) = values.filter(|values| values.len() == rows * columns) else {
-                self.passed_over.push(member.name);
+                self.passed_over.push((member.name, NO_NUMBERS.to_owned()));
                 continue;
             };
             // HDF5 holds row by row; MATLAB writes its columns as rows.

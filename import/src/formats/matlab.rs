@@ -63,7 +63,7 @@ pub(crate) fn grid(bytes: &[u8], decisions: &mut Decisions<'_>) -> Result<Grid, 
 struct Found {
     arrays: Vec<Array>,
     /// Names of arrays of complex numbers and of sparse ones, which are no columns.
-    passed_over: Vec<String>,
+    passed_over: Vec<(String, String)>,
 }
 
 /// The elements behind the header, those that are packed unpacked, until they are too many.
@@ -157,7 +157,8 @@ fn walk(mut parts: Elements<'_>, path: &str, depth: usize, found: &mut Found) ->
             whole.then(|| found.arrays.push(Array { name, rows, values }))
         }
         class if class == SPARSE || NUMBERS.contains(&class) => {
-            found.passed_over.push(name);
+            let what = if class == SPARSE { "sparse numbers" } else { "complex numbers" };
+            found.passed_over.push((name, what.to_owned()));
             None
         }
         _ => None,

@@ -5,7 +5,7 @@ use std::path::Path;
 use helixlock_traces::parquet::read_foreign_parquet;
 
 use crate::decide::Decisions;
-use crate::error::ImportError;
+use crate::error::{ImportError, quoted};
 use crate::grid::Grid;
 use crate::place::Place;
 
@@ -22,8 +22,12 @@ pub(crate) fn grid(bytes: &[u8], decisions: &mut Decisions<'_>) -> Result<Grid, 
             .unwrap_or((text.as_str(), "Parquet"));
         ImportError::found(Place::file(file), found.trim_start_matches("found "), expected)
     })?;
-    let words: Vec<String> = table.text.iter().map(|column| column.name.clone()).collect();
-    decisions.pass_over(&words);
+    let what = |first: &str| match first {
+        "" => "no numbers".to_owned(),
+        first => format!("words, first {}", quoted(first)),
+    };
+    let others = table.text.iter().map(|column| (column.name.clone(), what(&column.first)));
+    decisions.pass_over(&others.collect::<Vec<_>>());
     let columns: Vec<(String, &[f64])> =
         table.columns.iter().map(|column| (column.name.clone(), &*column.values)).collect();
     Grid::of_columns(file, "parquet", &columns)
