@@ -55,7 +55,7 @@ pub struct Proposal {
 ///
 /// [`ImportError`] with the place of what cannot be read.
 pub fn propose(sources: &[Source<'_>], given: &Recipe) -> Result<Proposal, ImportError> {
-    all_are_names(given)?;
+    rules::check_names(given)?;
     let mut recipe = given.clone();
     let (mut parts, mut questions, mut notes) = (Vec::new(), Vec::new(), Vec::new());
     let (mut headers, mut beginning) = (Vec::new(), Vec::new());
@@ -76,23 +76,6 @@ pub fn propose(sources: &[Source<'_>], given: &Recipe) -> Result<Proposal, Impor
     }
     all_are_there(given, &headers)?;
     Ok(Proposal { recipe, questions, notes, beginning, table: build::joined(parts) })
-}
-
-/// Refuses a name for a column that is none of ours and hardly meant as a new one: what a slip of the pen says
-/// would be lost without a word.
-fn all_are_names(given: &Recipe) -> Result<(), ImportError> {
-    for rule in &given.columns {
-        let Some(to) = rule.to.as_deref().filter(|to| rules::is_slip(to, &rule.from)) else {
-            continue;
-        };
-        let found = format!("`to = {}`", toml_edit::Value::from(to));
-        let mut ours: Vec<&str> = data::targets().iter().map(|target| target.column).collect();
-        ours.dedup();
-        let expected = format!("one of `{}`, or a name of your own", ours.join("`, `"));
-        let error = ImportError::found(rule.place.clone(), found, expected);
-        return Err(error.hinted("`to = \"none\"` leaves a column out"));
-    }
-    Ok(())
 }
 
 /// Refuses a rule for a column that no file has: what it says would be lost without a word.

@@ -2,6 +2,7 @@
 
 mod runs;
 mod sign;
+mod slip;
 mod units;
 
 use std::collections::BTreeMap;
@@ -17,6 +18,7 @@ use crate::recipe::ColumnRule;
 use crate::runs::{counts, counts_rows};
 use crate::samples::{Holds, Samples};
 use runs::{run_columns, run_values};
+pub(crate) use slip::check_names;
 use units::units;
 
 /// Our columns that a measurement needs one of.
@@ -429,34 +431,6 @@ fn covariates(candidates: &mut [Candidate<'_>]) {
 
 pub(crate) fn by_column(name: &str) -> Option<Target> {
     data::target(name).filter(|target| target.column == name)
-}
-
-/// True for a name that no column has and nobody would give one: a word for leaving it out, one of ours
-/// without its unit, or one that is misspelt.
-pub(crate) fn is_slip(to: &str, from: &str) -> bool {
-    const WORDS: [&str; 9] =
-        ["", "ignore", "ignored", "skip", "drop", "omit", "exclude", "no", "null"];
-    let known = |column: &str| by_column(column).is_some() || column == NONE;
-    let without_unit = |column: &str| column.rsplit_once('_').is_some_and(|(bare, _)| bare == to);
-    let mut ours = data::targets().iter().map(|target| target.column);
-    let is_own = to == header::plain_name(&header::read_name(from));
-    !known(to)
-        && !is_own
-        && (WORDS.contains(&to.to_lowercase().as_str())
-            || ours.any(|column| without_unit(column) || nearly(to, column)))
-}
-
-/// True where one letter before the unit is another, missing, or too many.
-fn nearly(one: &str, other: &str) -> bool {
-    const SHORTEST: usize = 5;
-    let unit = |name: &str| name.rsplit_once('_').map(|(_, unit)| unit.to_owned());
-    if other.len() < SHORTEST || unit(one) != unit(other) {
-        return false;
-    }
-    let same = one.chars().zip(other.chars()).take_while(|(a, b)| a == b).count();
-    let [one, other]: [Vec<char>; 2] = [one, other].map(|word| word.chars().skip(same).collect());
-    let rest = |word: &[char]| word.get(1..).unwrap_or_default().to_vec();
-    rest(&one) == rest(&other) || rest(&one) == other || one == rest(&other)
 }
 
 /// Asks for what a measurement cannot do without.
