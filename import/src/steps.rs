@@ -33,11 +33,15 @@ pub(crate) fn is_over_the_end(back: f64, usual: f64, whole: f64) -> bool {
     (whole - back - usual).abs() <= AS_LONG * usual
 }
 
-/// Adds a whole at each of the places, and in all rows behind it.
+/// Adds a whole at each of the places, which rise, and in all rows behind it.
 pub(crate) fn unroll(values: &mut [f64], places: &[usize], whole: f64) {
     let whole = way(values) * whole;
-    for place in places {
-        values[*place..].iter_mut().for_each(|value| *value += whole);
+    let (mut added, mut next) = (0.0, places.iter().peekable());
+    for (at, value) in values.iter_mut().enumerate() {
+        if next.next_if(|place| **place == at).is_some() {
+            added += whole;
+        }
+        *value += added;
     }
 }
 

@@ -88,6 +88,19 @@ fn what_begins_anew_goes_on() {
     );
 }
 
+/// There and back over the end of a circle are at the same angles: each run is counted on by itself.
+#[test]
+fn an_angle_is_counted_on_within_its_run() {
+    let text = file("Angle [deg],Error [arcsec],pass", |row| {
+        let turned = if row < 20 { row } else { 39 - row };
+        format!("{},0.{row},{}", (300 + 9 * turned) % 360, 1 + row / 20)
+    });
+    let angle = column(&read(&text), "angle_rev");
+    same(angle[19], (300.0 + 9.0 * 19.0) / 360.0);
+    same(angle[20], angle[19]);
+    same(angle[39], angle[0]);
+}
+
 /// What a clock that goes back was cannot be known; that it does, and where, is told.
 #[test]
 fn a_clock_that_goes_back_is_told() {
