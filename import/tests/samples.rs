@@ -132,6 +132,9 @@ fn a_guide_log_that_ends_within_a_row_is_read_up_to_it() {
     };
     assert!(said(&cut, "ends in the middle") && !said(&whole, "ends in the middle"));
     assert!(said(&whole, "at a declination of 5.2°"));
+    let newer = String::from_utf8(all).expect("the sample is whole");
+    let newer = newer.replace("Dec = 5.2 deg", "RA = 20.34 hr, Dec = 45.9 deg");
+    assert!(said(&read(newer.as_bytes()), "at a declination of 45.9°"));
 }
 
 /// Forty steps forward and 25 back, five samples of a millisecond each.

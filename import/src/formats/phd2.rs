@@ -73,6 +73,13 @@ pub(crate) fn read(lines: &[&str], decisions: &mut Decisions<'_>) -> Result<Buil
     reader.finish(decisions)
 }
 
+/// What follows the declination's name where a session says where it points: at the start of its line, and in
+/// newer logs behind the right ascension.
+fn pointing(line: &str) -> Option<&str> {
+    let behind = || line.strip_prefix("RA = ")?.split_once(", Dec = ").map(|(_, rest)| rest);
+    line.strip_prefix("Dec = ").or_else(behind)
+}
+
 /// What to say of right ascension, which a star shows smaller the nearer it is to the pole.
 fn on_the_sky([least_deg, most_deg]: [f64; 2]) -> Option<String> {
     let range = if least_deg < most_deg {
@@ -152,7 +159,7 @@ impl<'a> Reader<'a> {
             self.names.clear();
         } else if let Some(rest) = line.split("Pixel scale =").nth(1) {
             self.pixel_scale(number, line, rest)?;
-        } else if let Some(rest) = line.strip_prefix("Dec = ") {
+        } else if let Some(rest) = pointing(line) {
             self.declination(rest);
         } else if line.starts_with("INFO: SET LOCK POSITION")
             || line.starts_with("INFO: Server received PAUSE")

@@ -144,6 +144,8 @@ impl fmt::Display for Refusal {
                     rounded(*chance)
                 )
             }
+            // As it would be printed.
+            Self::Victor { name, by } if *by < 0.05 => write!(f, "explains as much as {name}"),
             Self::Victor { name, by } => {
                 write!(f, "explains less than {name}: evidence {by:.1} behind")
             }
