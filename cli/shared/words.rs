@@ -28,7 +28,7 @@ pub(crate) fn with_p(p_value: f64) -> String {
 /// What is left, in words.
 pub(crate) fn left_over(comparison: &Comparison) -> &'static str {
     match (comparison.noise_only, comparison.is_beyond_chance()) {
-        (true, _) => "nothing but noise",
+        (true, _) => "no shape stands out of the noise",
         (false, true) => "more than noise",
         (false, false) => "a curve that cannot be told from noise",
     }

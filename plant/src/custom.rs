@@ -8,6 +8,8 @@ mod powers;
 
 use exmex::{Express, FlatEx};
 
+use crate::nearest::nearest;
+use crate::record::LOGGED_COLUMNS;
 use crate::{Basis, Card, Columns, EffectError, Entry, Instant, Nature, Parameter, Role};
 use bound::{Bound, Remembering, Source};
 use memory::{Call, Kind, placeholder, taken_out};
@@ -52,11 +54,6 @@ const ALWAYS_THERE: &[(&str, Reading)] = &[
     ("pass", |now| f64::from(u32::try_from(now.pass).unwrap_or(u32::MAX))),
     ("error_um", |now| now.error_um),
 ];
-
-/// Names of those.
-pub(crate) fn words() -> impl Iterator<Item = &'static str> {
-    ALWAYS_THERE.iter().map(|(name, _)| *name)
-}
 
 /// Where a variable of the formula gets its value.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -233,9 +230,13 @@ impl Custom {
         let source = |variable: &Variable| match variable {
             Variable::Parameter(index) => Ok(Source::Parameter(*index)),
             Variable::AlwaysThere(index) => Ok(Source::AlwaysThere(*index)),
-            Variable::Column(name) => columns.index(name).map(Source::Column).ok_or_else(|| {
-                EffectError::MissingColumn { effect: self.name.clone(), column: name.clone() }
-            }),
+            Variable::Column(name) => {
+                columns.index(name).map(Source::Column).ok_or_else(|| EffectError::MissingColumn {
+                    effect: self.name.clone(),
+                    column: name.clone(),
+                    near: near(name),
+                })
+            }
             Variable::Remembered(index) => Ok(Source::Remembered(*index)),
         };
         let value = |argument: &Argument| match argument {
@@ -312,6 +313,13 @@ impl Custom {
             .collect();
         self.expression.eval(&values).unwrap_or(f64::NAN)
     }
+}
+
+/// What formulas can read that is called nearly as a column is that nothing holds.
+pub(crate) fn near(column: &str) -> Option<&'static str> {
+    let known = LOGGED_COLUMNS.iter().map(|known| known.name);
+    let known = ALWAYS_THERE.iter().map(|(name, _)| *name).chain(known);
+    nearest(column, known).filter(|near| *near != column)
 }
 
 fn read_memory(call: &Call, parameters: &[String]) -> Result<Memory, String> {

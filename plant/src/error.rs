@@ -4,8 +4,6 @@ use std::path::{Path, PathBuf};
 
 use helixlock_traces::{At, TraceError};
 
-use crate::nearest::nearest;
-use crate::record::LOGGED_COLUMNS;
 use crate::units::LARGEST_UM;
 
 /// The place of byte `offset` of `text`.
@@ -193,26 +191,19 @@ fn lines(errors: &[MachineError]) -> String {
     errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
 
-/// What a misspelt column may have been meant to be.
-fn meant(column: &str) -> String {
-    let known = crate::custom::words().chain(LOGGED_COLUMNS.iter().map(|known| known.name));
-    match nearest(column, known).filter(|near| *near != column) {
-        Some(near) => format!("; is `{near}` meant?"),
-        None => String::new(),
-    }
-}
-
 /// Why an effect cannot be worked out.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum EffectError {
     /// It is driven by a column that is not there.
-    #[error("effect `{effect}` needs the column `{column}`, which is not there{}", meant(column))]
+    #[error("effect `{effect}` needs the column `{column}`, which is not there{}", meant(*near))]
     MissingColumn {
         /// The effect.
         effect: String,
         /// The column.
         column: String,
+        /// One that is called nearly so.
+        near: Option<&'static str>,
     },
     /// It is driven by a part of the machine that the file does not describe.
     #[error("effect `{effect}` needs {part}")]
@@ -269,4 +260,9 @@ pub enum EffectError {
 /// When and where, for a message.
 pub(crate) fn moment(time_s: f64, position_mm: f64) -> String {
     format!("at {time_s:.6} s, {position_mm:.6} mm")
+}
+
+/// What a misspelt column may have been meant to be.
+fn meant(near: Option<&'static str>) -> String {
+    near.map_or_else(String::new, |near| format!("; is `{near}` meant?"))
 }

@@ -128,7 +128,7 @@ impl Motion {
                     effects.push((term.entry, effect));
                     names.push(format!("effect {} `{}`", index + 1, term.name));
                 }
-                Err(EffectError::MissingColumn { effect, column }) => {
+                Err(EffectError::MissingColumn { effect, column, .. }) => {
                     left_out.push(LeftOut { effect, column });
                 }
                 Err(error) => return Err(error),

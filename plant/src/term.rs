@@ -3,7 +3,7 @@
 //! A fit works on *coefficients*, which δ is linear in; a person reads *parameters*. An amplitude
 //! `a` with its phase `φ` has the coefficients `a·cos φ` of the sine and `a·sin φ` of the cosine.
 
-use crate::custom::Custom;
+use crate::custom::{self, Custom};
 use crate::error::moment;
 use crate::measured_curve::MeasuredCurve;
 use crate::units::in_reach;
@@ -185,6 +185,7 @@ impl Term {
             return Err(EffectError::MissingColumn {
                 effect: self.name.clone(),
                 column: column.into(),
+                near: custom::near(column),
             });
         }
         let nonlinear = self.nonlinear();

@@ -83,7 +83,7 @@ pub struct Comparison {
     pub lines: Vec<NamedLine>,
     /// Chance that the residual is noise alone: that of its clearest structure.
     pub noise_p_value: f64,
-    /// True when nothing but noise is left.
+    /// True when no shape stands out of noise; a named effect, which is one of fewer looks, yet may.
     pub noise_only: bool,
     /// The residual, row by row.
     pub residual: Vec<f64>,

@@ -18,7 +18,7 @@ use crate::model::{
 use crate::noise::rms;
 use crate::numerics::least_squares::covariance_rows;
 use crate::policy::chance::{AT_AN_END, STANDARD_ERRORS};
-use crate::policy::extent::{COMPARED_ROWS, SEARCHED_ROWS};
+use crate::policy::extent::{COARSER, COMPARED_ROWS, FEWEST_COARSE, SEARCHED_ROWS};
 use crate::search::{
     Dropped, Refusal, Rivals, Step, hear, nobodys, not_told, pruned, rivals, suspected,
 };
@@ -150,11 +150,37 @@ pub struct Diagnosis {
 /// Mistakes of input come first: with one of them nothing is searched for.
 /// The search works on at most a few thousand rows, means of neighbours where there are more; effects
 /// and what they leave are fitted to all rows, and what was tried beside them is told with the
-/// scatter that means hide.
+/// scatter that means hide. Where structure is left the search is made once more on far fewer: waves that are
+/// short against a turn make noise so loud from row to row that it draws any long one.
 #[must_use]
 pub fn diagnose(problem: &Problem) -> Diagnosis {
     let (doubts, suspects) = doubts_and_suspects(problem);
-    if doubts.is_empty() { searched(problem, &suspects) } else { doubtful(problem, doubts) }
+    if !doubts.is_empty() {
+        return doubtful(problem, doubts);
+    }
+    let fine = searched(problem, &suspects, SEARCHED_ROWS);
+    let rows = problem.samples.len().min(SEARCHED_ROWS) / COARSER;
+    if fine.verdict != Verdict::Unexplained || rows < FEWEST_COARSE {
+        return fine;
+    }
+    let coarse = searched(problem, &suspects, rows);
+    if coarse.adds_to(&fine) { coarse } else { fine }
+}
+
+impl Diagnosis {
+    /// True when it has all names that another one has, each as often, and more.
+    fn adds_to(&self, known: &Self) -> bool {
+        let names = |one: &Self| -> Vec<String> {
+            let last = one.rounds.last().map_or(&[][..], |last| &last.effects);
+            last.iter().map(|effect| effect.name.clone()).collect()
+        };
+        let mut more = names(self);
+        let is_there = |name: &String| {
+            let place = more.iter().position(|other| other == name);
+            place.map(|place| more.swap_remove(place)).is_some()
+        };
+        names(known).iter().all(is_there) && !more.is_empty()
+    }
 }
 
 /// The diagnosis of mistaken input: the model as it is, and nothing added.
@@ -175,12 +201,14 @@ fn doubtful(problem: &Problem, doubts: Vec<Doubt>) -> Diagnosis {
     }
 }
 
-fn searched(problem: &Problem, suspects: &[Suspect]) -> Diagnosis {
-    let Searched { small, problem, mut steps, mut states, of_targets, fine } =
-        search_on_all_rows(problem);
+/// The answer of a search on so many rows.
+fn searched(problem: &Problem, suspects: &[Suspect], rows: usize) -> Diagnosis {
+    let Searched { small, problem, mut steps, mut states, of_targets } =
+        search_on_all_rows(problem, rows);
     let last = &steps[steps.len() - 1].state;
     let mut found = rivals(&small, last, &steps[0].tried);
     let mut residual = structures(&small, &last.columns, &last.fit);
+    let of_small = residual.len();
     let heard = hear(&small, last, &found);
     let suspected = suspected(&small, last, &found, suspects);
     if let Some(doubt) = suspected.doubt {
@@ -208,8 +236,8 @@ fn searched(problem: &Problem, suspects: &[Suspect]) -> Diagnosis {
     if residual.is_empty() {
         residual.extend(thinned_away(&problem, &small, last));
     }
-    if let Some(fine) = fine.as_ref().and_then(|fine| left_on(fine, &steps)) {
-        residual = fine;
+    if rows < SEARCHED_ROWS {
+        residual.splice(..of_small, left_on_more_rows(&problem, last));
     }
     no_larger_than(noise_um, &mut residual);
     residual.extend(of_targets);
@@ -229,10 +257,11 @@ fn searched(problem: &Problem, suspects: &[Suspect]) -> Diagnosis {
     }
 }
 
-/// What a model leaves of other rows, if it leaves any structure.
-fn left_on(problem: &Problem, steps: &[Step]) -> Option<Vec<Structure>> {
-    let state = steps[steps.len() - 1].state.on(problem)?;
-    Some(structures(problem, &state.columns, &state.fit)).filter(|left| !left.is_empty())
+/// What a model that was found on few rows leaves of as many as are searched.
+fn left_on_more_rows(problem: &Problem, last: &State) -> Vec<Structure> {
+    let thinned = problem.thinned(SEARCHED_ROWS);
+    let more = thinned.as_ref().unwrap_or(problem);
+    last.on(more).map_or_else(Vec::new, |state| structures(more, &state.columns, &state.fit))
 }
 
 /// Waves that a comparison finds in so many more rows than were searched.

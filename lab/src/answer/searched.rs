@@ -1,13 +1,9 @@
 //! A search on few rows, and what it has found on all.
-//!
-//! Where it leaves structure it is made once more on fewer rows: waves that are short against a turn make
-//! noise so loud from row to row that it draws any long one.
 
 use rayon::prelude::*;
 
-use crate::hypotheses::{Structure, at_targets, is_left, structures};
-use crate::model::{Component, Problem, State};
-use crate::policy::extent::{COARSER, FEWEST_COARSE, SEARCHED_ROWS};
+use crate::hypotheses::{Structure, at_targets, is_left};
+use crate::model::{Problem, State};
 use crate::search::{
     Dropped, Step, own_errors, polished, pruned_in_doubt, search, take_for_a_shape,
 };
@@ -20,39 +16,10 @@ pub(super) struct Searched {
     pub(super) states: Vec<State>,
     /// What targets show at every visit and no effect explains.
     pub(super) of_targets: Option<Structure>,
-    /// Where the search had to be on fewer rows, those that show all that is left.
-    pub(super) fine: Option<Problem>,
 }
 
-/// The search that finds more.
-pub(super) fn search_on_all_rows(problem: &Problem) -> Searched {
-    let fine = search_on(problem, SEARCHED_ROWS);
-    let rows = fine.small.samples.len() / COARSER;
-    if rows < FEWEST_COARSE || !leaves_structure(&fine) {
-        return fine;
-    }
-    let coarse = search_on(problem, rows);
-    if adds_to(&coarse, &fine) { Searched { fine: Some(fine.small), ..coarse } } else { fine }
-}
-
-fn leaves_structure(searched: &Searched) -> bool {
-    let last = &searched.steps[searched.steps.len() - 1].state;
-    !structures(&searched.small, &last.columns, &last.fit).is_empty()
-}
-
-/// True when a search has found all names that another one has, each as often, and more.
-fn adds_to(more: &Searched, known: &Searched) -> bool {
-    let last = |searched: &Searched| searched.states[searched.states.len() - 1].clone();
-    let mut beside = last(more).components;
-    let known = last(known).components;
-    let is_there = |one: &Component| {
-        let place = beside.iter().position(|other| other.term.name == one.term.name);
-        place.map(|place| beside.swap_remove(place)).is_some()
-    };
-    known.iter().all(is_there) && !beside.is_empty()
-}
-
-fn search_on(problem: &Problem, rows: usize) -> Searched {
+/// The search on so many rows, means of neighbours where there are more.
+pub(super) fn search_on_all_rows(problem: &Problem, rows: usize) -> Searched {
     let mut small = problem.thinned(rows).unwrap_or_else(|| problem.clone());
     let mut steps = search(&mut small);
     let of_targets =
@@ -72,7 +39,7 @@ fn search_on(problem: &Problem, rows: usize) -> Searched {
         steps.push(step);
         states.push(state);
     }
-    Searched { small, problem, steps, states, of_targets, fine: None }
+    Searched { small, problem, steps, states, of_targets }
 }
 
 /// What targets show at every visit and no effect explains; of means, none.

@@ -54,8 +54,10 @@ pub(super) fn shifts(problem: &Problem) -> Vec<Hypothesis> {
 /// The best shift of a zero under either noise; both pay for as many looks.
 fn hypotheses(stages: &[Stage<'_>], zero: Zero) -> Vec<Hypothesis> {
     let problem = stages[0].problem;
-    let Some(grid) = grid(problem, zero) else { return Vec::new() };
-    let found: Vec<Found> = stages.iter().filter_map(|stage| best(stage, zero, grid)).collect();
+    let Ok(before) = problem.predicted_of(&problem.measurement) else { return Vec::new() };
+    let moved = |turns: f64| moved(problem, zero, turns, &before);
+    let Some(grid) = grid(problem, &moved) else { return Vec::new() };
+    let found: Vec<Found> = stages.iter().filter_map(|stage| best(stage, &moved, grid)).collect();
     let looks = found.iter().map(|one| one.looks).fold(1.0, f64::max);
     let hypothesis = |one: &Found| {
         let shifted = zero.shifted(problem, one.turns);
@@ -72,8 +74,12 @@ struct Found {
     looks: f64,
 }
 
-fn best(stage: &Stage<'_>, zero: Zero, (step, most): (f64, i32)) -> Option<Found> {
-    let evidence = |turns: f64| evidence(stage, zero, turns).unwrap_or(f64::NEG_INFINITY);
+/// By how much a shift by so many turns moves what is predicted; `None` where an effect cannot be worked out.
+type Moved<'a> = dyn Fn(f64) -> Option<Vec<f64>> + Sync + 'a;
+
+fn best(stage: &Stage<'_>, moved: &Moved<'_>, (step, most): (f64, i32)) -> Option<Found> {
+    let evidence =
+        |turns: f64| moved(turns).map_or(f64::NEG_INFINITY, |moved| evidence(stage, moved));
     let places: Vec<f64> = (-most..=most).map(f64::from).collect();
     let said: Vec<f64> = places.par_iter().map(|place| evidence(place * step)).collect();
     let highest = said.iter().copied().fold(0.0, f64::max);
@@ -98,8 +104,8 @@ fn best(stage: &Stage<'_>, zero: Zero, (step, most): (f64, i32)) -> Option<Found
 /// nothing that is predicted depends on the zero.
 ///
 /// A rotary chain has one turn, and gears of any speed in it.
-fn grid(problem: &Problem, zero: Zero) -> Option<(f64, i32)> {
-    let change = |turns: f64| Some(rms(&problem.layout, &moved(problem, zero, turns)?));
+fn grid(problem: &Problem, moved: &Moved<'_>) -> Option<(f64, i32)> {
+    let change = |turns: f64| Some(rms(&problem.layout, &moved(turns)?));
     let step = 1.0 / f64::from(PLACES_A_TURN);
     if !problem.measurement.rotary {
         // Half a place off a turn: what repeats every turn would not show that it moves.
@@ -182,18 +188,15 @@ fn both_ends_mm(measurement: &Measurement) -> f64 {
     places().fold(f64::INFINITY, f64::min) + places().fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// By how much a shift by so many turns moves what is predicted; `None` where an effect cannot be worked out.
-fn moved(problem: &Problem, zero: Zero, turns: f64) -> Option<Vec<f64>> {
-    let said = |measurement: &Measurement| problem.predicted_of(measurement).ok();
-    let (after, before) = (said(&zero.shifted(problem, turns))?, said(&problem.measurement)?);
-    Some(after.iter().zip(&before).map(|(after, before)| after - before).collect())
+fn moved(problem: &Problem, zero: Zero, turns: f64, before: &[f64]) -> Option<Vec<f64>> {
+    let after = problem.predicted_of(&zero.shifted(problem, turns)).ok()?;
+    Some(after.iter().zip(before).map(|(after, before)| after - before).collect())
 }
 
-/// What a shift explains under noise of the stage's slowness and of whatever size it leaves.
-fn evidence(stage: &Stage<'_>, zero: Zero, turns: f64) -> Option<f64> {
-    let moved = moved(stage.problem, zero, turns)?;
+/// What a change explains under noise of the stage's slowness and of whatever size it leaves.
+fn evidence(stage: &Stage<'_>, moved: Vec<f64>) -> f64 {
     let Gain { gain, fit } =
         stage.gain(&Columns { fixed: Some(moved.into()), ..Columns::default() });
     let left = fit.residual_square.max(f64::MIN_POSITIVE);
-    Some(count(stage.problem.samples.len()) * libm::log((gain + left) / left))
+    count(stage.problem.samples.len()) * libm::log((gain + left) / left)
 }
