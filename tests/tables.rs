@@ -71,3 +71,28 @@ proptest! {
         prop_assert_eq!(again.at(table.rows() - 1).line, Some(2 + 3 * table.rows()));
     }
 }
+
+/// What a doubt says to write into a recipe can be written there.
+#[test]
+fn recipes_know_every_unit_of_a_header() {
+    for column in helixlock_plant::LOGGED_COLUMNS {
+        let rows = (0..40).map(|row| format!("{row},0.{row},{}.5", 20 + row % 3));
+        let rows: Vec<String> = rows.collect();
+        let error = if column.name == "error_um" { "lead_error_um" } else { "error_um" };
+        let place = if column.name == "position_mm" { "angle_rev" } else { "position_mm" };
+        let text = format!("{place},{error},{}\n{}\n", column.name, rows.join("\n"));
+        for (unit, ..) in column.units {
+            let name = column.name;
+            let given =
+                format!("[[column]]\nfrom = \"{name}\"\nto = \"{name}\"\nunit = \"{unit}\"\n");
+            let given = helixlock_import::Recipe::parse(&given, "recipe").expect("a recipe");
+            let source = helixlock_import::Source { name: "data.csv", bytes: text.as_bytes() };
+            let read = helixlock_import::propose(&[source], &given);
+            assert!(
+                read.is_ok(),
+                "{name} in {unit}: {}",
+                read.err().map_or_else(String::new, |e| e.to_string())
+            );
+        }
+    }
+}

@@ -55,9 +55,7 @@ impl Understood<'_> {
             }
             let values = match to {
                 "pass" => self.passes(index)?,
-                "direction" => {
-                    self.named(index, direction_of, "a direction: 1, -1, or a word for it")?
-                }
+                "direction" => self.ways(index, rule)?,
                 _ if self.samples[index].holds == Holds::Instants => {
                     let (values, origin) = self.instants(index, rule, decisions)?;
                     origin_s = origin;
@@ -71,6 +69,18 @@ impl Understood<'_> {
         let mut columns = self.with_runs(columns, decisions)?;
         self.within_runs(&mut columns, decisions);
         Ok(Built { columns: in_order(columns), origin_s })
+    }
+
+    /// Directions, which a recipe may turn.
+    fn ways(&self, index: usize, rule: &ColumnRule) -> Result<Vec<f64>, ImportError> {
+        let expected = "a direction: 1, -1, or a word for it";
+        let mut ways = self.named(index, direction_of, expected)?;
+        if rule.sign == Some(-1) {
+            for way in &mut ways {
+                *way = 0.0 - *way;
+            }
+        }
+        Ok(ways)
     }
 
     /// Numbers of the runs; a counter of rows says nothing of runs.

@@ -5,7 +5,7 @@ use helixlock_plant::{
 };
 
 use super::doubt::{of_pass_read, recipe};
-use super::hypothesis::Hypothesis;
+use super::hypothesis::{Hypothesis, Words};
 use super::law::follows_from_clock;
 use super::worst_pass::worst_pass;
 use crate::measurement::Measurement;
@@ -63,7 +63,8 @@ pub(super) fn signs(problem: &Problem) -> Vec<Hypothesis> {
     let of = |column: &&LoggedColumn| {
         is_place(column) || column.setting.as_ref().is_some_and(Setting::has_either_sign)
     };
-    let turned = logged.filter(of).filter_map(|column| {
+    let odd = worst_pass(problem);
+    let turned = logged.filter(of).flat_map(|column| {
         let says = format!("`{}` has the opposite sign", column.name);
         let measurement = &problem.measurement;
         let mended = match column.name {
@@ -71,9 +72,28 @@ pub(super) fn signs(problem: &Problem) -> Vec<Hypothesis> {
             name => converted(problem, name, |value| -value),
         };
         let mend = recipe(column.name, "sign = -1");
-        Hypothesis::of_measurement(problem, &mended, ("sign", says, mend))
+        let of_pass = odd.and_then(|pass| {
+            let name = measurement.pass_names[pass];
+            let says = format!("`{}` of pass {name} has the opposite sign", column.name);
+            let mend = of_pass_read(column.name, name, "sign = -1");
+            of_a_pass(problem, mended.clone(), pass, ("sign", says, mend))
+        });
+        let of_all = Hypothesis::of_measurement(problem, &mended, ("sign", says, mend));
+        of_all.into_iter().chain(of_pass)
     });
     turned.collect()
+}
+
+/// A mistake in one pass of a measurement that is mended in all.
+fn of_a_pass(
+    problem: &Problem,
+    mended: Measurement,
+    pass: usize,
+    words: Words,
+) -> Option<Hypothesis> {
+    let mixed = problem.measurement.with_pass_of(mended, pass);
+    let one = Hypothesis::of_measurement(problem, &mixed, words)?;
+    Some(Hypothesis { pass: Some(pass), ..one })
 }
 
 /// Units with another factor or zero than that of the column, each once.
@@ -129,12 +149,10 @@ fn in_a_pass(
         return None;
     }
     let all = converted(problem, column.name, |value| unit.factor * value + unit.zero);
-    let mended = problem.measurement.with_pass_of(all, pass);
     let name = problem.measurement.pass_names[pass];
     let says = format!("`{}` of pass {name} {}", column.name, unit.says);
     let mend = of_pass_read(column.name, name, &unit.how());
-    let one = Hypothesis::of_measurement(problem, &mended, ("unit", says, mend))?;
-    Some(Hypothesis { pass: Some(pass), ..one })
+    of_a_pass(problem, all, pass, ("unit", says, mend))
 }
 
 impl Other {

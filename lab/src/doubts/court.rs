@@ -8,7 +8,7 @@ use super::common::{curves, slopes};
 use super::doubt::Suspect;
 use super::hypothesis::{Hypothesis, with_effects};
 use super::view::{View, rough_noises};
-use super::worst_pass::rows_of;
+use super::worst_pass::{rows_of, worst_pass};
 use crate::hypotheses::{candidate, try_candidate};
 use crate::model::{Columns, Component, Fit, Problem, Stage, noises_of, settle, with_noise};
 use crate::numerics::count;
@@ -101,6 +101,10 @@ impl<'a> Court<'a> {
     fn told(&self, [rough, plain]: [&View; 2], one: &Hypothesis) -> bool {
         if DOUBT < one.usual {
             return true;
+        }
+        // A mistake in one pass is all that is wrong with it.
+        if one.pass.is_some() && worst_pass(&one.mended) == one.pass {
+            return false;
         }
         let (before, after) = (rough.left(self.problem), rough.left(&one.mended));
         let flatter = plain.left(&one.mended) < SMALLER * plain.left(self.problem);

@@ -62,7 +62,7 @@ fn hypotheses(stages: &[Stage<'_>], zero: Zero) -> Vec<Hypothesis> {
     let hypothesis = |one: &Found| {
         let shifted = zero.shifted(problem, one.turns);
         let one = Hypothesis::of_measurement(problem, &shifted, zero.words(problem, one.turns))?;
-        Some(Hypothesis { numbers: 1.0, looks, usual: 0.0, ..one })
+        Some(Hypothesis { numbers: 1.0, looks, usual: 0.0, pass: zero.pass(), ..one })
     };
     found.iter().filter_map(hypothesis).collect()
 }
@@ -137,6 +137,11 @@ fn nearest_of_the_best(mut refined: Vec<(f64, f64)>) -> Option<f64> {
 }
 
 impl Zero {
+    /// The pass that it is of, where it is of one.
+    fn pass(self) -> Option<usize> {
+        if let Self::Pass(pass) = self { Some(pass) } else { None }
+    }
+
     fn shifted(self, problem: &Problem, turns: f64) -> Measurement {
         let measurement = &problem.measurement;
         let lead_mm = problem.model.workpiece.lead.mm();

@@ -58,3 +58,43 @@ fn degrees_of_fahrenheit_in_one_pass_are_told() {
     let mend = "read `air_temperature_c` of pass 2 with unit = \"degf\"".to_owned();
     assert_eq!(doubted(&known, &hot), Some(("unit", mend)));
 }
+
+/// A bed that leans, whose pitch the log of one pass has with the other sign.
+#[test]
+fn the_sign_of_a_log_in_one_pass_is_told() {
+    let known = machine(150, "[[effect]]\nkind = 'abbe'\noffset = '60 mm'\n");
+    let pitch = (0..600).map(|row| 3.0 * libm::sin(0.02 * crate::numerics::count(row)));
+    let mut leaning = measured(&machine(150, ""));
+    leaning.columns.push(Column { name: "bed_pitch_arcsec".to_owned(), values: pitch.collect() });
+    let clean = problem(&known, &leaning).predicted;
+    let mut row = 0;
+    let leaning = changed(leaning, "error_um", |value| {
+        row += 1;
+        value + clean[row - 1]
+    });
+    let twice = changed(twice(leaning), "error_um", {
+        let mut chance = ChaCha8Rng::seed_from_u64(8);
+        move |value| -> f64 {
+            let fresh: f64 = StandardNormal.sample(&mut chance);
+            value + 0.01 * fresh
+        }
+    });
+    assert_eq!(doubted(&known, &twice), None);
+    let turned = second(twice, "bed_pitch_arcsec", |value| -value);
+    let mend = "read `bed_pitch_arcsec` of pass 2 with sign = -1".to_owned();
+    assert_eq!(doubted(&known, &turned), Some(("sign", mend)));
+}
+
+/// One of two effects twice as large in one pass: no factor of the pass leaves it as sound as the other.
+#[test]
+fn an_effect_that_grew_in_one_pass_is_no_mistake_of_it() {
+    let (wave, _) = WAVES.split_at(WAVES.rfind("[[effect]]").expect("two effects"));
+    let known = machine(150, WAVES);
+    let more = problem(&machine(150, wave), &table(&[0.0; 600])).predicted;
+    let mut row = 0;
+    let grown = changed(two_passes(&known), "error_um", |value| {
+        row += 1;
+        if row <= 600 { value } else { value + more[row - 601] }
+    });
+    assert_eq!(doubted(&known, &grown), None);
+}
