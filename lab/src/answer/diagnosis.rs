@@ -168,18 +168,21 @@ pub fn diagnose(problem: &Problem) -> Diagnosis {
 }
 
 impl Diagnosis {
-    /// True when it has all names that another one has, each as often, and more.
+    /// True when it has all names that another one has, each as often, and waves beside them: of a curve at one
+    /// place, few rows do not tell what is left beside it.
     fn adds_to(&self, known: &Self) -> bool {
-        let names = |one: &Self| -> Vec<String> {
-            let last = one.rounds.last().map_or(&[][..], |last| &last.effects);
-            last.iter().map(|effect| effect.name.clone()).collect()
+        let last = |one: &Self| -> Vec<FittedEffect> {
+            one.rounds.last().map_or_else(Vec::new, |last| last.effects.clone())
         };
-        let mut more = names(self);
-        let is_there = |name: &String| {
-            let place = more.iter().position(|other| other == name);
+        let mut more = last(self);
+        let is_there = |effect: &FittedEffect| {
+            let place = more.iter().position(|other| other.name == effect.name);
             place.map(|place| more.swap_remove(place)).is_some()
         };
-        names(known).iter().all(is_there) && !more.is_empty()
+        let is_wave = |effect: &FittedEffect| {
+            effect.term.parameters.iter().any(|what| what.role == Role::Phase)
+        };
+        last(known).iter().all(is_there) && !more.is_empty() && more.iter().all(is_wave)
     }
 }
 
