@@ -78,13 +78,14 @@ fn contradicting(problem: &Problem) -> Vec<Doubt> {
 }
 
 fn hypotheses(problem: &Problem) -> Vec<Hypothesis> {
-    let mut all = column::units(problem);
-    all.extend(column::signs(problem));
+    let odd = worst_pass::worst_pass(problem);
+    let mut all = column::units(problem, odd);
+    all.extend(column::signs(problem, odd));
     all.extend(swap::swaps(problem));
-    all.extend(shift::shifts(problem));
+    all.extend(shift::shifts(problem, odd));
     all.extend(dividers::other_dividers(problem));
     if !follows_steps(problem) {
-        all.extend(factor::factors(problem));
+        all.extend(factor::factors(problem, odd));
         all.extend(hypothesis::another_machine(problem));
     }
     all

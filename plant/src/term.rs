@@ -151,6 +151,12 @@ impl Term {
         }
     }
 
+    /// True for a wave, which has a phase.
+    #[must_use]
+    pub fn is_wave(&self) -> bool {
+        self.parameters.iter().any(|what| what.role == Role::Phase)
+    }
+
     /// Values of the nonlinear parameters, in their order.
     #[must_use]
     pub fn nonlinear(&self) -> Vec<f64> {

@@ -179,10 +179,8 @@ impl Diagnosis {
             let place = more.iter().position(|other| other.name == effect.name);
             place.map(|place| more.swap_remove(place)).is_some()
         };
-        let is_wave = |effect: &FittedEffect| {
-            effect.term.parameters.iter().any(|what| what.role == Role::Phase)
-        };
-        last(known).iter().all(is_there) && !more.is_empty() && more.iter().all(is_wave)
+        let known = last(known);
+        known.iter().all(is_there) && !more.is_empty() && more.iter().all(|one| one.term.is_wave())
     }
 }
 

@@ -7,7 +7,6 @@ use helixlock_plant::{
 use super::doubt::{of_pass_read, recipe};
 use super::hypothesis::{Hypothesis, Words};
 use super::law::follows_from_clock;
-use super::worst_pass::worst_pass;
 use crate::measurement::Measurement;
 use crate::model::Problem;
 
@@ -29,41 +28,46 @@ struct Other {
     zero: f64,
 }
 
-/// Every unit that a column of the data may have been written in, all of it or one pass.
-pub(super) fn units(problem: &Problem) -> Vec<Hypothesis> {
-    let logged = LOGGED_COLUMNS.iter().filter(|column| is_there(problem, column));
-    let odd = worst_pass(problem);
-    let of = |column: &'static LoggedColumn| {
-        let written = column.units.first().map_or("", |unit| unit.0);
-        let known = others(column).into_iter().map(move |(word, factor, zero)| {
-            let says = format!("is in {word}, not in {written}");
-            Other { says, unit: (*word).to_owned(), factor: *factor, zero: *zero }
-        });
-        let steps = STEPS.iter().filter(|_| is_place(column)).map(move |step| {
-            let unit = format!("{step} {written}");
-            let or = format!("or the leads and gears of the file are {step} times the true ones");
-            let says = format!("is written in units of {unit}, {or}");
-            Other { says, unit, factor: *step, zero: 0.0 }
-        });
-        let of_pass = odd.into_iter().flat_map({
-            let known = known.clone();
-            move |pass| {
-                known.clone().filter_map(move |unit| in_a_pass(problem, column, &unit, pass))
-            }
-        });
-        let of_all = known.chain(steps).flat_map(move |unit| hypotheses(problem, column, &unit));
-        of_all.chain(of_pass)
-    };
-    logged.flat_map(of).collect()
+/// Every unit that a column of the data may have been written in, all of it or the odd pass.
+pub(super) fn units(problem: &Problem, odd: Option<usize>) -> Vec<Hypothesis> {
+    let mut all = Vec::new();
+    for column in LOGGED_COLUMNS.iter().filter(|column| is_there(problem, column)) {
+        let known = known_units(column);
+        for unit in known.iter().chain(&steps(column)) {
+            all.extend(hypotheses(problem, column, unit));
+        }
+        // A clock that runs on has no unit of a pass.
+        for pass in odd.into_iter().filter(|_| column.name != TIME) {
+            all.extend(known.iter().filter_map(|unit| in_a_pass(problem, column, unit, pass)));
+        }
+    }
+    all
 }
 
-/// Columns whose sign is a convention and may be the other one.
-pub(super) fn signs(problem: &Problem) -> Vec<Hypothesis> {
+fn known_units(column: &'static LoggedColumn) -> Vec<Other> {
+    let unit = |(word, factor, zero): &HeaderUnit| {
+        let says = format!("is in {word}, not in {}", column.units[0].0);
+        Other { says, unit: (*word).to_owned(), factor: *factor, zero: *zero }
+    };
+    others(column).into_iter().map(unit).collect()
+}
+
+fn steps(column: &LoggedColumn) -> Vec<Other> {
+    let step = |step: &f64| {
+        let unit = format!("{step} {}", column.units[0].0);
+        let or = format!("or the leads and gears of the file are {step} times the true ones");
+        let says = format!("is written in units of {unit}, {or}");
+        Other { says, unit, factor: *step, zero: 0.0 }
+    };
+    STEPS.iter().filter(|_| is_place(column)).map(step).collect()
+}
+
+/// Columns whose sign is a convention and may be the other one, in all or in the odd pass.
+pub(super) fn signs(problem: &Problem, odd: Option<usize>) -> Vec<Hypothesis> {
     let logged = LOGGED_COLUMNS.iter().filter(|column| is_there(problem, column));
     let of = |column: &&LoggedColumn| {
         is_place(column) || column.setting.as_ref().is_some_and(Setting::has_either_sign)
     };
-    let odd = worst_pass(problem);
     let turned = logged.filter(of).flat_map(|column| {
         let says = format!("`{}` has the opposite sign", column.name);
         let measurement = &problem.measurement;
@@ -138,16 +142,13 @@ fn hypotheses(problem: &Problem, column: &'static LoggedColumn, unit: &Other) ->
     .collect()
 }
 
-/// The mistake in one pass of a column. A clock that runs on has no unit of a pass.
+/// The mistake in one pass of a column.
 fn in_a_pass(
     problem: &Problem,
     column: &'static LoggedColumn,
     unit: &Other,
     pass: usize,
 ) -> Option<Hypothesis> {
-    if column.name == TIME {
-        return None;
-    }
     let all = converted(problem, column.name, |value| unit.factor * value + unit.zero);
     let name = problem.measurement.pass_names[pass];
     let says = format!("`{}` of pass {name} {}", column.name, unit.says);

@@ -12,7 +12,6 @@ use super::doubt::{of_pass_read, recipe};
 use super::hypothesis::Hypothesis;
 use super::law::size_of_error;
 use super::view::View;
-use super::worst_pass::worst_pass;
 use crate::measurement::sensor_column;
 use crate::model::Problem;
 use crate::noise::Noise;
@@ -20,12 +19,11 @@ use crate::numerics::count;
 use crate::policy::mistakes::MACHINE_OF_EFFECTS;
 use crate::policy::size::WORTHWHILE_UM;
 
-/// Every sign and unit that a sensor's column may have been written with, all of it or one pass.
-pub(super) fn factors(problem: &Problem) -> Vec<Hypothesis> {
+/// Every sign and unit that a sensor's column may have been written with, all of it or the odd pass.
+pub(super) fn factors(problem: &Problem, odd: Option<usize>) -> Vec<Hypothesis> {
     if !predicts_a_shape(problem) {
         return Vec::new();
     }
-    let odd = worst_pass(problem);
     let mut all = Vec::new();
     for (index, &sensor) in problem.sensors.iter().enumerate() {
         let column = sensor_column(sensor, problem.measurement.rotary);

@@ -7,7 +7,6 @@ use rayon::prelude::*;
 use super::hypothesis::{Hypothesis, Words};
 use super::law::follows_from_clock;
 use super::view::rough_noises;
-use super::worst_pass::worst_pass;
 use crate::measurement::Measurement;
 use crate::model::{Columns, Gain, Problem, Stage, noises_of};
 use crate::noise::rms;
@@ -38,7 +37,7 @@ enum Zero {
 
 /// For each zero the shift that brings what the file predicts nearest to the data; none where nothing
 /// that it predicts depends on it.
-pub(super) fn shifts(problem: &Problem) -> Vec<Hypothesis> {
+pub(super) fn shifts(problem: &Problem, odd: Option<usize>) -> Vec<Hypothesis> {
     let (rotary, effects) = (problem.measurement.rotary, &problem.model.effects);
     if effects.is_empty() || rotary && follows_from_clock(&problem.measurement, &problem.model) {
         return Vec::new();
@@ -47,7 +46,7 @@ pub(super) fn shifts(problem: &Problem) -> Vec<Hypothesis> {
     let noises = [noises_of(problem, &problem.residual()), rough_noises(problem)];
     let stages = noises.map(|noises| Stage::new(problem, &Columns::default(), &noises));
     let of_all: &[Zero] = if rotary { &[Zero::All] } else { &[Zero::All, Zero::FarEnd] };
-    let zeros = of_all.iter().copied().chain(worst_pass(problem).map(Zero::Pass));
+    let zeros = of_all.iter().copied().chain(odd.map(Zero::Pass));
     zeros.flat_map(|zero| hypotheses(&stages, zero)).collect()
 }
 

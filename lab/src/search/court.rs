@@ -7,7 +7,7 @@
 
 use std::collections::BTreeSet;
 
-use helixlock_plant::{CATALOGUE, Column, Entry, Role};
+use helixlock_plant::{CATALOGUE, Column, Entry};
 
 use super::acceptance::chance_in_any_noise;
 use super::analysis::Step;
@@ -304,10 +304,7 @@ impl<'a> Court<'a> {
     /// What a shape is made of beside the waves that it contains, where these are worth their price beside that:
     /// a wave that swells is that wave. Of a curve, a further power makes another one.
     fn more_than(&self, group: &[usize], claim: &Claim<'_>) -> Option<Vec<Column>> {
-        let is_wave = |index: &usize| {
-            let parameters = &self.state.components[*index].term.parameters;
-            parameters.iter().any(|what| what.role == Role::Phase)
-        };
+        let is_wave = |index: &usize| self.state.components[*index].term.is_wave();
         if !group.iter().all(is_wave) || !self.contains(&claim.placed, group) {
             return None;
         }
