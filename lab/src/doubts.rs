@@ -10,6 +10,7 @@ mod along;
 mod clock;
 mod column;
 mod common;
+mod convention;
 mod court;
 mod direction;
 mod dividers;
@@ -86,6 +87,7 @@ fn hypotheses(problem: &Problem) -> Vec<Hypothesis> {
     all.extend(dividers::other_dividers(problem));
     if !follows_steps(problem) {
         all.extend(factor::factors(problem, odd));
+        all.extend(convention::conventions(problem));
         all.extend(hypothesis::another_machine(problem));
     }
     all

@@ -21,6 +21,7 @@ mod uneven;
 pub(crate) use analysis::{Step, search, take_for_a_shape};
 pub(crate) use beside_the_rest::not_told;
 pub(crate) use court::{Claim, claims, hear, nobodys};
+pub(crate) use judging::plain_noises;
 pub(crate) use own_errors::own_errors;
 pub(crate) use polish::polished;
 pub(crate) use pruning::{Dropped, pruned, pruned_in_doubt};

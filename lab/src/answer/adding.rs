@@ -8,6 +8,7 @@ use crate::model::{Columns, Component, Problem, Stage, State, holdout_rms, noise
 use crate::noise::{Noise, rms};
 use crate::numerics::count;
 use crate::policy::extent::SEARCHED_ROWS;
+use crate::search::plain_noises;
 
 /// What a chosen effect does to the error.
 #[derive(Debug, Clone)]
@@ -44,13 +45,14 @@ pub fn add(problem: &Problem, beside: &[Term], term: &Term) -> Result<Option<Add
     let columns = Columns::of(problem, &others)?;
     let base = State::of(problem, others.clone(), &before.fit.noises).unwrap_or(before);
     let term = &begun(problem, &others, term);
-    let Some(first) = found(problem, &columns, &base.fit.noises, term) else {
-        return Ok(None);
-    };
+    // Slow noise may follow the effect wherever it lies, and plain noise be taken for it.
+    let noises = [plain_noises(problem, &base.fit), base.fit.noises.clone()];
+    let tried =
+        |noises: &[Noise]| joined(problem, &others, found(problem, &columns, noises, term)?);
+    let once = noises.iter().filter_map(|noises| tried(noises)).reduce(likelier);
     // The noise that is left tells better where the nonlinear parameters lie.
-    let once = joined(problem, &others, first);
-    let again = once.as_ref().and_then(|once| found(problem, &columns, &once.fit.noises, term));
-    let state = again.and_then(|again| joined(problem, &others, again)).or(once);
+    let again = once.as_ref().and_then(|once| tried(&once.fit.noises));
+    let state = once.into_iter().chain(again).reduce(likelier);
     let free = count(term.parameters.len()) * problem.price_of_a_number();
     Ok(state.map(|state| Added {
         effects: effects(problem, &state),
@@ -79,6 +81,10 @@ fn begun(problem: &Problem, others: &[Component], term: &Term) -> Term {
         try_candidate(&stage, &candidate)
     });
     best.map_or_else(|| term.clone(), |trial| trial.component.term)
+}
+
+fn likelier(a: State, b: State) -> State {
+    if a.fit.log_likelihood < b.fit.log_likelihood { b } else { a }
 }
 
 fn is_own(term: &Term) -> bool {

@@ -6,7 +6,7 @@ use helixlock_plant::{
 
 use super::doubt::{of_pass_read, recipe};
 use super::hypothesis::{Hypothesis, Words};
-use super::law::follows_from_clock;
+use super::law::{follows_from_clock, usualness};
 use crate::measurement::Measurement;
 use crate::model::Problem;
 
@@ -95,9 +95,17 @@ fn of_a_pass(
     pass: usize,
     words: Words,
 ) -> Option<Hypothesis> {
+    let own: Vec<bool> = problem.measurement.pass.iter().map(|of| *of == pass).collect();
+    let alone = |measurement: &Measurement| {
+        let mut alone = measurement.clone();
+        alone.keep(&own);
+        usualness(&alone, &problem.model)
+    };
+    // Rows that come to weigh less in a median make no other pass more usual.
+    let usual = alone(&mended) - alone(&problem.measurement);
     let mixed = problem.measurement.with_pass_of(mended, pass);
     let one = Hypothesis::of_measurement(problem, &mixed, words)?;
-    Some(Hypothesis { pass: Some(pass), ..one })
+    Some(Hypothesis { pass: Some(pass), usual, ..one })
 }
 
 /// Units with another factor or zero than that of the column, each once.

@@ -4,7 +4,7 @@
 use helixlock_plant::{CATALOGUE, Model, Parameter, Role, Term};
 
 use super::column::all_physics;
-use super::common::{curves, slopes};
+use super::common::{curve_of, curves, slopes};
 use super::doubt::Suspect;
 use super::hypothesis::{Hypothesis, with_effects};
 use super::view::{View, rough_noises};
@@ -64,7 +64,7 @@ impl<'a> Court<'a> {
             .filter(|one| DOUBT < one.evidence)
             .collect();
         likely.sort_by(|a, b| {
-            a.last_resort().cmp(&b.last_resort()).then(b.evidence.total_cmp(&a.evidence))
+            a.lateness().cmp(&b.lateness()).then(b.evidence.total_cmp(&a.evidence))
         });
         let most = likely.iter().map(|one| one.evidence).fold(0.0, f64::max);
         let mut suspects = Vec::new();
@@ -76,7 +76,7 @@ impl<'a> Court<'a> {
                 return (Some(Hypothesis { evidence, ..one }), suspects);
             }
             let is_near = NEAR_THE_BEST_DOUBT * most <= one.evidence;
-            if DOUBT < of_nothing && is_near && !one.last_resort() {
+            if DOUBT < of_nothing && is_near && one.lateness() == 0 {
                 suspects.push(self.suspect(one));
             }
         }
@@ -135,13 +135,22 @@ impl<'a> Court<'a> {
         self.looks + 2.0 * libm::log(one.looks) + numbers - one.usual - one.rescaled
     }
 
-    /// Evidence of a prediction of nothing, everywhere or in the pass that is mended: whatever makes a wrong
-    /// prediction vanish looks like a mend.
+    /// Evidence of a prediction of nothing, everywhere or in the pass that is mended, or of one that a curve of
+    /// that pass puts right: whatever makes a wrong prediction vanish looks like a mend.
     fn nothing(&self, best: &Hypothesis) -> f64 {
         let evidence = |problem: &Problem| self.evidence(problem, &Columns::default()).0;
         let absent = self.absent.iter().filter(|_| !best.last_resort()).map(evidence);
         let in_pass = best.pass.map(|pass| evidence(&silent(self.problem, pass)));
-        absent.chain(in_pass).fold(f64::NEG_INFINITY, f64::max)
+        let bent = best.pass.map(|pass| self.bent(pass));
+        absent.chain(in_pass).chain(bent).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Evidence of the file as it is, with a curve of a pass's own: something may have grown while it went on.
+    fn bent(&self, pass: usize) -> f64 {
+        let curve = curve_of(self.problem, pass);
+        let numbers = count(curve.raw.len());
+        let (evidence, _) = self.evidence(self.problem, &curve);
+        evidence - numbers * self.problem.price_of_a_number()
     }
 
     /// The best of all other explanations.

@@ -8,8 +8,8 @@ use crate::numerics::count;
 /// A mistake that explains the data better than any effect.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Doubt {
-    /// What kind of mistake: `position-for-error`, `sign`, `unit`, `swap`, `shift`, `dividers`, `another-machine`,
-    /// `copy`, `cut-off`.
+    /// What kind of mistake: `position-for-error`, `sign`, `unit`, `swap`, `shift`, `phase`, `dividers`,
+    /// `another-machine`, `copy`, `cut-off`.
     pub what: &'static str,
     /// Evidence against the next best explanation, in units of twice the log likelihood.
     pub evidence: f64,

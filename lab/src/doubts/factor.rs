@@ -11,9 +11,9 @@ use super::common::{curves, slopes};
 use super::doubt::{of_pass_read, recipe};
 use super::hypothesis::Hypothesis;
 use super::law::size_of_error;
-use super::view::View;
+use super::view::{View, rough_noises};
 use crate::measurement::sensor_column;
-use crate::model::Problem;
+use crate::model::{Columns, Problem, Stage, noises_of};
 use crate::noise::Noise;
 use crate::numerics::count;
 use crate::policy::mistakes::MACHINE_OF_EFFECTS;
@@ -33,6 +33,11 @@ pub(super) fn factors(problem: &Problem, odd: Option<usize>) -> Vec<Hypothesis> 
             factors.iter().filter_map(|one| one.of_pass(problem, index, column, *pass))
         }));
         all.extend(factors.into_iter().map(|one| one.of_column(problem, index, column)));
+        let odd_ones = odd_factors(problem, index, known).into_iter();
+        all.extend(
+            odd_ones
+                .map(|one| Hypothesis { numbers: 1.0, ..one.of_column(problem, index, column) }),
+        );
     }
     all
 }
@@ -86,6 +91,28 @@ fn slips(column: &LoggedColumn) -> [Factor; 4] {
         says,
         how: format!("unit = \"{by} {written}\""),
     })
+}
+
+/// The factor of no unit that brings what the file predicts nearest to the data, under the noise of the file as
+/// it is and that of neighbours. One effect alone may have another size.
+fn odd_factors(problem: &Problem, sensor: usize, column: &'static LoggedColumn) -> Vec<Factor> {
+    if problem.model.effects.len() < MACHINE_OF_EFFECTS {
+        return Vec::new();
+    }
+    let predicted = problem.of_rows(sensor, |row| problem.predicted[row]);
+    let noises = [noises_of(problem, &problem.residual()), rough_noises(problem)];
+    let factor = |noises: &[Noise]| {
+        let stage = Stage::new(problem, &slopes(problem), noises);
+        let more = stage.gain(&Columns::free(vec![predicted.clone()])).fit.coefficients[0];
+        let times = 1.0 + more;
+        let says = format!(
+            "is {times:.4} times what the file predicts: its scale, or all effects have changed alike"
+        );
+        let by = times.recip();
+        let how = format!("unit = \"{by:.6} {}\"", column.units[0].0);
+        by.is_finite().then_some(Factor { by, what: "unit", says, how })
+    };
+    noises.iter().filter_map(|noises| factor(noises)).collect()
 }
 
 /// A count of fringes that nobody made a length of, of a mirror that is passed once or twice.

@@ -82,6 +82,15 @@ impl Hypothesis {
         self.what == "another-machine"
     }
 
+    /// How late it is said: a factor of no unit after every mistake with a name, however much better a free
+    /// number fits, and another machine last.
+    pub(super) fn lateness(&self) -> u8 {
+        match (self.last_resort(), self.scales && 0.0 < self.numbers) {
+            (true, _) => 2,
+            (_, free) => u8::from(free),
+        }
+    }
+
     /// A mistake in a measurement; `None` when the mended one cannot be laid out alike.
     pub(super) fn of_measurement(
         problem: &Problem,

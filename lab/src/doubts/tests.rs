@@ -3,7 +3,7 @@ mod places_and_names;
 
 use std::path::Path;
 
-use helixlock_plant::Model;
+use helixlock_plant::{Model, Role};
 use helixlock_traces::{Column, Table};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;

@@ -256,11 +256,14 @@ impl Problem {
     /// What one sensor shows of each sample, row by row; 0 in the rows of the others.
     #[must_use]
     pub(crate) fn alone(&self, sensor: usize, shown: impl Fn(usize) -> f64) -> Vec<f64> {
+        self.of_rows(sensor, |row| shown(self.samples[row]))
+    }
+
+    /// A column of one sensor's rows, 0 in those of the others.
+    pub(crate) fn of_rows(&self, sensor: usize, shown: impl Fn(usize) -> f64) -> Vec<f64> {
         let mut column = vec![0.0; self.samples.len()];
         for block in self.layout.blocks.iter().filter(|block| block.sensor == sensor) {
-            let samples = &self.samples[block.rows.clone()];
-            let rows = column[block.rows.clone()].iter_mut().zip(samples);
-            rows.for_each(|(value, &sample)| *value = shown(sample));
+            block.rows.clone().for_each(|row| column[row] = shown(row));
         }
         column
     }

@@ -113,7 +113,7 @@ fn judge(problem: &Problem, now: &State, trial: &Trial, tried: f64) -> Option<Ju
 }
 
 /// White noise of the size that neighbouring samples differ by: no slow effect hides in it.
-pub(super) fn plain_noises(problem: &Problem, fit: &Fit) -> Vec<Noise> {
+pub(crate) fn plain_noises(problem: &Problem, fit: &Fit) -> Vec<Noise> {
     (0..problem.sensors.len())
         .map(|sensor| {
             let blocks = problem.layout.blocks.iter().filter(|block| block.sensor == sensor);

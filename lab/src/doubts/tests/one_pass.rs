@@ -1,6 +1,7 @@
 //! Mistakes of one pass among others that are sound.
 
 use super::*;
+use crate::challenge::challenge;
 
 /// Two passes, noise of 0.05 µm in each.
 fn two_passes(known: &Model) -> Table {
@@ -97,4 +98,12 @@ fn an_effect_that_grew_in_one_pass_is_no_mistake_of_it() {
         if row <= 600 { value } else { value + more[row - 601] }
     });
     assert_eq!(doubted(&known, &grown), None);
+}
+
+/// Something that grew while the first pass went on bends it as its place with the other sign would.
+#[test]
+fn what_grows_in_one_pass_is_no_sign_of_its_place() {
+    let grown = challenge(1_712_418).expect("a machine and its data");
+    assert!(grown.terms.iter().any(|term| term.name == "headstock-growth"));
+    assert_eq!(doubted(&grown.machine.model, &grown.table), None);
 }

@@ -115,3 +115,31 @@ fn a_temperature_under_the_humiditys_name_is_told() {
     table.columns[4].name = "air_temperature_c".to_owned();
     assert_eq!(doubted(&known, &table).expect("a doubt").0, "swap");
 }
+
+/// A factor of no unit on all effects alike is one number; two of their own are what the machine does.
+#[test]
+fn a_factor_of_no_unit_is_told_where_all_effects_have_it() {
+    let known = rotary("1 rpm");
+    let alike = changed(turn(&known, |turn| turn), "error_arcsec", |error| 0.71 * error);
+    let (what, mend) = doubted(&known, &alike).expect("a doubt");
+    assert!(what == "unit" && mend.contains("unit = \"1.40"), "{mend}");
+    let mut other = known.clone();
+    (other.effects[0].values[0], other.effects[1].values[0]) = (0.75 * 6.0, 1.3 * 2.0);
+    assert_eq!(doubted(&known, &turn(&other, |turn| turn)), None);
+}
+
+#[test]
+fn phases_of_another_convention_are_told_of_two_waves() {
+    let (known, mut meant) = (rotary("1 rpm"), rotary("1 rpm"));
+    for term in &mut meant.effects {
+        let phase = term.parameters.iter().position(|what| what.role == Role::Phase);
+        term.values[phase.expect("a wave")] += 90.0;
+    }
+    let table = turn(&meant, |turn| turn);
+    let (what, mend) = doubted(&known, &table).expect("a doubt");
+    assert!(what == "phase" && mend.contains("add 90°"), "{mend}");
+    let (mut one, mut wave) = (known, meant);
+    one.effects.truncate(1);
+    wave.effects.truncate(1);
+    assert_eq!(doubted(&one, &turn(&wave, |turn| turn)), None);
+}
