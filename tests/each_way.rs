@@ -1,11 +1,13 @@
 //! What there and back do not share, in passes that run by turns, is told and no noise.
 
-use helixlock_lab::Diagnosis;
+use helixlock_lab::{Diagnosis, Verdict};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use crate::support::diagnosed::{self, is_nobodys};
+use crate::support::diagnosed::{self, is_nobodys, names};
+use crate::support::passes::white;
+use crate::support::seeds::seeds;
 
 /// Four passes of two hundred rows by turns there and back, with noise of 0.1 µm and an error, µm, of
 /// direction, way since the start of the pass and place, mm.
@@ -54,4 +56,35 @@ fn a_rough_rail_of_one_way_is_no_noise() {
             if way < 0.0 { 0.0 } else { 0.25 * rough }
         })
     });
+}
+
+/// A turn of a table with a worm of 72, twice there and back in 400 uneven rows, with noise of 1″ and a wave
+/// of some phase each way.
+fn worm(seed: u64, size_arcsec: f64, phase: impl Fn(f64) -> f64) -> Diagnosis {
+    let table = "output.rotary = true\nspindle.speed = '1 rpm'\n\
+                 gear = [{ name = 'worm', order = 72 }]\n";
+    let (mut noise, mut uneven) = (white(seed, 1.0), white(seed + 100, 0.3));
+    let mut turns = 0.0;
+    let mut columns = [const { Vec::new() }; 5];
+    for row in 0..400_u32 {
+        let way = if row % 200 < 100 { 1.0 } else { -1.0 };
+        turns += 0.005 * way * libm::exp(3.0 * uneven());
+        let wave = libm::sin(std::f64::consts::TAU * 72.0 * turns + phase(way));
+        let cells =
+            [f64::from(row / 200), 0.7 * f64::from(row), turns, way, size_arcsec * wave + noise()];
+        columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+    }
+    let header = ["pass", "time_s", "angle_rev", "direction", "error_arcsec"];
+    diagnosed::diagnosed_on(table, header.into_iter().zip(columns).collect())
+}
+
+/// A worm that lies against another flank each way has no phase that is that of both.
+#[test]
+fn a_wave_of_another_phase_each_way_is_not_explained_by_its_mean() {
+    for seed in seeds(2, 12) {
+        let apart = worm(seed, 0.85, |way| 0.7 * way);
+        assert_eq!(apart.verdict, Verdict::Unexplained, "{seed}");
+        let alike = worm(seed, 0.85, |_| 0.7);
+        assert_eq!((alike.verdict, names(&alike)), (Verdict::Explained, vec!["gear-error"]));
+    }
 }

@@ -12,6 +12,7 @@ use super::worst_pass::{rows_of, worst_pass};
 use crate::hypotheses::{candidate, try_candidate};
 use crate::model::{Columns, Component, Fit, Problem, Stage, noises_of, settle, with_noise};
 use crate::numerics::count;
+use crate::policy::evidence::LOOSELY_KNOWN;
 use crate::policy::mistakes::{DOUBT, NEAR_THE_BEST_DOUBT, SMALLER, WORTH_A_FIT};
 
 /// A problem before the court.
@@ -141,12 +142,12 @@ impl<'a> Court<'a> {
         let evidence = |problem: &Problem| self.evidence(problem, &Columns::default()).0;
         let absent = self.absent.iter().filter(|_| !best.last_resort()).map(evidence);
         let in_pass = best.pass.map(|pass| evidence(&silent(self.problem, pass)));
-        let bent = best.pass.map(|pass| self.bent(pass));
-        absent.chain(in_pass).chain(bent).fold(f64::NEG_INFINITY, f64::max)
+        let grown = best.pass.map(|pass| self.grown(pass));
+        absent.chain(in_pass).chain(grown).fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// Evidence of the file as it is, with a curve of a pass's own: something may have grown while it went on.
-    fn bent(&self, pass: usize) -> f64 {
+    fn grown(&self, pass: usize) -> f64 {
         let curve = curve_of(self.problem, pass);
         let numbers = count(curve.raw.len());
         let (evidence, _) = self.evidence(self.problem, &curve);
@@ -289,12 +290,14 @@ fn any_size(problem: &Problem, term: &Term) -> Option<Columns> {
     (priors.len() == raw.len()).then_some(Columns { raw, priors, fixed: None })
 }
 
-/// Columns by which an effect of the file may differ from what the file says.
+/// Columns by which an effect of the file may differ from what the file says: one whose constant is that of a
+/// material by any, for another material is in no other unit.
 fn departures(problem: &Problem, term: &Term) -> Option<Columns> {
     let raw = problem.design(term).ok()?.columns;
     let values = term.coefficients();
     let size = values.iter().fold(0.0, |most: f64, one| most.max(one.abs()));
-    let fixed = |what: &Parameter| matches!(what.role, Role::Known { .. });
+    let fixed =
+        |what: &Parameter| matches!(what.role, Role::Known { stderr } if stderr < LOOSELY_KNOWN);
     let known = term.parameters.iter().any(fixed);
     let held = term.priors();
     let prior = |at: usize| match held.get(at).copied().flatten() {

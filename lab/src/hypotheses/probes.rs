@@ -172,7 +172,7 @@ pub(crate) fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> V
 }
 
 /// Change inside a pass, against a column's size, that is rounding.
-const ROUNDING: f64 = 1e-9;
+pub(super) const ROUNDING: f64 = 1e-9;
 
 /// True unless the zero of each pass stands for all there is of a column: a speed, a direction, or
 /// a harmonic that samples at whole parts of a turn always meet at the same angle.
