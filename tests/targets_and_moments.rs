@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use helixlock_lab::{Diagnosis, Found, Verdict, diagnose, discover};
 
-use crate::support::diagnosed::{diagnosed, diagnosed_on, names};
+use crate::support::diagnosed::{MACHINE, diagnosed, diagnosed_on, names, problem_of};
 use crate::support::passes::{Passes, noise, white};
 use crate::support::seeds::seeds;
 
@@ -36,10 +36,12 @@ fn left(diagnosis: &Diagnosis) -> Vec<&str> {
     diagnosis.residual.iter().map(|one| one.shape.as_str()).collect()
 }
 
+/// What a screw has at each target, µm.
+const OWN_UM: [f64; 9] = [12.0, -31.0, 4.0, 38.0, -22.0, -41.0, 17.0, 29.0, -8.0];
+
 /// Play of 6 µm beside errors of up to 41 µm that the screw has at each target.
 #[test]
 fn a_reversal_is_told_by_how_well_visits_agree() {
-    const OWN_UM: [f64; 9] = [12.0, -31.0, 4.0, 38.0, -22.0, -41.0, 17.0, 29.0, -8.0];
     let found = targets(|_, target, direction| OWN_UM[target] - 3.0 * direction);
     assert_eq!(names(&found), ["backlash"]);
     assert_eq!(found.verdict, Verdict::Unexplained);
@@ -47,6 +49,19 @@ fn a_reversal_is_told_by_how_well_visits_agree() {
     let width = &found.rounds[found.rounds.len() - 1].effects[0].parameters[0];
     let error = width.stderr.expect("an error");
     assert!((width.value.abs() - 6.0).abs() < 3.0 * error && error < 0.3, "{width:?}");
+}
+
+/// Play that every reversal shows, and that some of is taken up over a way: what tells how it is needs the play,
+/// and does not take its name.
+#[test]
+fn a_play_that_is_partly_taken_up_is_that_play() {
+    let found = targets(|_, target, direction| {
+        let behind = if direction > 0.0 { target } else { 8 - target };
+        let way = f64::from(u8::try_from(behind).expect("few"));
+        OWN_UM[target] - 3.0 * (1.0 - 1.2 * libm::exp(-way / 1.5)) * direction
+    });
+    assert_eq!(names(&found), ["backlash"], "{:?}", left(&found));
+    assert!(left(&found).iter().any(|one| one.ends_with("better than backlash")));
 }
 
 /// Without errors of their own nothing is left free: the play explains all.
@@ -118,6 +133,78 @@ fn one_shape_in_the_place_of_two_names_makes_them_doubtful() {
     let last = found.candidates.iter().find(|one| one.name == "backlash").expect("it was tried");
     assert_eq!(found.verdict, Verdict::Ambiguous, "{:?}", names(&found));
     assert!(last.confounded_with.iter().any(|one| one.contains("its own line")), "{last:?}");
+}
+
+/// What formulas say of five runs there and back past so many targets, a play of 1.4 µm and an error of each target.
+fn formulas(seed: u64, targets: u8, own_um: impl Fn(u8) -> f64) -> Found {
+    let mut noise = white(seed, 0.6);
+    let mut columns =
+        ["pass", "position_mm", "direction", "error_um"].map(|name| (name, Vec::new()));
+    for visit in 0..10 * targets {
+        let (run, nth) = (visit / (2 * targets), visit % (2 * targets));
+        let (target, way) = if nth < targets { (nth, 1.0) } else { (2 * targets - 1 - nth, -1.0) };
+        let error_um = own_um(target) - 0.7 * way + noise();
+        let row = [f64::from(run), 60.0 * f64::from(target), way, error_um];
+        columns.iter_mut().zip(row).for_each(|((_, values), value)| values.push(value));
+    }
+    discover(&problem_of(MACHINE, columns.into())).found
+}
+
+/// Errors of five targets in whatever order: a formula of nearly as many numbers follows most of them, and explains
+/// none.
+#[test]
+fn a_formula_of_as_many_numbers_as_targets_explains_none() {
+    const OWN_UM: [f64; 5] = [12.0, -21.0, -2.0, 7.0, 1.0];
+    const ORDERS: [[usize; 5]; 4] =
+        [[1, 2, 3, 0, 4], [2, 3, 4, 0, 1], [3, 0, 1, 2, 4], [4, 2, 3, 0, 1]];
+    for (seed, order) in (40..).zip(ORDERS) {
+        let found = formulas(seed, 5, |target| OWN_UM[order[usize::from(target)]]);
+        assert_eq!(found, Found::Unexplained, "{order:?}");
+    }
+}
+
+/// A formula of far fewer numbers than there are targets is none by chance.
+#[test]
+fn a_step_among_nine_targets_is_a_formula() {
+    let found = formulas(9, 9, |target| if 4 < target { 8.0 } else { 0.0 });
+    assert_eq!(found, Found::Formula);
+}
+
+/// Twelve waves in a turn at one speed, and angles that are stamped a hundredth of a turn unevenly: the clock draws
+/// them better than the angle.
+#[test]
+fn a_wave_of_the_spindles_mean_rate_is_told_to_turn_with_it() {
+    let (mut noise, mut stamp) = (white(12, 1.0), white(13, 0.06));
+    let rows = (0..1600_u16).map(|row| {
+        let t = 0.25 * f64::from(row);
+        [0.0, t, 0.6 * t + stamp(), 1.0, 10.0 * libm::sin(TAU * 1.2 * t) + noise()]
+    });
+    let found = discover(&Passes::of_rows(rows).problem());
+    let wave = found.proposals.iter().find(|one| one.shape == "sine in time").expect("a wave");
+    assert!(wave.physics.contains("turns with the spindle"), "{}", wave.physics);
+}
+
+/// A kink over a logged temperature beside noise as slow as the record: one of so many shapes follows a part of that,
+/// and of what is left nobody knows whether it is noise.
+#[test]
+fn beside_slow_noise_no_formula_explains() {
+    let mut slow_ones = 0;
+    for seed in 0..8 {
+        let (mut step, mut noise) = (white(seed, 0.157), white(100 + seed, 0.02));
+        let mut slow = 0.0;
+        let of_time = |t: f64| 25.0 + 5.0 * libm::sin(t / 70.0) + 3.0 * libm::sin(t / 31.0);
+        let rows = (0..240_u16).map(|row| {
+            let t = 2.0 * f64::from(row);
+            slow = 0.9876 * slow + step();
+            [0.0, t, 0.6 * t, 1.0, 6.0 * (of_time(t) - 29.0).max(0.0) + slow + noise()]
+        });
+        let passes = Passes::of_rows(rows).logging("bed_temperature_c", &of_time);
+        let found = discover(&passes.problem());
+        let is_slow = found.samples_a_pass < 3.25 && !found.proposals.is_empty();
+        assert!(!(is_slow && found.found == Found::Formula), "{seed}: {}", found.samples_a_pass);
+        slow_ones += u32::from(is_slow);
+    }
+    assert!(0 < slow_ones, "none was as slow");
 }
 
 /// An axis that stands at targets has no clock in its travel.

@@ -45,6 +45,8 @@ pub(crate) use probes::{
     all_structures, at_targets, is_left, matters, no_larger_than, structures, waves_left,
 };
 pub(crate) use setting_trial::setting_trials;
-pub(crate) use slow_noise::{no_all_clear, samples_a_pass, slow_without, taken_for_noise};
+pub(crate) use slow_noise::{
+    no_all_clear, samples_a_pass, slow_cause, slow_without, taken_for_noise,
+};
 pub(crate) use tails::chance_with_tails;
 pub(crate) use trial::{Trial, gain_at, try_candidate};

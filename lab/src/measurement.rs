@@ -13,6 +13,7 @@ mod pulse_trains;
 mod quantised;
 mod samples;
 mod thinning;
+mod zeros;
 
 pub use error::LabError;
 pub use pulse_trains::{PulseTrains, Steps};

@@ -22,7 +22,7 @@ pub(crate) use analysis::{Step, search, take_for_a_shape};
 pub(crate) use beside_the_rest::not_told;
 pub(crate) use court::{Claim, claims, hear, nobodys};
 pub(crate) use judging::plain_noises;
-pub(crate) use own_errors::own_errors;
+pub(crate) use own_errors::{in_place_of, own_errors, paid, paid_by_formula};
 pub(crate) use polish::polished;
 pub(crate) use pruning::{Dropped, pruned, pruned_in_doubt};
 pub(crate) use refusal::Refusal;

@@ -31,9 +31,14 @@ pub(crate) fn diagnosed(columns: Vec<(&str, Vec<f64>)>) -> Diagnosis {
 
 /// The same of another machine.
 pub(crate) fn diagnosed_on(machine: &str, columns: Vec<(&str, Vec<f64>)>) -> Diagnosis {
+    diagnose(&problem_of(machine, columns))
+}
+
+/// Some columns as the measurement of a machine.
+pub(crate) fn problem_of(machine: &str, columns: Vec<(&str, Vec<f64>)>) -> Problem {
     let machine = Model::parse(machine, Path::new("machine.toml")).expect("a machine");
     let column = |(name, values): (&str, Vec<f64>)| Column { name: name.to_owned(), values };
-    diagnose(&problem(&machine, &Table::new(columns.into_iter().map(column).collect())))
+    problem(&machine, &Table::new(columns.into_iter().map(column).collect()))
 }
 
 /// Names of the effects of the final model.

@@ -4,8 +4,10 @@ use helixlock_plant::{EffectError, Entry, Term};
 
 use super::errors::errors;
 use crate::formulas::{Delta, Placed};
-use crate::model::{Problem, State};
+use crate::model::{Columns, Problem, State};
+use crate::numerics::spread;
 use crate::policy::evidence::MARGIN;
+use crate::policy::extent::MANY_TURNS;
 use crate::search::Claim;
 
 /// A number of a formula.
@@ -81,6 +83,10 @@ pub(super) struct Granted {
     pub(super) runners_up: Vec<RunnerUp>,
     /// Those of them that stand in the same place, as effects.
     pub(super) rivals: Vec<Term>,
+    /// Its columns when it was granted.
+    pub(super) columns: Columns,
+    /// Shapes and places among which it was looked for.
+    pub(super) looks: f64,
 }
 
 /// Most runners-up that are told.
@@ -133,6 +139,8 @@ impl Granted {
             p_value: claim.p_value,
             runners_up,
             rivals,
+            columns: claim.placed.columns.clone(),
+            looks: claim.looks,
         })
     }
 
@@ -154,13 +162,16 @@ impl Granted {
             stderr: stderrs.get(place).copied().flatten(),
             unit: unit.clone(),
         });
+        let parameters: Vec<FormulaParameter> = parameters.collect();
+        let turns =
+            parameters.iter().any(|what| what.unit == "1/s" && turns_with(small, what.value));
         Proposal {
             shape: self.shape,
             along: self.along.clone(),
-            physics: self.physics,
+            physics: if turns { OF_THE_SPINDLE } else { self.physics },
             formula: term.formula_text().to_owned(),
             entry: term.entry,
-            parameters: parameters.collect(),
+            parameters,
             term,
             instead_of: self.instead_of.clone(),
             evidence: self.evidence,
@@ -168,6 +179,24 @@ impl Granted {
             runners_up: self.runners_up.clone(),
         }
     }
+}
+
+/// What has a frequency in time that is none of the clock's.
+const OF_THE_SPINDLE: &str = "whole waves in a turn at the mean speed: what turns with the spindle where its angle is stamped unevenly, or a pump, a motor";
+
+/// True for a frequency that is a whole multiple of the mean rate of a spindle, over the longest pass to half a wave.
+fn turns_with(problem: &Problem, hertz: f64) -> bool {
+    let turns: Vec<f64> = problem.record.turns().collect();
+    let passes = problem.record.passes().into_iter();
+    let longest =
+        passes.map(|rows| (spread(&turns[rows.clone()]), spread(&problem.record.time_s[rows])));
+    let (turns, seconds) = longest.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default();
+    let waves = hertz * seconds;
+    let multiple = (waves / turns.max(f64::MIN_POSITIVE)).round();
+    problem.measurement.timed
+        && MANY_TURNS <= turns
+        && 1.0 <= multiple
+        && (waves - multiple * turns).abs() < 0.5
 }
 
 fn formula(placed: &Placed<'_>, delta: Delta) -> String {

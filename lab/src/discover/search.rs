@@ -8,13 +8,18 @@ use super::proposal::{Granted, Proposal};
 use crate::answer::{Advice, FittedEffect, apart, effects};
 use crate::doubts::{Doubt, doubts_and_suspects};
 use crate::formulas::{Delta, Shape, formulas};
-use crate::hypotheses::{Structure, is_left, no_all_clear, samples_a_pass, structures};
+use crate::hypotheses::{
+    Structure, at_targets, is_left, no_all_clear, samples_a_pass, slow_cause, structures,
+};
 use crate::model::{Columns, Component, Problem, State, helps_unseen, holdout_rms};
 use crate::noise::rms;
 use crate::policy::chance::{SIGNIFICANCE, STANDARD_ERRORS};
 use crate::policy::evidence::MARGIN;
 use crate::policy::extent::{MOST_FORMULAS, SEARCHED_ROWS};
-use crate::search::{Claim, Rivals, claims, polished, rivals, search, suspected};
+use crate::search::{
+    Claim, Rivals, Step, claims, in_place_of, paid, paid_by_formula, polished, rivals, search,
+    suspected,
+};
 
 /// Runners-up that experiments are to tell from a proposal.
 const NEAREST: usize = 2;
@@ -82,21 +87,23 @@ pub fn discover(problem: &Problem) -> Discovery {
         return doubtful(problem, doubts);
     }
     let mut small = problem.thinned(SEARCHED_ROWS).unwrap_or_else(|| problem.clone());
-    let steps = search(&mut small);
-    let state = steps[steps.len() - 1].state.clone();
-    let found = rivals(&small, &state, &steps[0].tried);
-    if let Some(doubt) = suspected(&small, &state, &found, &suspects).doubt {
+    let (named, steps) = Now::named(&mut small);
+    if let Some(doubt) = suspected(&small, &named.state, &named.found, &suspects).doubt {
         return doubtful(problem, vec![doubt]);
     }
-    let mut now = Now { state, found, granted: Vec::new() };
     let shapes = formulas(&small);
-    while now.granted.len() < MOST_FORMULAS {
-        match now.with_one_more(&small, &shapes) {
-            Some(next) => now = next,
-            None => break,
-        }
+    let mut now = named.with_formulas(&small, &shapes);
+    let of_targets = now.of_targets(problem, &small, &steps);
+    if of_targets.is_some() {
+        small = small.with_targets_free();
+        now = Now::named(&mut small).0.with_formulas(&small, &shapes);
     }
-    now.without_lost(&small).told(problem, &small)
+    let mut answer = now.told(problem, &small);
+    if let Some(own_errors) = of_targets {
+        answer.residual.push(own_errors);
+        answer.found = Found::Unexplained;
+    }
+    answer
 }
 
 /// The answer to mistaken input.
@@ -114,6 +121,45 @@ struct Now {
 }
 
 impl Now {
+    /// The model of the named effects alone, and the steps to it.
+    fn named(problem: &mut Problem) -> (Self, Vec<Step>) {
+        let steps = search(problem);
+        let state = steps[steps.len() - 1].state.clone();
+        let found = rivals(problem, &state, &steps[0].tried);
+        (Self { state, found, granted: Vec::new() }, steps)
+    }
+
+    /// It with as many formulas as may join.
+    fn with_formulas(self, problem: &Problem, shapes: &[Shape]) -> Self {
+        let mut now = self;
+        while now.granted.len() < MOST_FORMULAS {
+            match now.with_one_more(problem, shapes) {
+                Some(next) => now = next,
+                None => break,
+            }
+        }
+        now.without_lost(problem)
+    }
+
+    /// What targets show at every visit, where no formula explains it, or none better than errors of their own do.
+    fn of_targets(&self, problem: &Problem, small: &Problem, steps: &[Step]) -> Option<Structure> {
+        let State { columns, fit, components } = &self.state;
+        let named = components.len() - self.granted.len();
+        let paid = |index: usize| {
+            if index < named {
+                return paid(small, &self.state, steps, index);
+            }
+            let one = &self.granted[index - named];
+            let others = Columns::of_model(small, &self.state.without(&[index]));
+            let of =
+                |others| paid_by_formula(small, others, &fit.noises, (&one.columns, one.looks));
+            others.as_ref().map_or(0.0, of)
+        };
+        let left = at_targets(small, columns, fit).filter(|told| is_left(small, fit, told));
+        let left = left.filter(|_| small.has_rows_of(problem));
+        left.or_else(|| in_place_of(small, &self.state, paid))
+    }
+
     /// The model with the best formula that may join, and whose size the data hold; `None` when none
     /// may.
     fn with_one_more(&self, problem: &Problem, shapes: &[Shape]) -> Option<Self> {
@@ -196,7 +242,13 @@ impl Now {
         let mut answer = told(&whole, &state);
         answer.effects.truncate(named);
         answer.residual = structures(small, &self.state.columns, &self.state.fit);
-        answer.residual.extend(no_all_clear(small, &self.state, &answer.residual));
+        let slow = match self.granted.is_empty() {
+            true => no_all_clear(small, &self.state, &answer.residual),
+            // Of so many shapes one follows slow noise: beside it none is believed to be noise.
+            false if answer.residual.is_empty() => slow_cause(small, &self.state.fit),
+            false => None,
+        };
+        answer.residual.extend(slow);
         answer.found = match (proposals.is_empty(), answer.residual.is_empty()) {
             (_, false) => Found::Unexplained,
             (false, true) => Found::Formula,

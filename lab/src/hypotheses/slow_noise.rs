@@ -47,9 +47,15 @@ pub(crate) fn no_all_clear(
     if is_beside || !left.is_empty() {
         return None;
     }
-    let worth = samples_a_slow_pass(problem, &state.fit);
-    let cause = (worth < WORTH_AN_ALL_CLEAR).then(|| slow(problem, &state.fit, "a slow cause"));
-    cause.filter(|cause| above_flaws(problem, &state.fit, cause))
+    slow_cause(problem, &state.fit)
+}
+
+/// What a fit leaves where that is so slow that it may be a cause.
+#[must_use]
+pub(crate) fn slow_cause(problem: &Problem, fit: &Fit) -> Option<Structure> {
+    let is_slow = samples_a_slow_pass(problem, fit) < WORTH_AN_ALL_CLEAR;
+    let cause = is_slow.then(|| slow(problem, fit, "a slow cause"));
+    cause.filter(|cause| above_flaws(problem, fit, cause))
 }
 
 /// What a model leaves, where that is slow only without one of the effects that were `tried` beside it:

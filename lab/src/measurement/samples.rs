@@ -221,7 +221,8 @@ impl Measurement {
         if let Some((passes, lone)) = passes.lone() {
             return Err(LabError::LonePasses { path, passes, lone });
         }
-        Ok(assemble(table, nominal, &coordinates, passes, notes).without_holds().without_treads())
+        let assembled = assemble(table, nominal, &coordinates, passes, notes);
+        Ok(assembled.without_holds().without_treads().with_zeros_told())
     }
 
     /// These samples and others of the same sensors and columns behind them, as further passes.

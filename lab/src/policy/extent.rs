@@ -405,3 +405,14 @@ pub(crate) const ROWS_A_LAG: usize = 10;
 /// Chosen: as many as neighbours on each side that a sample is judged by. Doubled: two outliers a pass are
 /// in company oftener by chance, and a burst tells less.
 pub(crate) const IN_COMPANY: usize = 3;
+
+/// Fewest passes over the same places whose zeros are said to lie apart.
+///
+/// Chosen: of two, either may be off. Doubled: five runs of ISO 230-2 say nothing.
+pub(crate) const FEWEST_ZEROS: usize = 3;
+
+/// Turns of a spindle in a pass from which on a frequency in time is said to be a whole multiple of its rate.
+///
+/// Derived: to half a wave, one frequency in so many is that by chance, and a cause of its own is told beside it.
+/// Doubled: one in twenty.
+pub(crate) const MANY_TURNS: f64 = 10.0;

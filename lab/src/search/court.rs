@@ -13,6 +13,7 @@ use super::acceptance::chance_in_any_noise;
 use super::analysis::Step;
 use super::beside_the_rest::not_told_beside;
 use super::judging::plain_noises;
+use super::likeness::is_slope;
 use super::refusal::Refusal;
 use super::rivals::Rivals;
 use super::span::{Span, shown};
@@ -214,6 +215,8 @@ pub(crate) struct Claim<'a> {
     pub(crate) ahead: f64,
     /// The effects in whose place it stands.
     pub(crate) group: Vec<usize>,
+    /// Shapes and places among which it was looked for.
+    pub(crate) looks: f64,
     /// Chance of as much in noise, or odds that those effects are right.
     pub(crate) p_value: f64,
 }
@@ -301,24 +304,38 @@ impl<'a> Court<'a> {
         Some(Winner { shown, beaten: group, ahead })
     }
 
-    /// What a shape is made of beside the waves that it contains, where these are worth their price beside that:
-    /// a wave that swells is that wave. Of a curve, a further power makes another one.
+    /// What a shape is made of beside the effects that it contains, where these are worth their price beside that:
+    /// a wave that swells is that wave, and a play that changes on the way is that play. Of a curve, a further power
+    /// makes another one, of a slope any bend; so does what explains as much without what it contains.
     fn more_than(&self, group: &[usize], claim: &Claim<'_>) -> Option<Vec<Column>> {
-        let is_wave = |index: &usize| self.state.components[*index].term.is_wave();
-        if !group.iter().all(is_wave) || !self.contains(&claim.placed, group) {
-            return None;
-        }
         let components: Vec<Component> =
             group.iter().map(|&index| self.state.components[index].clone()).collect();
+        let are_waves = components.iter().all(|one| one.term.is_wave());
+        let is_part = |index: &usize| {
+            let is_number = self.state.components[*index].width() == 1;
+            is_number && !is_slope(self.problem, self.state, *index)
+        };
+        if !(are_waves || group.iter().all(is_part)) || !self.contains(&claim.placed, group) {
+            return None;
+        }
         let own = Columns::of(self.problem, &components).ok()?;
         let own = Span::of(self.problem, &own.raw);
         let is_own = |column: &&Column| own.has(&about_means(&self.problem.layout, column), SHAPE);
         let all = claim.placed.columns.raw.iter();
         let more: Vec<Column> = all.filter(|column| !is_own(column)).cloned().collect();
-        let beside = self.problem.beside(&Columns::free(more.clone()));
+        let rest = Columns::free(more.clone());
+        let beside = self.problem.beside(&rest);
         let prices: Vec<f64> = self.prices.iter().map(Price::whole).collect();
         let not_told = not_told_beside(&beside, self.state, &prices);
-        group.iter().all(|index| !not_told.contains(index)).then_some(more)
+        let is_needed = group.iter().all(|index| !not_told.contains(index));
+        (is_needed && (are_waves || self.is_behind(group, &rest))).then_some(more)
+    }
+
+    /// True where some effects are ahead of columns that stand alone in their place.
+    fn is_behind(&self, group: &[usize], rest: &Columns) -> bool {
+        let Some(base) = self.without(group) else { return false };
+        let alone = self.likelihood_of(&base.and(rest));
+        MARGIN < 2.0 * (self.state.fit.log_likelihood - alone)
     }
 
     /// The relation to a logged column that explains more than the only effect of a group, which
@@ -350,7 +367,7 @@ impl<'a> Court<'a> {
     /// which slow noise hides nothing.
     fn claims(&self, group: &[usize], base: &Columns) -> Vec<Claim<'a>> {
         let noises = [self.state.fit.noises.clone(), plain_noises(self.problem, &self.state.fit)];
-        let nothing = self.without_shape(base);
+        let nothing = self.likelihood_of(base);
         let least_um = SHARE_OF_AN_EFFECT * self.shown_um(group);
         let mut claims = Vec::new();
         for noises in noises {
@@ -366,7 +383,8 @@ impl<'a> Court<'a> {
                 } else {
                     libm::exp(-0.5 * ahead).min(1.0)
                 };
-                Claim { placed, fit, ahead, group: group.to_vec(), p_value }
+                let looks = count(self.shapes.len()) * looks.for_gain(gain);
+                Claim { placed, fit, ahead, group: group.to_vec(), looks, p_value }
             }));
         }
         // What is far smaller has let the noise explain the effects.
@@ -424,8 +442,9 @@ impl<'a> Court<'a> {
         placed.shape.price(self.problem.price_of_a_number()) + 2.0 * libm::log(looks.for_gain(gain))
     }
 
-    /// Log likelihood of the effects beside which a shape stands, alone.
-    fn without_shape(&self, base: &Columns) -> f64 {
+    /// Log likelihood of some columns under the likelier of two noises: that of the model adjusted, and one of
+    /// what they leave.
+    fn likelihood_of(&self, base: &Columns) -> f64 {
         let problem = self.problem;
         let near = settle(problem, base, &self.state.fit.noises);
         let anew = settle(problem, base, &noises_of(problem, &near.left));

@@ -66,7 +66,7 @@ pub(crate) fn by_physics(problem: &Problem, state: &State, index: usize) -> Vec<
 /// shape.
 ///
 /// Known physics and whole numbers are exempt: their size is evidence of its own.
-fn is_slope(problem: &Problem, state: &State, index: usize) -> bool {
+pub(super) fn is_slope(problem: &Problem, state: &State, index: usize) -> bool {
     let component = &state.components[index];
     let sized = component.term.parameters.iter().any(|w| matches!(w.role, Role::Known { .. }));
     if sized || !component.term.needs().is_empty() || component.term.nature().is_setting() {

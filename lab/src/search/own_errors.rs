@@ -9,22 +9,33 @@ use super::court::{Price, groups};
 use crate::hypotheses::{Structure, at_targets};
 use crate::model::{Columns, Problem, Stage, State, settle};
 use crate::noise::Noise;
-use crate::numerics::count;
+use crate::numerics::least_squares::dot;
+use crate::numerics::{count, drawn_sizes_gain};
 use crate::policy::evidence::MARGIN;
 
 /// What targets show at every visit, where it explains as much as the effects of a model in whose
 /// place it stands, or nearly so: then it cannot be known whether there are any.
 #[must_use]
 pub(crate) fn own_errors(problem: &Problem, steps: &[Step]) -> Option<Structure> {
+    let state = &steps[steps.len() - 1].state;
+    in_place_of(problem, state, |index| paid(problem, state, steps, index))
+}
+
+/// The same, of components that have paid so much each.
+#[must_use]
+pub(crate) fn in_place_of(
+    problem: &Problem,
+    state: &State,
+    paid: impl Fn(usize) -> f64,
+) -> Option<Structure> {
     let targets = Columns::free(problem.columns_of_targets());
     if targets.raw.is_empty() {
         return None;
     }
-    let state = &steps[steps.len() - 1].state;
     let rivalled = groups(state.components.len()).into_iter().filter(|group| !group.is_empty());
     let bare = rivalled.filter_map(|group| {
         let others = State::of(problem, state.without(&group), &state.fit.noises)?;
-        let saved: f64 = group.iter().map(|&index| paid(problem, state, steps, index)).sum();
+        let saved: f64 = group.iter().map(|&index| paid(index)).sum();
         let ahead = 2.0 * (log_likelihood(problem, &others, &targets) - state.fit.log_likelihood)
             - problem.price_of_a_number()
             + saved;
@@ -34,8 +45,25 @@ pub(crate) fn own_errors(problem: &Problem, steps: &[Step]) -> Option<Structure>
         .min_by(|a, b| a.p_value.total_cmp(&b.p_value))
 }
 
+/// What a formula that was looked for at so many places pays against errors of targets: its sizes, as theirs, are of
+/// one law. A few targets let a formula of nearly as many numbers follow anything, and noise is no measure of that.
+#[must_use]
+pub(crate) fn paid_by_formula(
+    problem: &Problem,
+    others: &Columns,
+    noises: &[Noise],
+    (own, looks): (&Columns, f64),
+) -> f64 {
+    let stage = Stage::new(problem, others, noises);
+    // Of one length, for a law of theirs has one size.
+    let span = stage.span(own);
+    let best: f64 = span.iter().map(|one| dot(one, &stage.target).powi(2)).sum();
+    let sizes = best - drawn_sizes_gain(&span, &stage.target);
+    sizes + problem.price_of_a_number() + 2.0 * libm::log(looks)
+}
+
 /// What an effect of a model pays.
-pub(super) fn paid(problem: &Problem, state: &State, steps: &[Step], index: usize) -> f64 {
+pub(crate) fn paid(problem: &Problem, state: &State, steps: &[Step], index: usize) -> f64 {
     let component = &state.components[index];
     let tried = steps.iter().flat_map(|step| &step.tried);
     let own = tried.filter(|judged| judged.component.term.name == component.term.name);
