@@ -11,6 +11,9 @@ use crate::spectrum::Scan;
 const LINES: usize = 4;
 const RATES: u16 = 8;
 
+/// Speeds whose comparison rates are tried.
+const SPEEDS: usize = 8;
+
 /// Unfolded lines whose frequency is settled.
 const SETTLED: usize = 8;
 
@@ -44,11 +47,20 @@ pub(crate) fn unfolded(
     (as_they_are + MARGIN + price < gain).then_some(hertz)
 }
 
-/// Comparisons a second at each speed of a record.
+/// Comparisons a second at the speeds that most of a record has. Where the speed is another from row to row, there
+/// are as many as rows, and none of them has samples enough for an alias.
 fn comparison_rates_hz(problem: &Problem) -> Vec<f64> {
     let machine = &problem.model;
-    let mut speeds = problem.record.speed_rpm.clone();
+    let mut speeds = problem.record.speed_rpm.to_vec();
     speeds.sort_by(f64::total_cmp);
-    speeds.dedup_by(|next, before| *next - *before <= ANOTHER_SPEED * *before);
-    speeds.iter().map(|rpm| machine.comparison_hz() * rpm / machine.spindle.speed_rpm).collect()
+    let mut alike: Vec<(f64, usize)> = Vec::new();
+    for rpm in speeds {
+        match alike.last_mut().filter(|(known, _)| rpm - *known <= ANOTHER_SPEED * *known) {
+            Some((_, rows)) => *rows += 1,
+            None => alike.push((rpm, 1)),
+        }
+    }
+    alike.sort_by_key(|(_, rows)| std::cmp::Reverse(*rows));
+    let usual = alike.iter().take(SPEEDS);
+    usual.map(|(rpm, _)| machine.comparison_hz() * rpm / machine.spindle.speed_rpm).collect()
 }
