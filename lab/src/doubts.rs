@@ -17,6 +17,7 @@ mod dividers;
 mod doubt;
 mod factor;
 mod hypothesis;
+mod late;
 mod law;
 mod readings;
 mod shift;
@@ -87,6 +88,7 @@ fn hypotheses(problem: &Problem) -> Vec<Hypothesis> {
     all.extend(dividers::other_dividers(problem));
     if !follows_steps(problem) {
         all.extend(factor::factors(problem, odd));
+        all.extend(late::late_logs(problem));
         all.extend(convention::conventions(problem));
         all.extend(hypothesis::another_machine(problem));
     }

@@ -54,31 +54,30 @@ pub(super) fn shifts(problem: &Problem, odd: Option<usize>) -> Vec<Hypothesis> {
 fn hypotheses(stages: &[Stage<'_>], zero: Zero) -> Vec<Hypothesis> {
     let problem = stages[0].problem;
     let Ok(before) = problem.predicted_of(&problem.measurement) else { return Vec::new() };
-    let moved = |turns: f64| moved(problem, zero, turns, &before);
+    let moved = |turns: f64| moved(problem, &zero.shifted(problem, turns), &before);
     let Some(grid) = grid(problem, &moved) else { return Vec::new() };
-    let found: Vec<Found> = stages.iter().filter_map(|stage| best(stage, &moved, grid)).collect();
-    let looks = found.iter().map(|one| one.looks).fold(1.0, f64::max);
-    let hypothesis = |one: &Found| {
-        let shifted = zero.shifted(problem, one.turns);
-        let one = Hypothesis::of_measurement(problem, &shifted, zero.words(problem, one.turns))?;
+    let found: Vec<_> = stages.iter().filter_map(|stage| best(stage, &moved, grid)).collect();
+    let looks = found.iter().map(|(_, looks)| *looks).fold(1.0, f64::max);
+    let hypothesis = |(turns, _): &(f64, f64)| {
+        let shifted = zero.shifted(problem, *turns);
+        let one = Hypothesis::of_measurement(problem, &shifted, zero.words(problem, *turns))?;
         Some(Hypothesis { numbers: 1.0, looks, usual: 0.0, pass: zero.pass(), ..one })
     };
     found.iter().filter_map(hypothesis).collect()
 }
 
-/// A shift, in turns of the spindle.
-struct Found {
-    turns: f64,
-    /// Places that it was looked for at. Shifts by a period more are no other shift.
-    looks: f64,
-}
-
-/// By how much a shift by so many turns moves what is predicted; `None` where an effect cannot be worked out.
+/// By how much a shift moves what is predicted; `None` where an effect cannot be worked out.
 type Moved<'a> = dyn Fn(f64) -> Option<Vec<f64>> + Sync + 'a;
 
-fn best(stage: &Stage<'_>, moved: &Moved<'_>, (step, most): (f64, i32)) -> Option<Found> {
+/// The best shift, looked for so many places of a grid either way, and at how many independent places that was:
+/// shifts by a period more are no other shift.
+pub(super) fn best(
+    stage: &Stage<'_>,
+    moved: &Moved<'_>,
+    (step, most): (f64, i32),
+) -> Option<(f64, f64)> {
     let evidence =
-        |turns: f64| moved(turns).map_or(f64::NEG_INFINITY, |moved| evidence(stage, moved));
+        |shift: f64| moved(shift).map_or(f64::NEG_INFINITY, |moved| evidence(stage, moved));
     let places: Vec<f64> = (-most..=most).map(f64::from).collect();
     let said: Vec<f64> = places.par_iter().map(|place| evidence(place * step)).collect();
     let highest = said.iter().copied().fold(0.0, f64::max);
@@ -94,9 +93,9 @@ fn best(stage: &Stage<'_>, moved: &Moved<'_>, (step, most): (f64, i32)) -> Optio
     tops.truncate(TOPS);
     let refined = tops.into_par_iter().map(|(at, _)| {
         let (from, to) = ((places[at] - 1.0) * step, (places[at] + 1.0) * step);
-        golden_maximum(&mut |turns| evidence(turns), (from, to), STEPS)
+        golden_maximum(&mut |shift| evidence(shift), (from, to), STEPS)
     });
-    Some(Found { turns: nearest_of_the_best(refined.collect())?, looks })
+    Some((nearest_of_the_best(refined.collect())?, looks))
 }
 
 /// Distance of the places of a grid, in turns of the spindle, and how many there are either way; `None` where
@@ -192,8 +191,9 @@ fn both_ends_mm(measurement: &Measurement) -> f64 {
     places().fold(f64::INFINITY, f64::min) + places().fold(f64::NEG_INFINITY, f64::max)
 }
 
-fn moved(problem: &Problem, zero: Zero, turns: f64, before: &[f64]) -> Option<Vec<f64>> {
-    let after = problem.predicted_of(&zero.shifted(problem, turns)).ok()?;
+/// By how much what is predicted of a shifted measurement is another than before.
+pub(super) fn moved(problem: &Problem, shifted: &Measurement, before: &[f64]) -> Option<Vec<f64>> {
+    let after = problem.predicted_of(shifted).ok()?;
     Some(after.iter().zip(before).map(|(after, before)| after - before).collect())
 }
 

@@ -263,6 +263,33 @@ fn mercury_is_told(known: &Model, weather: Table, noise_um: f64) {
 }
 
 /// 1008 hPa swinging by two are 756 mmHg: a slope of 69 µm/m, which anything may have, and a little more.
+/// A door that was opened and shut, logged by a clock that is a quarter of a minute fast or slow; a recorder's lag would
+/// delay waves too.
+#[test]
+fn a_log_by_another_clock_is_told() {
+    let known = machine(150, &format!("{WAVES}[[effect]]\nkind = 'air-temperature'\n"));
+    let logged = |table: Table, rows: f64| {
+        let mut row = -1.0;
+        changed(table, "air_temperature_c", |_| {
+            row += 1.0;
+            let since = (row - rows - 250.0) / 60.0;
+            21.0 + 4.0 * since * libm::exp(-since * since)
+        })
+    };
+    let swinging = logged(table(&[0.0; 600]), 0.0);
+    let clean = problem(&known, &swinging).predicted;
+    let mut row = 0;
+    let seen = changed(measured(&machine(150, "")), "error_um", |noise| {
+        row += 1;
+        noise + clean[row - 1]
+    });
+    assert_eq!(doubted(&known, &logged(seen.clone(), 0.0)), None);
+    for (rows, mend) in [(18.0, "take 1"), (-18.0, "add 1")] {
+        let (what, told) = doubted(&known, &logged(seen.clone(), rows)).expect(mend);
+        assert!(what == "shift" && told.starts_with(mend) && told.contains("the clock"), "{told}");
+    }
+}
+
 #[test]
 fn millimetres_of_mercury_are_told_by_the_slope_that_they_make() {
     let known = machine(150, "[[effect]]\nkind = 'air-pressure'\n");

@@ -91,6 +91,13 @@ pub(crate) const MACHINE_OF_EFFECTS: usize = 2;
 /// Chosen. Doubled: twice the time.
 pub(crate) const SHIFT_TURNS: u16 = 6;
 
+/// Share of a record by which a log may be late or early, and places either way at which that is looked for.
+///
+/// Chosen: a logger's clock, or readings sent once in a while. Doubled: twice the time; what is later still has
+/// hardly anything in common with the record.
+pub(crate) const LATEST: f64 = 0.25;
+pub(crate) const LATE_PLACES: i32 = 25;
+
 /// Share of its whole change by which one place of a grid of zeros changes a prediction.
 ///
 /// Derived: a wave's twelfth, of which a parabola through three places tells the height to a thousandth.
