@@ -242,11 +242,12 @@ impl Now {
         let mut answer = told(&whole, &state);
         answer.effects.truncate(named);
         answer.residual = structures(small, &self.state.columns, &self.state.fit);
-        let slow = match self.granted.is_empty() {
-            true => no_all_clear(small, &self.state, &answer.residual),
+        let slow = if self.granted.is_empty() {
+            no_all_clear(small, &self.state, &answer.residual)
+        } else {
             // Of so many shapes one follows slow noise: beside it none is believed to be noise.
-            false if answer.residual.is_empty() => slow_cause(small, &self.state.fit),
-            false => None,
+            let nothing_else = answer.residual.is_empty();
+            nothing_else.then(|| slow_cause(small, &self.state.fit)).flatten()
         };
         answer.residual.extend(slow);
         answer.found = match (proposals.is_empty(), answer.residual.is_empty()) {

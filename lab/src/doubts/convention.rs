@@ -44,11 +44,8 @@ impl Convention {
     fn of_file(&self, problem: &Problem, waves: usize) -> Option<Hypothesis> {
         let effects = problem.model.effects.iter().map(|term| self.of(term)).collect();
         let model = Model { effects, ..problem.model.clone() };
-        let mended = Problem::new(&model, &problem.measurement).ok()?;
-        let alike = mended.has_rows_of(problem);
-        let mended = Problem { layout: problem.layout.clone(), ..mended };
         let says = format!("the phases of the file's {waves} waves are those of {}", self.wave);
-        alike.then(|| Hypothesis::new(("phase", says, self.mend.to_owned()), mended))
+        Hypothesis::of_model(problem, &model, ("phase", says, self.mend.to_owned()))
     }
 
     fn of(&self, term: &Term) -> Term {

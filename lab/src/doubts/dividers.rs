@@ -24,11 +24,8 @@ pub fn divider_doubt(machine: &Machine) -> Option<Doubt> {
 pub(super) fn other_dividers(problem: &Problem) -> Option<Hypothesis> {
     let (says, mend, machine) = misfit(&problem.model)?;
     let model = Model { machine, effects: problem.model.effects.clone() };
-    let mended = Problem::new(&model, &problem.measurement).ok()?;
-    let alike = mended.has_rows_of(problem);
-    let usual = slope(&mended) - slope(problem);
-    let mended = Problem { layout: problem.layout.clone(), ..mended };
-    alike.then(|| Hypothesis { usual, ..Hypothesis::new(("dividers", says, mend), mended) })
+    let one = Hypothesis::of_model(problem, &model, ("dividers", says, mend))?;
+    Some(Hypothesis { usual: slope(&one.mended) - slope(problem), ..one })
 }
 
 /// Twice the log probability of the slope that is left, but for a constant.

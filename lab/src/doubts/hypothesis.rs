@@ -91,6 +91,14 @@ impl Hypothesis {
         }
     }
 
+    /// A mistake in the machine file; `None` when the data cannot be laid out alike by the mended one.
+    pub(super) fn of_model(problem: &Problem, model: &Model, words: Words) -> Option<Self> {
+        let mended = Problem::new(model, &problem.measurement).ok()?;
+        let alike = mended.has_rows_of(problem);
+        let mended = Problem { layout: problem.layout.clone(), ..mended };
+        alike.then(|| Self::new(words, mended))
+    }
+
     /// A mistake in a measurement; `None` when the mended one cannot be laid out alike.
     pub(super) fn of_measurement(
         problem: &Problem,
@@ -130,12 +138,11 @@ pub(super) fn another_machine(problem: &Problem) -> Option<Hypothesis> {
     let effects = problem.model.effects.len();
     let held = |term: &&Term| term.needs().iter().any(|name| problem.measurement.holds(name));
     let told = problem.model.effects.iter().filter(|term| !held(term)).count();
+    if told < MACHINE_OF_EFFECTS {
+        return None;
+    }
     let bare = Model { effects: Vec::new(), ..problem.model.clone() };
-    let mended = Problem::new(&bare, &problem.measurement).ok()?;
     let says = format!("none of the file's {effects} effects is in the data: is it this machine?");
     let mend = "take the machine file that belongs to the data".to_owned();
-    (MACHINE_OF_EFFECTS <= told && mended.has_rows_of(problem)).then(|| {
-        let mended = Problem { layout: problem.layout.clone(), ..mended };
-        Hypothesis::new(("another-machine", says, mend), mended)
-    })
+    Hypothesis::of_model(problem, &bare, ("another-machine", says, mend))
 }

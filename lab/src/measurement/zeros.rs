@@ -10,9 +10,7 @@ use super::samples::Measurement;
 use crate::numerics::{count, mean, spread};
 use crate::policy::chance::SIGNIFICANCE;
 use crate::policy::extent::FEWEST_ZEROS;
-
-/// Places that count as one, against the travel.
-const ONE_PLACE: f64 = 1e-6;
+use crate::policy::reading::ONE_PLACE;
 
 /// Place, direction and value of a reading.
 type Reading = (f64, f64, f64);

@@ -7,9 +7,7 @@ use super::problem::Problem;
 use crate::numerics::{median, spread};
 use crate::policy::evidence::{FEW_TARGETS, PASSING, VISITS, VISITS_OF_FEW};
 use crate::policy::extent::ROWS_A_COLUMN;
-
-/// Places that count as one, against the travel.
-const ONE_PLACE: f64 = 1e-6;
+use crate::policy::reading::ONE_PLACE;
 
 /// Values that are more than a place apart, lowest first.
 #[must_use]

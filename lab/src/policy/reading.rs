@@ -10,6 +10,11 @@ pub(crate) const FEWEST_SAMPLES: usize = 16;
 /// Chosen. Doubled: captures of four to seven pulses are refused here, and not as too few samples.
 pub(crate) const FEWEST_PULSES: usize = 4;
 
+/// Places that count as one, against the travel.
+///
+/// Chosen: a file's digits round to less. Doubled: nothing moves.
+pub(crate) const ONE_PLACE: f64 = 1e-6;
+
 /// Fringes a line, over what the dividers say, beyond which the trains are not those of this
 /// machine: a wrong line count is a few per cent, exchanged signals and most wrong leads are more.
 ///
