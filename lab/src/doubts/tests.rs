@@ -262,7 +262,6 @@ fn mercury_is_told(known: &Model, weather: Table, noise_um: f64) {
     assert!(what == "unit" && mend.contains("mmhg"), "{what} {mend}");
 }
 
-/// 1008 hPa swinging by two are 756 mmHg: a slope of 69 µm/m, which anything may have, and a little more.
 /// A door that was opened and shut, logged by a clock that is a quarter of a minute fast or slow; a recorder's lag would
 /// delay waves too.
 #[test]
@@ -290,6 +289,7 @@ fn a_log_by_another_clock_is_told() {
     }
 }
 
+/// 1008 hPa swinging by two are 756 mmHg: a slope of 69 µm/m, which anything may have, and a little more.
 #[test]
 fn millimetres_of_mercury_are_told_by_the_slope_that_they_make() {
     let known = machine(150, "[[effect]]\nkind = 'air-pressure'\n");
