@@ -25,7 +25,7 @@ mod swap;
 mod view;
 mod worst_pass;
 
-use crate::model::Problem;
+use crate::model::{Problem, noises_of};
 use crate::policy::extent::SEARCHED_ROWS;
 
 use court::Court;
@@ -81,14 +81,16 @@ fn contradicting(problem: &Problem) -> Vec<Doubt> {
 
 fn hypotheses(problem: &Problem) -> Vec<Hypothesis> {
     let odd = worst_pass::worst_pass(problem);
+    // Of waves on a drift, either the noise of the file as it is or that of neighbours tells more.
+    let noises = [noises_of(problem, &problem.residual()), view::rough_noises(problem)];
     let mut all = column::units(problem, odd);
     all.extend(column::signs(problem, odd));
     all.extend(swap::swaps(problem));
-    all.extend(shift::shifts(problem, odd));
+    all.extend(shift::shifts(problem, odd, &noises));
     all.extend(dividers::other_dividers(problem));
     if !follows_steps(problem) {
-        all.extend(factor::factors(problem, odd));
-        all.extend(late::late_logs(problem));
+        all.extend(factor::factors(problem, odd, &noises));
+        all.extend(late::late_logs(problem, &noises));
         all.extend(convention::conventions(problem));
         all.extend(hypothesis::another_machine(problem));
     }

@@ -11,16 +11,20 @@ use super::common::{curves, slopes};
 use super::doubt::{of_pass_read, recipe};
 use super::hypothesis::Hypothesis;
 use super::law::size_of_error;
-use super::view::{View, rough_noises};
+use super::view::View;
 use crate::measurement::sensor_column;
-use crate::model::{Columns, Problem, Stage, noises_of};
+use crate::model::{Columns, Problem, Stage};
 use crate::noise::Noise;
 use crate::numerics::count;
 use crate::policy::mistakes::MACHINE_OF_EFFECTS;
 use crate::policy::size::WORTHWHILE_UM;
 
 /// Every sign and unit that a sensor's column may have been written with, all of it or the odd pass.
-pub(super) fn factors(problem: &Problem, odd: Option<usize>) -> Vec<Hypothesis> {
+pub(super) fn factors(
+    problem: &Problem,
+    odd: Option<usize>,
+    noises: &[Vec<Noise>],
+) -> Vec<Hypothesis> {
     if !predicts_a_shape(problem) {
         return Vec::new();
     }
@@ -33,7 +37,7 @@ pub(super) fn factors(problem: &Problem, odd: Option<usize>) -> Vec<Hypothesis> 
             factors.iter().filter_map(|one| one.of_pass(problem, index, column, *pass))
         }));
         all.extend(factors.into_iter().map(|one| one.of_column(problem, index, column)));
-        let odd_ones = odd_factors(problem, index, known).into_iter();
+        let odd_ones = odd_factors(problem, index, known, noises).into_iter();
         all.extend(
             odd_ones
                 .map(|one| Hypothesis { numbers: 1.0, ..one.of_column(problem, index, column) }),
@@ -93,14 +97,18 @@ fn slips(column: &LoggedColumn) -> [Factor; 4] {
     })
 }
 
-/// The factor of no unit that brings what the file predicts nearest to the data, under the noise of the file as
-/// it is and that of neighbours. One effect alone may have another size.
-fn odd_factors(problem: &Problem, sensor: usize, column: &'static LoggedColumn) -> Vec<Factor> {
+/// The factor of no unit that brings what the file predicts nearest to the data, under each noise. One effect
+/// alone may have another size.
+fn odd_factors(
+    problem: &Problem,
+    sensor: usize,
+    column: &'static LoggedColumn,
+    noises: &[Vec<Noise>],
+) -> Vec<Factor> {
     if problem.model.effects.len() < MACHINE_OF_EFFECTS {
         return Vec::new();
     }
     let predicted = problem.of_rows(sensor, |row| problem.predicted[row]);
-    let noises = [noises_of(problem, &problem.residual()), rough_noises(problem)];
     let factor = |noises: &[Noise]| {
         let stage = Stage::new(problem, &slopes(problem), noises);
         let more = stage.gain(&Columns::free(vec![predicted.clone()])).fit.coefficients[0];

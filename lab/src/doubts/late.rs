@@ -3,24 +3,23 @@
 use helixlock_plant::{Bridging, LOGGED_COLUMNS};
 
 use super::hypothesis::{Hypothesis, Words};
-use super::shift::{best, moved};
-use super::view::rough_noises;
+use super::shift::{best, moved, stages};
 use crate::measurement::Measurement;
-use crate::model::{Columns, Problem, Stage, noises_of};
+use crate::model::{Problem, Stage};
+use crate::noise::Noise;
 use crate::numerics::spread;
 use crate::policy::mistakes::{LATE_PLACES, LATEST};
 
 /// For the logs that the file's effects need, each alone and all of them, the lateness that brings what the file
-/// predicts nearest to the data, under the noise of the file as it is and that of neighbours.
-pub(super) fn late_logs(problem: &Problem) -> Vec<Hypothesis> {
+/// predicts nearest to the data, under each noise.
+pub(super) fn late_logs(problem: &Problem, noises: &[Vec<Noise>]) -> Vec<Hypothesis> {
     let measurement = &problem.measurement;
     let runs_on = measurement.time_s.windows(2).all(|pair| pair[0] <= pair[1]);
     let needed = needed(problem);
     if !measurement.timed || !runs_on || needed.is_empty() {
         return Vec::new();
     }
-    let noises = [noises_of(problem, &problem.residual()), rough_noises(problem)];
-    let stages = noises.map(|noises| Stage::new(problem, &Columns::default(), &noises));
+    let stages = stages(problem, noises);
     let all = (1 < needed.len()).then(|| needed.clone());
     let sets = needed.iter().map(|name| vec![*name]).chain(all);
     sets.flat_map(|set| hypotheses(&stages, &set)).collect()

@@ -6,10 +6,9 @@ use rayon::prelude::*;
 
 use super::hypothesis::{Hypothesis, Words};
 use super::law::follows_from_clock;
-use super::view::rough_noises;
 use crate::measurement::Measurement;
-use crate::model::{Columns, Gain, Problem, Stage, noises_of};
-use crate::noise::rms;
+use crate::model::{Columns, Gain, Problem, Stage};
+use crate::noise::{Noise, rms};
 use crate::numerics::{count, golden_maximum};
 use crate::policy::mistakes::{A_PLACE, NEAR_THE_BEST_DOUBT, SHIFT_TURNS, WORTH_A_FIT};
 
@@ -37,17 +36,24 @@ enum Zero {
 
 /// For each zero the shift that brings what the file predicts nearest to the data; none where nothing
 /// that it predicts depends on it.
-pub(super) fn shifts(problem: &Problem, odd: Option<usize>) -> Vec<Hypothesis> {
+pub(super) fn shifts(
+    problem: &Problem,
+    odd: Option<usize>,
+    noises: &[Vec<Noise>],
+) -> Vec<Hypothesis> {
     let (rotary, effects) = (problem.measurement.rotary, &problem.model.effects);
     if effects.is_empty() || rotary && follows_from_clock(&problem.measurement, &problem.model) {
         return Vec::new();
     }
-    // Of waves on a drift, either the noise of the file as it is or that of neighbours tells more.
-    let noises = [noises_of(problem, &problem.residual()), rough_noises(problem)];
-    let stages = noises.map(|noises| Stage::new(problem, &Columns::default(), &noises));
+    let stages = stages(problem, noises);
     let of_all: &[Zero] = if rotary { &[Zero::All] } else { &[Zero::All, Zero::FarEnd] };
     let zeros = of_all.iter().copied().chain(odd.map(Zero::Pass));
     zeros.flat_map(|zero| hypotheses(&stages, zero)).collect()
+}
+
+/// A problem under each noise.
+pub(super) fn stages<'a>(problem: &'a Problem, noises: &[Vec<Noise>]) -> Vec<Stage<'a>> {
+    noises.iter().map(|noises| Stage::new(problem, &Columns::default(), noises)).collect()
 }
 
 /// The best shift of a zero under either noise; both pay for as many looks.
