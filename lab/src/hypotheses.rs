@@ -3,6 +3,7 @@
 
 mod agreement;
 mod alternating;
+mod bursts;
 mod calibration;
 mod candidates;
 mod chirps;

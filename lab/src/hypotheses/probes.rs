@@ -4,6 +4,7 @@
 //! noise fitted anew on both sides, says whether something is left, and its shape says what.
 
 use super::alternating::alternating;
+use super::bursts::bursts;
 use super::calibration;
 use super::chirps::chirps;
 use super::common_curve::common_curve;
@@ -163,6 +164,7 @@ pub(crate) fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> V
     all.extend(waves::lines(problem, model, fit));
     all.extend(waves::bands(problem, fit));
     all.extend(chirps(problem, model, fit));
+    all.extend(bursts(problem, model, fit));
     all.extend(step(problem, model, fit));
     all.push(alternating(problem, model, fit));
     all.extend(covariates(problem, model, fit));

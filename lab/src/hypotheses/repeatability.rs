@@ -110,7 +110,14 @@ fn transformed(correlation: f64, deviation: f64) -> f64 {
 
 /// The rows of a pass from one reversal to the next.
 pub(super) fn from_turn_to_turn(problem: &Problem, rows: Range<usize>) -> Vec<Range<usize>> {
-    let direction = |row: usize| problem.record.direction[problem.samples[row]];
+    between_turns(rows, |row| problem.record.direction[problem.samples[row]])
+}
+
+/// The same by the directions alone.
+pub(super) fn between_turns(
+    rows: Range<usize>,
+    direction: impl Fn(usize) -> f64,
+) -> Vec<Range<usize>> {
     let turns = rows.clone().skip(1).filter(|&row| direction(row) * direction(row - 1) < 0.0);
     let ends: Vec<usize> = turns.chain([rows.end]).collect();
     let starts = std::iter::once(rows.start).chain(ends.iter().copied());

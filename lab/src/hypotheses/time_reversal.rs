@@ -11,6 +11,7 @@
 //! sum of what the pairs differ by is held against all signs that these might have had, by
 //! Chernoff's bound: no law of the noise is needed, and no number of samples.
 
+use super::repeatability::between_turns;
 use crate::model::{Fit, Problem};
 use crate::noise::rms;
 use crate::numerics::{count, golden_maximum, mean};
@@ -52,21 +53,18 @@ impl Pair {
 #[must_use]
 pub(super) fn one_way(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
     let noise_um = rms(&problem.layout, &fit.left);
-    let blocks: Vec<(&[f64], f64)> = problem
-        .layout
-        .blocks
-        .iter()
-        .map(|block| {
-            let first = problem.samples[block.rows.start];
-            let way = if problem.record.direction[first] < 0.0 { -1.0 } else { 1.0 };
-            (&fit.left[block.rows.clone()], way)
-        })
+    // Behind a reversal jumps go the other way.
+    let way = |row: usize| problem.record.direction[problem.samples[row]];
+    let blocks = problem.layout.blocks.iter();
+    let strokes = blocks.flat_map(|block| between_turns(block.rows.clone(), way));
+    let strokes: Vec<(&[f64], f64)> = strokes
+        .map(|rows| (&fit.left[rows.clone()], if way(rows.start) < 0.0 { -1.0 } else { 1.0 }))
         .collect();
-    let (size, chance) = judged(&blocks)?;
+    let (size, chance) = judged(&strokes)?;
     Some((noise_um * size, chance))
 }
 
-/// Size of the jumps against the noise, and the chance, over some passes and their ways.
+/// Size of the jumps against the noise, and the chance, over some strokes and their ways.
 fn judged(blocks: &[(&[f64], f64)]) -> Option<(f64, f64)> {
     let both_ways = blocks.iter().any(|(_, way)| *way < 0.0) && blocks.iter().any(|b| 0.0 < b.1);
     let mut looked = 0.0;
@@ -228,5 +226,16 @@ mod tests {
         let blocks = [(&passes[0][..], 1.0), (&passes[1][..], -1.0), (&passes[2][..], 1.0)];
         let (_, chance) = judged(&blocks).unwrap();
         assert!(chance < 1e-5, "{chance}");
+
+        // The same in one pass, there and back and there again.
+        let joined = passes.concat();
+        let way = |row: usize| if row / 300 == 1 { -1.0 } else { 1.0 };
+        let strokes: Vec<(&[f64], f64)> = between_turns(0..joined.len(), way)
+            .into_iter()
+            .map(|rows| (&joined[rows.clone()], way(rows.start)))
+            .collect();
+        let chance_of = |strokes: &[(&[f64], f64)]| judged(strokes).unwrap().1;
+        let (by_strokes, whole) = (chance_of(&strokes), chance_of(&[(&joined, 1.0)]));
+        assert!(by_strokes < 1e-5 && 1e-3 < whole, "{by_strokes} {whole}");
     }
 }

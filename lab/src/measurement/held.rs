@@ -33,7 +33,12 @@ impl Measurement {
             self.covariates.get(name).filter(|_| LoggedColumn::named(name).is_some_and(steady));
         values.is_some_and(|values| {
             ROWS_A_READING * changes(&self.time_s, &[values]).len() < values.len()
+                && !self.rests_with_the_axis(values)
         })
+    }
+
+    fn rests_with_the_axis(&self, values: &Column) -> bool {
+        rests_with([&self.position_mm, &self.angle_rev], values)
     }
 
     /// The same with held readings joined by straight lines, and a note on each.
@@ -41,13 +46,20 @@ impl Measurement {
     /// One instrument reads several quantities at a time: a column of few changes follows the clock
     /// that all of them follow together.
     pub(super) fn without_holds(mut self) -> Self {
-        let steady = || LOGGED_COLUMNS.iter().filter(|column| column.bridging != Bridging::Never);
+        let is_read = |column: &&LoggedColumn| {
+            column.bridging != Bridging::Never
+                && self
+                    .covariates
+                    .get(column.name)
+                    .is_some_and(|values| !self.rests_with_the_axis(values))
+        };
+        let read: Vec<&LoggedColumn> = LOGGED_COLUMNS.iter().filter(is_read).collect();
         let logged: Vec<&Column> =
-            steady().filter_map(|column| self.covariates.get(column.name)).collect();
+            read.iter().map(|column| &self.covariates[column.name]).collect();
         let common = Clock::of(&self.time_s, &logged);
-        for LoggedColumn { name, bridging, .. } in steady() {
+        for LoggedColumn { name, bridging, .. } in read {
             let goes_on = *bridging != Bridging::WithinPasses;
-            let Some(values) = self.covariates.get(*name) else { continue };
+            let values = &self.covariates[*name];
             let shared = || common.filter(|clock| clock.is_kept(&self.time_s, values));
             let Some(clock) = Clock::of(&self.time_s, &[values]).or_else(shared) else { continue };
             let mut joined = Vec::with_capacity(values.len());
@@ -253,6 +265,19 @@ fn changes(time: &[f64], columns: &[&Column]) -> Vec<Change> {
     (1..time.len()).filter(differs).map(|row| [time[row - 1], time[row]]).collect()
 }
 
+/// True for a log that changes hardly anywhere but where an axis moves, which rests in between: what follows the
+/// travel then rests as well, and no instrument held it.
+fn rests_with(axis: [&Column; 2], values: &Column) -> bool {
+    let differs = |column: &Column, row: usize| column[row].to_bits() != column[row - 1].to_bits();
+    let moves = |row: &usize| axis.iter().any(|column| differs(column, *row));
+    let rows = 1..values.len();
+    let share = count(rows.clone().filter(moves).count()) / count(rows.len().max(1));
+    let changes: Vec<usize> = rows.filter(|&row| differs(values, row)).collect();
+    let with_it = count(changes.iter().filter(|row| moves(row)).count());
+    let by_accident = with_it * libm::log(share);
+    AT_A_TICK * count(changes.len()) <= with_it && by_accident < libm::log(BY_ACCIDENT)
+}
+
 /// Usual interval of rows.
 fn interval(time: &[f64]) -> f64 {
     let mut intervals: Vec<f64> = time.windows(2).map(|pair| pair[1] - pair[0]).collect();
@@ -269,6 +294,19 @@ mod tests {
 
     fn clock_of(time: &[f64], values: &[f64]) -> Option<Clock> {
         Clock::of(time, &[&values.to_vec().into()])
+    }
+
+    /// An axis that rests for five rows at each of forty targets.
+    #[test]
+    fn what_follows_an_axis_rests_with_it() {
+        let place = |row: usize| count(row / 5);
+        let column = |of: &dyn Fn(usize) -> f64| (0..200).map(of).collect::<Column>();
+        let (steps, moving) = (column(&place), column(&count));
+        let pitch = column(&|row| libm::sin(place(row)));
+        let thermometer = column(&|row| truth(count(row / 7)));
+        assert!(rests_with([&steps, &steps], &pitch));
+        assert!(!rests_with([&steps, &steps], &thermometer));
+        assert!(!rests_with([&moving, &moving], &pitch));
     }
 
     /// 1200 rows at uneven instants within 900 s.

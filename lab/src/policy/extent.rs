@@ -388,6 +388,13 @@ pub(crate) const NO_LINE: f64 = 2.0;
 /// Chosen. Doubled: twice the time.
 pub(crate) const SETTLED_BENDS: usize = 3;
 
+/// Parts of the travel, or of a pass, that waves may be in alone, and the fewest rows of one.
+///
+/// Chosen: a wave in half of a record is a line of it; three columns a run leave five rows for its noise. Doubled:
+/// eighths and sixteenths; a wave in a quarter of the rows is seen in half of them.
+pub(crate) const PARTS_WITH_A_BURST: [u8; 2] = [4, 8];
+pub(crate) const FEWEST_ROWS_OF_A_BURST: usize = 8;
+
 /// Stretches of a pass that may be slow or not, each number of them a look, and their fewest rows.
 ///
 /// Chosen: passes, halves and quarters; a stretch of fewer rows has less than eight frequencies. Doubled: passes of
