@@ -21,6 +21,7 @@ mod late;
 mod law;
 mod readings;
 mod shift;
+mod slip;
 mod swap;
 mod view;
 mod worst_pass;
@@ -91,6 +92,7 @@ fn hypotheses(problem: &Problem) -> Vec<Hypothesis> {
     if !follows_steps(problem) {
         all.extend(factor::factors(problem, odd, &noises));
         all.extend(late::late_logs(problem, &noises));
+        all.extend(slip::slips(problem));
         all.extend(convention::conventions(problem));
         all.extend(hypothesis::another_machine(problem));
     }

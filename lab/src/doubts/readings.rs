@@ -8,7 +8,7 @@ use crate::measurement::{Measurement, sensor_column};
 use crate::model::Problem;
 use crate::numerics::count;
 use crate::policy::mistakes::{
-    COPIED_ROWS, CUT_OFF_RUN, CUT_OFF_RUNS, CUT_OFF_VALUES, DIFFERENT, MOST_ROWS_COPIED,
+    COPIED_ROWS, CUT_OFF_RUN, CUT_OFF_RUNS, CUT_OFF_VALUES, DIFFERENT, DOUBT, MOST_ROWS_COPIED,
     NEXT_VALUES, OFTENER_THAN_BEFORE,
 };
 
@@ -30,7 +30,8 @@ fn readings(measurement: &Measurement, row: usize) -> Vec<u64> {
     measurement.observations.values().map(|values| values[row].to_bits()).collect()
 }
 
-/// A pass whose readings are those of an earlier one, in the same order, or those and a constant.
+/// A pass whose readings are those of an earlier one, in the same order, or those and a constant: which rows of a
+/// coarse display are by accident, as often as those of other passes.
 fn copied_pass(measurement: &Measurement, passes: &[Range<usize>]) -> Option<Doubt> {
     let mut alike: BTreeMap<_, Vec<&Range<usize>>> = BTreeMap::new();
     let (first, again, apart) =
@@ -42,11 +43,12 @@ fn copied_pass(measurement: &Measurement, passes: &[Range<usize>]) -> Option<Dou
             earlier.push(again);
             found.filter(|_| DIFFERENT <= different(measurement, again))
         })?;
+    let evidence = no_accident(measurement, passes, again)?;
     let name = |rows: &Range<usize>| measurement.pass_names[measurement.pass[rows.start]];
     let (first, name) = (name(first), name(again));
     Some(Doubt {
         what: "copy",
-        evidence: said_by(again.len()),
+        evidence,
         says: match apart {
             Apart::Nothing => {
                 format!("the readings of pass {name} are those of pass {first} to the last digit")
@@ -57,6 +59,31 @@ fn copied_pass(measurement: &Measurement, passes: &[Range<usize>]) -> Option<Dou
         },
         mend: format!("leave pass {name} out"),
     })
+}
+
+/// Evidence of a pass that is another to the last digit, against rows that each are so as often as those of any two
+/// other passes of their length, `None` where that is not enough; without such, no oftener than every second time.
+fn no_accident(
+    measurement: &Measurement,
+    passes: &[Range<usize>],
+    copy: &Range<usize>,
+) -> Option<f64> {
+    let others: Vec<&Range<usize>> =
+        passes.iter().filter(|rows| *rows != copy && rows.len() == copy.len()).collect();
+    let alike = |pair: &[&Range<usize>]| {
+        let rows = pair[0].clone().zip(pair[1].clone());
+        rows.filter(|(one, other)| readings(measurement, *one) == readings(measurement, *other))
+            .count()
+    };
+    let pairs = others.len().saturating_sub(1);
+    if pairs == 0 {
+        return Some(said_by(copy.len()));
+    }
+    let so = count(others.windows(2).map(alike).sum());
+    let share = (so + 1.0) / (count(pairs * copy.len()) + 1.0);
+    let looks = count(passes.len() * passes.len());
+    let evidence = -2.0 * (count(copy.len()) * libm::log(share) + libm::log(looks));
+    (DOUBT < evidence).then_some(evidence)
 }
 
 /// Length and first step of a pass, but for its rounding: a copy has the same.

@@ -480,6 +480,55 @@ fn copies_are_told_and_what_was_measured_again_is_none() {
     assert_eq!(doubted(&bare, &doubled).expect("a doubt").0, "copy");
 }
 
+/// Five passes over sixteen targets, the last as the first, on a display of 0.5 µm.
+#[test]
+fn a_coarse_display_copies_nothing() {
+    let bare = machine(150, "");
+    let shown = |noise_um: f64| {
+        let mut chance = ChaCha8Rng::seed_from_u64(3);
+        let mut flickers = || -> f64 {
+            let fresh: f64 = StandardNormal.sample(&mut chance);
+            0.5 * libm::round(noise_um * fresh / 0.5)
+        };
+        let places: Vec<f64> = (0..16).map(|target| 20.0 * f64::from(target)).collect();
+        let mut errors: Vec<f64> =
+            (0..64).map(|row| 0.5 * f64::from(row % 16 * (row % 16) % 7) + flickers()).collect();
+        errors.extend_from_within(..16);
+        let column = |name: &str, values| Column { name: name.to_owned(), values };
+        Table::new(vec![
+            column("pass", (0..80).map(|row| f64::from(row / 16 + 1)).collect()),
+            column("time_s", (0..80).map(|row| 20.0 * f64::from(row)).collect()),
+            column("position_mm", places.repeat(5)),
+            column("error_um", errors),
+        ])
+    };
+    let copied =
+        |noise_um| doubted(&bare, &shown(noise_um)).is_some_and(|(what, _)| what == "copy");
+    assert!(!copied(0.1), "hardly a reading flickers");
+    assert!(copied(1.0), "one in five is as in the last pass");
+}
+
+/// A column that was pasted three rows too low.
+#[test]
+fn a_slipped_column_is_told_by_its_rows() {
+    let known = machine(150, WAVES);
+    let mut slipped = measured(&known);
+    for column in &mut slipped.columns {
+        let back: Vec<f64> = column.values.iter().rev().copied().collect();
+        column.values.extend(back);
+    }
+    let rows = slipped.rows();
+    let mut passes = Vec::with_capacity(rows);
+    for row in 0..rows {
+        passes.push(if row < rows / 2 { 1.0 } else { 2.0 });
+        slipped.columns[1].values[row] = crate::numerics::count(row);
+    }
+    slipped.columns[3].values.rotate_right(3);
+    slipped.columns.push(Column { name: "pass".to_owned(), values: passes });
+    let (what, mend) = doubted(&known, &slipped).expect("a doubt");
+    assert_eq!((what, mend.as_str()), ("shift", "move `error_um` up by 3 rows in every pass"));
+}
+
 /// A wave that ends at the instrument's range; one whose peaks the display rounds; runs that begin and end at zero.
 #[test]
 fn readings_cut_off_are_told_and_rounded_ones_are_none() {
