@@ -22,6 +22,7 @@ mod law;
 mod readings;
 mod shift;
 mod slip;
+mod stuck;
 mod swap;
 mod view;
 mod worst_pass;
@@ -77,7 +78,8 @@ fn contradicting(problem: &Problem) -> Vec<Doubt> {
     let measurement = &problem.measurement;
     let clock = clock::contradicted(measurement, &problem.model);
     let readings = readings::of_no_instrument(problem);
-    direction::denied(measurement).into_iter().chain(clock).chain(readings).collect()
+    let stuck = stuck::stuck(measurement);
+    direction::denied(measurement).into_iter().chain(clock).chain(readings).chain(stuck).collect()
 }
 
 fn hypotheses(problem: &Problem) -> Vec<Hypothesis> {

@@ -508,6 +508,29 @@ fn a_coarse_display_copies_nothing() {
     assert!(copied(1.0), "one in five is as in the last pass");
 }
 
+/// An indicator that sticks for eight rows; one that is rounded, and one that rests while the axis does.
+#[test]
+fn a_sensor_that_sticks_is_told() {
+    let known = machine(150, WAVES);
+    let held = |step: f64, parked: bool| {
+        let mut table = measured(&known);
+        for row in 0..table.rows() {
+            let from = if (200..208).contains(&row) { 200 } else { row };
+            let error = table.columns[3].values[from];
+            table.columns[3].values[row] = step * libm::round(error / step);
+            if parked {
+                table.columns[0].values[row] = 0.5 * crate::numerics::count(from);
+            }
+        }
+        doubted(&known, &table)
+    };
+    let (what, mend) = held(1e-6, false).expect("a doubt");
+    assert_eq!(what, "stuck");
+    assert!(mend.starts_with("leave the rows with `time_s` from 166.6"), "{mend}");
+    assert_eq!(held(1.0, false), None, "rounded");
+    assert_eq!(held(1e-6, true), None, "parked");
+}
+
 /// A column that was pasted three rows too low.
 #[test]
 fn a_slipped_column_is_told_by_its_rows() {

@@ -12,7 +12,7 @@ use super::finer::{Finer, interval_s};
 use crate::measurement::{Measurement, spacing};
 use crate::noise::{Block, Layout, outlier_inflation};
 use crate::numerics::{count, highest_frequency, median};
-use crate::policy::extent::MOST_BETWEEN;
+use crate::policy::extent::{MOST_BETWEEN, SEARCHED_ROWS};
 use crate::policy::reading::{MOST_TOLD, WRITTEN_INTERVAL};
 use crate::policy::size::{FINEST_SENSOR_UM, ONE_SPEED, SAMPLES_OFF, SWINGS};
 
@@ -216,10 +216,11 @@ impl Problem {
         self.sensors.len() == other.sensors.len() && self.samples == other.samples
     }
 
-    /// What a free number costs as evidence (Bayesian information criterion).
+    /// What a free number costs as evidence (Bayesian information criterion): rows beyond those that are searched
+    /// tell no more of what their means do not.
     #[must_use]
     pub(crate) fn price_of_a_number(&self) -> f64 {
-        libm::log(count(self.samples.len()).max(3.0))
+        libm::log(count(self.samples.len().min(SEARCHED_ROWS)).max(3.0))
     }
 
     /// Design column, row by row, of an effect whose δ at every sample is given.
