@@ -32,7 +32,7 @@ use crate::numerics::{chi_squared_tail, count, spread};
 use crate::policy::chance::{MANY_COLUMNS, NAMED, PROBES, SIGNIFICANCE};
 use crate::policy::extent::{
     BUMP_ORDER, COLUMNS_OF_PASSES, CURVE_OF_A_LOG, CURVE_OF_A_PASS, CURVE_ORDER, HARMONICS,
-    ROWS_A_COLUMN, WAVE_ORDER,
+    ROWS_A_COLUMN, SLOWEST_WAVES, WAVE_ORDER,
 };
 use crate::policy::size::{FAR_ABOVE, LOOP_JUMP, SHARE_OF_NOISE};
 use crate::spectrum::Line;
@@ -85,6 +85,9 @@ pub(crate) fn no_larger_than(left_um: f64, told: &mut [Structure]) {
         one.rms_um = one.rms_um.min(left_um);
     }
 }
+
+/// Seconds of a day.
+const A_DAY_S: f64 = 86_400.0;
 
 /// Words for what targets show.
 const AT_TARGETS: &str = "own error of each target, at every visit";
@@ -146,6 +149,7 @@ pub(crate) fn is_left(problem: &Problem, fit: &Fit, structure: &Structure) -> bo
 pub(crate) fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
     let mut all = smooth(problem, model, fit);
     all.extend(cyclic_shapes(problem, model, fit));
+    all.extend(daily(problem, model, fit));
     all.extend(repeats(problem, fit));
     all.extend(in_common(problem, fit));
     all.extend(at_targets(problem, model, fit));
@@ -433,6 +437,20 @@ fn cyclic_shapes(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure
             .drawn_by(raw)
     };
     problem.shafts().into_iter().map(of).collect()
+}
+
+/// What comes back with every day, in a record of more than one: of all waves the one that is known beforehand.
+fn daily(problem: &Problem, model: &Columns, fit: &Fit) -> Option<Structure> {
+    let days: Vec<f64> = problem.record.time_s.iter().map(|time| time / A_DAY_S).collect();
+    if !problem.measurement.timed || spread(&days) < SLOWEST_WAVES {
+        return None;
+    }
+    let raw = stacked(problem, &turning(&days, 1.0));
+    let (rms_um, p_value) = probe(problem, model, fit, &raw);
+    Some(
+        Structure::without_place("time", "shape that repeats each day", rms_um, p_value)
+            .drawn_by(raw),
+    )
 }
 
 /// Sines and cosines of the first harmonics.
