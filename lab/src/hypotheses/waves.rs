@@ -81,7 +81,7 @@ pub(super) struct Cyclic {
     pub(super) highest: f64,
 }
 
-/// The spindle's turns, and time, which is travel in a single pass.
+/// The spindle's turns, and time, which is travel in a single pass of one way and speed.
 pub(super) fn cyclic(problem: &Problem) -> Vec<Cyclic> {
     let mut axes = vec![Cyclic {
         along: "position",
@@ -89,7 +89,7 @@ pub(super) fn cyclic(problem: &Problem) -> Vec<Cyclic> {
         values: problem.record.turns().collect(),
         highest: problem.highest_order(),
     }];
-    if 1 < problem.record.passes().len() && problem.measurement.timed {
+    if problem.measurement.timed && !time_is_travel(problem) {
         axes.push(Cyclic {
             along: "time",
             frequency: "frequency in time",
@@ -98,4 +98,9 @@ pub(super) fn cyclic(problem: &Problem) -> Vec<Cyclic> {
         });
     }
     axes
+}
+
+fn time_is_travel(problem: &Problem) -> bool {
+    let one_way = problem.record.direction.windows(2).all(|pair| 0.0 <= pair[0] * pair[1]);
+    problem.record.passes().len() == 1 && one_way && problem.velocity_rpm().is_none()
 }
