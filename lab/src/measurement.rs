@@ -7,6 +7,7 @@ mod coordinates;
 mod error;
 mod headers;
 mod held;
+mod measurand;
 mod passes;
 mod plausible;
 mod pulse_trains;

@@ -8,7 +8,9 @@ use helixlock_plant::prediction::Sensor;
 use helixlock_plant::{COVARIATES, Column, LoggedColumn, Machine, Part, Samples};
 use helixlock_traces::{Table, TextColumn};
 
+use super::coordinates::Coordinates;
 use super::error::LabError;
+use super::measurand::Measurand;
 use super::{coordinates, headers, passes, plausible};
 use crate::numerics::{spread, weighted_median};
 use crate::policy::reading::FEWEST_SAMPLES;
@@ -369,7 +371,7 @@ pub(super) fn names(table: &Table) -> String {
 fn assemble(
     table: &Table,
     nominal: &Nominal,
-    coordinates: &coordinates::Coordinates,
+    coordinates: &Coordinates,
     passes: passes::Passes,
     mut notes: Vec<String>,
 ) -> Measurement {
@@ -392,7 +394,7 @@ fn assemble(
             "the axis stands still: nothing that depends on its travel can be told".to_owned(),
         );
     }
-    let covariates = covariates(table, nominal, &passes, &mut notes);
+    let covariates = covariates(table, nominal, (coordinates, &passes), &mut notes);
     if nominal.closed && covariates.contains_key("steps") {
         notes.push("the steps are known and taken off: the error is that without them".to_owned());
     }
@@ -431,10 +433,20 @@ fn counts_on(values: &[f64], pass: &[usize]) -> bool {
 fn covariates(
     table: &Table,
     nominal: &Nominal,
-    passes: &passes::Passes,
+    (coordinates, passes): (&Coordinates, &passes::Passes),
     notes: &mut Vec<String>,
 ) -> BTreeMap<String, Column> {
     let mut known = BTreeMap::new();
+    let rows = &passes.rows;
+    let pick = |values: &[f64]| -> Vec<f64> { rows.iter().map(|&row| values[row]).collect() };
+    let Coordinates { angle_rev, position_mm, .. } = coordinates;
+    let position = pick(if nominal.rotary { angle_rev } else { position_mm });
+    let error = table.column(sensor_column(Sensor::Recorder, nominal.rotary)).map(pick);
+    let is_position = |values: &[f64]| {
+        let Nominal { rotary, .. } = *nominal;
+        let of = |error| Measurand { rotary, position: &position, error, pass: &passes.pass };
+        error.as_ref().is_some_and(|error| of(error).is(values))
+    };
     let covariate = |name: &str| {
         if name == deviation_column(nominal) {
             return false;
@@ -448,7 +460,7 @@ fn covariates(
             notes.push("column `steps` is left out: the machine file has no `[drive]`".to_owned());
             continue;
         }
-        let values: Vec<f64> = passes.rows.iter().map(|&row| column.values[row]).collect();
+        let values = pick(&column.values);
         if !values.iter().any(|value| value.is_finite()) {
             notes.push(format!("column `{}` is empty and left out", column.name));
             continue;
@@ -457,6 +469,13 @@ fn covariates(
             if counts_on(&values, &passes.pass) {
                 let name = &column.name;
                 notes.push(format!("column `{name}` counts on from row to row and is left out"));
+                continue;
+            }
+            if is_position(&values) {
+                let name = &column.name;
+                notes.push(format!(
+                    "column `{name}` is the position as it was measured, and is left out"
+                ));
                 continue;
             }
             notes.push(format!("column `{}` is not known and kept as a covariate", column.name));

@@ -150,6 +150,17 @@ pub(crate) const OFF_THE_LATTICE: f64 = 0.02;
 /// in four changes keeps its treads.
 pub(crate) const CHANGES_A_LEAP: usize = 2;
 
+/// Share of an error that rounding leaves of it where it is worked out of the position that was measured.
+///
+/// Derived: steps of a tenth of its size leave a thirty-fifth. Doubled: so do steps of a fifth.
+pub(crate) const SHARE_OF_ROUNDING: f64 = 0.03;
+
+/// Share of the travel that two gauges of one axis may differ by.
+///
+/// Chosen: an axis that is off by more of its way is not measured but repaired. Doubled: a column in millimetres
+/// that grows with the position by a fiftieth more or less is the position.
+pub(crate) const SHARE_OF_TRAVEL: f64 = 0.01;
+
 /// Chance, of a log that changes at any time, to change at the ticks of some clock as often as one
 /// that is taken to follow it.
 ///

@@ -1,0 +1,110 @@
+//! Columns that are what was measured: the error was worked out of them and the position.
+
+use crate::numerics::least_squares::{dot, fit, left};
+use crate::numerics::mean;
+use crate::policy::reading::{SHARE_OF_ROUNDING, SHARE_OF_TRAVEL};
+
+/// How many of a column make a millimetre, or a turn.
+const OF_A_MILLIMETRE: [f64; 4] = [1.0, 1000.0, 0.001, 1.0 / 25.4];
+const OF_A_TURN: [f64; 4] = [1.0, 360.0, std::f64::consts::TAU, ARCSEC_A_TURN];
+
+const ARCSEC_A_TURN: f64 = 1_296_000.0;
+const UM_A_MM: f64 = 1000.0;
+
+/// What was measured, and where: `position` in mm or turns, `error` in µm or arcsec.
+pub(super) struct Measurand<'a> {
+    pub(super) rotary: bool,
+    pub(super) position: &'a [f64],
+    pub(super) error: &'a [f64],
+    pub(super) pass: &'a [usize],
+}
+
+impl Measurand<'_> {
+    /// True for a column that is the position, as another gauge or the one that the error is of has measured
+    /// it, each pass from a zero of its own.
+    ///
+    /// Either it is that in a unit of length, or angle, to within what a machine may be off; or so much of it
+    /// as makes a micrometre of position makes one of error. A cause may follow the position or the error, and
+    /// the one by accident as closely as it will, but not both by the same number.
+    pub(super) fn is(&self, column: &[f64]) -> bool {
+        let known: Vec<usize> = (0..self.pass.len())
+            .filter(|&row| column[row].is_finite() && self.error[row].is_finite())
+            .collect();
+        let [column, position, error] = [column, self.position, self.error]
+            .map(|values| about_means(values, &known, self.pass));
+        if dot(&position, &position) <= 0.0 {
+            return false;
+        }
+        let scale = dot(&column, &position) / dot(&position, &position);
+        let rest = left(&[&position], &column, &[scale]);
+        let units = if self.rotary { OF_A_TURN } else { OF_A_MILLIMETRE };
+        let is_unit = |unit: f64| (scale.abs() - unit).abs() <= SHARE_OF_TRAVEL * unit;
+        if units.into_iter().any(is_unit) && is_share(SHARE_OF_TRAVEL, &rest, &column) {
+            return true;
+        }
+        // Of the rest, for the column itself and the position would be one to a fit.
+        let both = [position.as_slice(), rest.as_slice()];
+        let sizes = fit(&both, &error).coefficients;
+        let off = left(&both, &error, &sizes);
+        let unit = if self.rotary { ARCSEC_A_TURN } else { UM_A_MM };
+        let of_position = (sizes[0] - sizes[1] * scale).abs() / unit;
+        (of_position - 1.0).abs() <= SHARE_OF_ROUNDING && is_share(SHARE_OF_ROUNDING, &off, &error)
+    }
+}
+
+/// True for a part that is at most a share of a whole.
+fn is_share(share: f64, part: &[f64], whole: &[f64]) -> bool {
+    dot(part, part) <= share * share * dot(whole, whole)
+}
+
+/// Values of some rows, each about the mean of its pass.
+fn about_means(values: &[f64], rows: &[usize], pass: &[usize]) -> Vec<f64> {
+    let of_pass = |rows: &[usize]| -> Vec<f64> {
+        let own: Vec<f64> = rows.iter().map(|&row| values[row]).collect();
+        let mean = mean(&own);
+        own.iter().map(|value| value - mean).collect()
+    };
+    rows.chunk_by(|&a, &b| pass[a] == pass[b]).flat_map(of_pass).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Places 10 mm apart, what is found there in µm, and the pass; two passes of 20.
+    fn visits() -> (Vec<f64>, Vec<f64>, Vec<usize>) {
+        let row = |row: u32| (10.0 * f64::from(row % 20), 1.7 * libm::sin(f64::from(row * row)));
+        let (place, error) = (0..40).map(row).unzip();
+        (place, error, (0..40).map(|row| row / 20).collect())
+    }
+
+    fn is_measured(column: impl Fn(f64, f64) -> f64) -> bool {
+        let (position, error, pass) = visits();
+        let column: Vec<f64> = position.iter().zip(&error).map(|(x, e)| column(*x, *e)).collect();
+        Measurand { rotary: false, position: &position, error: &error, pass: &pass }.is(&column)
+    }
+
+    /// As a laser's reading beside the target, of five digits, in inches, and in counts of the other sign.
+    #[test]
+    fn the_reading_that_an_error_was_worked_out_of_is_no_cause() {
+        let rounded = |mm: f64| (1e5 * mm).round() * 1e-5;
+        assert!(is_measured(|place, error| rounded(place - 1e-3 * error)));
+        assert!(is_measured(|place, error| (place - 1e-3 * error) / 25.4));
+        assert!(is_measured(|place, error| 7.0 - 8192.0 * (place + 1e-3 * error)));
+    }
+
+    /// As a motor's encoder that does not see what a screw adds.
+    #[test]
+    fn the_position_by_another_gauge_is_no_cause() {
+        assert!(is_measured(|place, error| 3.0 + place - 1e-3 * libm::cos(error)));
+    }
+
+    /// A temperature that the error follows to the last digit, one that follows the place as well, and
+    /// one that grows with the place alone.
+    #[test]
+    fn what_goes_along_with_an_error_may_be_its_cause() {
+        assert!(!is_measured(|_, error| 20.0 + 0.3 * error));
+        assert!(!is_measured(|place, error| 20.0 + 0.01 * place + 0.3 * error));
+        assert!(!is_measured(|place, _| 20.0 + 0.01 * place));
+    }
+}
