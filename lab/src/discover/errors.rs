@@ -25,10 +25,11 @@ pub(super) fn errors(problem: &Problem, state: &State, index: usize) -> Vec<Opti
     let linear = likelihood.linear(&sizes, &nonlinear);
     let columns = component.design(problem).map_or_else(|_| Vec::new(), |(all, _)| all.columns);
     let all_um = rms(&problem.layout, &problem.residual());
-    // An error that moves the curve by more than all there is says that others draw it as well.
+    // An error that moves the curve by more than all there is says that others draw it as well, and so does
+    // none at all: what others draw has no fit.
     let held = |(stderr, column): (f64, &Column)| {
         let moved_um = stderr * rms(&problem.layout, &about_means(&problem.layout, column));
-        (moved_um < all_um).then_some(stderr)
+        (0.0 < stderr && moved_um < all_um).then_some(stderr)
     };
     let (mut linear, mut sizes) = (linear.into_iter().zip(&columns).map(held), sizes.into_iter());
     let parameters = component.term.parameters.iter();

@@ -92,7 +92,11 @@ impl<'a> Stage<'a> {
     fn beside_model(&self, mut white: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
         for column in &mut white {
             column.resize(self.target.len(), 0.0);
+            let before = dot(column, column);
             project(&self.basis, column);
+            if dot(column, column) <= ROUNDING * before {
+                column.fill(0.0);
+            }
         }
         white
     }
@@ -123,6 +127,9 @@ impl<'a> Stage<'a> {
     }
 }
 
+/// Share of a column's square that is rounding when others have been taken out of it.
+const ROUNDING: f64 = 1e-12;
+
 /// Orthonormal vectors that span the columns (modified Gram–Schmidt, done twice).
 fn orthonormal(columns: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
@@ -131,7 +138,7 @@ fn orthonormal(columns: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
         project(&basis, &mut column);
         project(&basis, &mut column);
         let after = dot(&column, &column);
-        if 1e-12 * before < after {
+        if ROUNDING * before < after {
             let scale = 1.0 / after.sqrt();
             for value in &mut column {
                 *value *= scale;
