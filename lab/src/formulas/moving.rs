@@ -8,7 +8,7 @@ use super::grammar::{periods, shape, unknown};
 use super::quantities::{Quantities, about_middle, from_start, lowest, of};
 use super::shape::Shape;
 use crate::numerics::{by_factors, count, evenly, spread};
-use crate::policy::extent::RUN_IN;
+use crate::policy::extent::{LONGEST_WAVE, RUN_IN};
 
 /// First width of a knock, against the distance of two; it is refined.
 pub(super) const KNOCK: f64 = 0.07;
@@ -214,7 +214,7 @@ fn wave_of_changing_length(all: &Quantities) -> Shape {
     let (period, per_unit) =
         (all.in_unit("period_mm", "period_rev"), all.in_unit("growth_per_mm", "growth_per_rev"));
     shape("wave of changing length", all.way(), "a belt that creeps, a mesh of uneven pitch")
-        .unknown(period, &x.dimension, periods(range, 1.0, 12.0, 23))
+        .unknown(period, &x.dimension, periods(range, LONGEST_WAVE, 12.0, 23))
         .unknown(per_unit, &x.dimension.to_the(-1), growth)
         .wave("amplitude", "phase_rad", None, turns(angle))
 }

@@ -10,7 +10,7 @@ use super::quantities::{Quantities, about_mean, of, shaft_turns};
 use super::shape::{Band, Shape};
 use crate::model::Problem;
 use crate::numerics::{evenly, spread, usual_rate};
-use crate::policy::extent::{SLOWEST_WAVES, TURNS};
+use crate::policy::extent::{LONGEST_WAVE, SLOWEST_WAVES, TURNS};
 use crate::spectrum::gear_orders;
 
 /// Shapes that come with every turn of a shaft and are no sine.
@@ -64,7 +64,7 @@ pub(super) fn waves(all: &Quantities, problem: &Problem) -> Vec<Shape> {
     let mut shapes = Vec::new();
     let over = &all.turns;
     let highest = problem.highest_order().min(0.5 * usual_rate(&over.values));
-    let lowest = SLOWEST_WAVES / spread(&over.values).max(f64::MIN_POSITIVE);
+    let lowest = LONGEST_WAVE / spread(&over.values).max(f64::MIN_POSITIVE);
     if let Some(band) = Band::new(over.values.clone(), [lowest, highest]) {
         let physics = "a shaft, wheel or belt that the machine file does not list";
         let mut wave = shape("sine of an order", "spindle angle", physics)

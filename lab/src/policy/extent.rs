@@ -112,6 +112,12 @@ pub(crate) const MOST_OF_A_TURN: f64 = 0.9;
 /// less than three waves are left to the smooth curves.
 pub(crate) const SLOWEST_WAVES: f64 = 1.5;
 
+/// Waves over the record of the longest that a formula has, of one length or of a changing one.
+///
+/// Chosen: of a part of a wave a cube is as good a formula. Doubled: the one wave of a gear's turn is a wave of
+/// neither.
+pub(crate) const LONGEST_WAVE: f64 = 1.0;
+
 /// Highest frequency looked at, against the usual rate of sampling.
 ///
 /// Chosen. Doubled: twice the looks, for which every line pays 1.4.
