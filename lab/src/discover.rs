@@ -2,6 +2,7 @@
 //! effects, and what it proposes.
 
 mod errors;
+mod held;
 mod proposal;
 mod search;
 

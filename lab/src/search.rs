@@ -18,7 +18,7 @@ mod suspected;
 mod together;
 mod uneven;
 
-pub(crate) use analysis::{Step, search, take_for_a_shape};
+pub(crate) use analysis::{Step, search, take_for_a_shape, tried_beside};
 pub(crate) use beside_the_rest::not_told;
 pub(crate) use court::{Claim, claims, hear, nobodys};
 pub(crate) use judging::plain_noises;

@@ -21,6 +21,7 @@ use crate::policy::chance::{AT_AN_END, STANDARD_ERRORS};
 use crate::policy::extent::{COARSER, COMPARED_ROWS, FEWEST_COARSE, SEARCHED_ROWS};
 use crate::search::{
     Dropped, Refusal, Rivals, Step, hear, nobodys, not_told, pruned, rivals, suspected,
+    tried_beside,
 };
 
 /// What can be said about a model and a measurement.
@@ -274,16 +275,6 @@ fn thinned_away(problem: &Problem, small: &Problem, last: &State) -> Vec<Structu
     let compared = thinned.as_ref().unwrap_or(problem);
     let state = last.on(compared);
     state.map_or_else(Vec::new, |state| waves_left(compared, &state.columns, &state.fit))
-}
-
-/// What was tried beside the effects of the last model, though others may have come and gone since.
-fn tried_beside(steps: &[Step]) -> &[Judged] {
-    let names = |step: &Step| -> Vec<String> {
-        step.state.components.iter().map(|one| one.term.name.clone()).collect()
-    };
-    let last = steps.last().map(names);
-    let same = |step: &&Step| !step.tried.is_empty() && Some(names(step)) == last;
-    steps.iter().rfind(same).map_or(&[], |step| &step.tried)
 }
 
 /// Adds what rivals effects without beating them.

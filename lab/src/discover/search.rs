@@ -1,24 +1,23 @@
 //! The search for formulas: named effects first, then the grammar in their place and beside them,
 //! one formula a round until what is left is noise.
 
-use helixlock_plant::Role;
-
-use super::errors::errors;
+use super::held::is_held;
 use super::proposal::{Granted, Proposal};
 use crate::answer::{Advice, FittedEffect, apart, effects};
 use crate::doubts::{Doubt, doubts_and_suspects};
 use crate::formulas::{Delta, Shape, formulas};
 use crate::hypotheses::{
-    Structure, at_targets, is_left, no_all_clear, samples_a_pass, slow_cause, structures,
+    Structure, at_targets, disagreements, is_left, no_all_clear, samples_a_pass, slow_cause,
+    slow_without, structures,
 };
 use crate::model::{Columns, Component, Problem, State, helps_unseen, holdout_rms};
 use crate::noise::rms;
-use crate::policy::chance::{SIGNIFICANCE, STANDARD_ERRORS};
+use crate::policy::chance::SIGNIFICANCE;
 use crate::policy::evidence::MARGIN;
 use crate::policy::extent::{MOST_FORMULAS, SEARCHED_ROWS};
 use crate::search::{
-    Claim, Rivals, Step, claims, in_place_of, paid, paid_by_formula, polished, rivals, search,
-    suspected,
+    Claim, Rivals, Step, claims, hear, in_place_of, nobodys, paid, paid_by_formula, polished,
+    rivals, search, suspected, tried_beside,
 };
 
 /// Runners-up that experiments are to tell from a proposal.
@@ -87,7 +86,7 @@ pub fn discover(problem: &Problem) -> Discovery {
         return doubtful(problem, doubts);
     }
     let mut small = problem.thinned(SEARCHED_ROWS).unwrap_or_else(|| problem.clone());
-    let (named, steps) = Now::named(&mut small);
+    let (named, mut steps) = Now::named(&mut small);
     if let Some(doubt) = suspected(&small, &named.state, &named.found, &suspects).doubt {
         return doubtful(problem, vec![doubt]);
     }
@@ -96,9 +95,11 @@ pub fn discover(problem: &Problem) -> Discovery {
     let of_targets = now.of_targets(problem, &small, &steps);
     if of_targets.is_some() {
         small = small.with_targets_free();
-        now = Now::named(&mut small).0.with_formulas(&small, &shapes);
+        let (named, beside_targets) = Now::named(&mut small);
+        now = named.with_formulas(&small, &shapes);
+        steps = beside_targets;
     }
-    let mut answer = now.told(problem, &small);
+    let mut answer = now.told(problem, &small, &steps);
     if let Some(own_errors) = of_targets {
         answer.residual.push(own_errors);
         answer.found = Found::Unexplained;
@@ -217,8 +218,31 @@ impl Now {
         }
     }
 
+    /// What is left that is not noise, as `diagnose` asks for it: of a model without formulas what may not be
+    /// named, too, which else one would have explained.
+    fn left(&self, small: &Problem, steps: &[Step]) -> Vec<Structure> {
+        let State { columns, fit, .. } = &self.state;
+        let is_named = self.granted.is_empty();
+        let mut left = structures(small, columns, fit);
+        if is_named {
+            left.extend(nobodys(small, steps));
+            left.extend(hear(small, &self.state, &self.found).winner.map(|won| won.shown));
+        }
+        if is_named && left.is_empty() {
+            left.extend(slow_without(small, &self.state, tried_beside(steps)));
+        }
+        left.extend(disagreements(small, &self.state));
+        // Of so many shapes one follows slow noise: beside it none is believed to be noise.
+        let slow = match (is_named, left.is_empty()) {
+            (true, _) => no_all_clear(small, &self.state, &left),
+            (false, nothing_else) => nothing_else.then(|| slow_cause(small, fit)).flatten(),
+        };
+        left.extend(slow);
+        left
+    }
+
     /// The answer, fitted to all rows.
-    fn told(&self, problem: &Problem, small: &Problem) -> Discovery {
+    fn told(&self, problem: &Problem, small: &Problem, steps: &[Step]) -> Discovery {
         let mut whole = problem.clone();
         let state = if small.samples.len() == problem.samples.len() {
             whole = small.clone();
@@ -240,16 +264,11 @@ impl Now {
         }
         experiments.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
         let mut answer = told(&whole, &state);
+        answer.residual = self.left(small, steps);
+        if answer.residual.is_empty() {
+            answer.residual.extend(answer.no_gain());
+        }
         answer.effects.truncate(named);
-        answer.residual = structures(small, &self.state.columns, &self.state.fit);
-        let slow = if self.granted.is_empty() {
-            no_all_clear(small, &self.state, &answer.residual)
-        } else {
-            // Of so many shapes one follows slow noise: beside it none is believed to be noise.
-            let nothing_else = answer.residual.is_empty();
-            nothing_else.then(|| slow_cause(small, &self.state.fit)).flatten()
-        };
-        answer.residual.extend(slow);
         answer.found = match (proposals.is_empty(), answer.residual.is_empty()) {
             (_, false) => Found::Unexplained,
             (false, true) => Found::Formula,
@@ -257,6 +276,17 @@ impl Now {
             (true, true) => Found::Name,
         };
         Discovery { proposals, experiments, ..answer }
+    }
+}
+
+impl Discovery {
+    /// What is left where effects and formulas leave no less than there was, of all rows or of held-out ones.
+    fn no_gain(&self) -> Option<Structure> {
+        let no_less = |[before, after]: [f64; 2]| before <= after;
+        let is_vain = no_less(self.rms_um) || no_less(self.holdout_rms_um);
+        let shape = "no less than there was";
+        (!self.effects.is_empty() && is_vain)
+            .then(|| Structure::without_place("time", shape, self.rms_um[1], 1.0))
     }
 }
 
@@ -295,18 +325,6 @@ fn kept_out(problem: &Problem, state: &State, claim: &Claim<'_>) -> Option<&'sta
     (!left).then_some("too small to change a figure")
 }
 
-/// True unless every size of a component is lost in its error, as where the samples meet a wave always
-/// at the same two phases.
-fn is_held(problem: &Problem, state: &State, index: usize) -> bool {
-    let term = state.components[index].valued(state.coefficients(index).0);
-    let sizes = term.parameters.iter().zip(&term.values).zip(errors(problem, state, index));
-    let mut sizes =
-        sizes.filter(|((what, _), _)| matches!(what.role, Role::Linear | Role::Amplitude));
-    sizes.any(|((_, value), stderr)| {
-        stderr.is_some_and(|stderr| STANDARD_ERRORS * stderr < value.abs())
-    })
-}
-
 /// The claim that is most ahead of those that may join; where others in its place cannot be told
 /// from it, the one of the fewest numbers: a late relation with hardly any lateness is a straight
 /// one.
@@ -327,14 +345,16 @@ fn is_same(a: &Claim<'_>, b: &Claim<'_>) -> bool {
 mod tests {
     use std::path::Path;
 
-    use helixlock_plant::Model;
+    use helixlock_plant::{Entry, Model};
     use helixlock_traces::{Column, Table};
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
     use rand_distr::{Distribution, StandardNormal};
 
+    use super::super::held::takes_its_share;
     use super::*;
     use crate::measurement::{Measurement, Nominal};
+    use crate::model::Stage;
 
     const MACHINE: &str = r#"
 [workpiece]
@@ -395,6 +415,28 @@ frequency = "160 Hz"
             let stderr = one.stderr.expect("an error");
             assert!((one.value - at_mm).abs() < 2.0 * stderr, "{one:?} {at_mm}");
         }
+    }
+
+    /// Whether a step does whose sizes are so many times those that leave least.
+    fn step_takes_its_share(times: f64) -> bool {
+        let problem = problem(1, |x| if x < 201.0 { 0.0 } else { 10.0 });
+        let bare = State::bare(&problem);
+        let shapes = formulas(&problem);
+        let shape = shapes.iter().find(|shape| shape.words == "step at one place").expect("a step");
+        let stage = Stage::new(&problem, &bare.columns, &bare.fit.noises);
+        let placed = shape.best(&stage, Entry::Motion).expect("a place");
+        let step = Component::new(placed.term("step").expect("a term"));
+        let mut model = State::settled(&problem, vec![step], &bare.fit.noises).expect("a fit");
+        model.fit.linear.coefficients.iter_mut().for_each(|size| *size *= times);
+        model.fit.left = model.columns.left(&problem.residual(), &model.fit.linear.coefficients);
+        takes_its_share(&problem, &model, 0)
+    }
+
+    /// As under noise that follows the curve, which leaves of it what one sample differs from the next.
+    #[test]
+    fn what_leaves_more_than_least_squares_would_does_not_take_its_share() {
+        assert!(step_takes_its_share(1.0) && step_takes_its_share(0.4));
+        assert!(!step_takes_its_share(0.25) && !step_takes_its_share(-1.0));
     }
 
     #[test]

@@ -66,6 +66,17 @@ pub(crate) fn take_for_a_shape(problem: &mut Problem, steps: &mut Vec<Step>) {
     }
 }
 
+/// What was tried beside the effects of the last model, though others may have come and gone since.
+#[must_use]
+pub(crate) fn tried_beside(steps: &[Step]) -> &[Judged] {
+    let names = |step: &Step| -> Vec<String> {
+        step.state.components.iter().map(|one| one.term.name.clone()).collect()
+    };
+    let last = steps.last().map(names);
+    let same = |step: &&Step| !step.tried.is_empty() && Some(names(step)) == last;
+    steps.iter().rfind(same).map_or(&[], |step| &step.tried)
+}
+
 /// The step from a model to the one with effects more, the last of which is judged beside the others;
 /// `None`, and outliers marked as before, where one of them is dropped at once: it would only be found again.
 fn with_more(problem: &mut Problem, names: &[&str], now: &State, last: &Judged) -> Option<Step> {
