@@ -162,6 +162,39 @@ fn waves_whose_frequency_changes_evenly_are_no_noise() {
     }
 }
 
+/// Chatter over 70 mm of 600, in each pass from another phase: of the whole it is a hundredth.
+#[test]
+fn waves_in_one_stretch_are_no_noise() {
+    let chatter = |nth: usize, mm: f64| {
+        let turn = [0.3, 2.1, 4.4, 1.2, 5.6, 3.3][nth];
+        if (250.0..320.0).contains(&mm) { 0.45 * libm::sin(0.31 * mm + turn) } else { 0.0 }
+    };
+    for seed in seeds(1, 4) {
+        let found = six_passes(seed, &chatter);
+        assert_eq!(found.verdict, Verdict::Unexplained, "{seed}");
+        assert!(tells(&found, "waves in one stretch"), "{seed}: {:?}", found.residual.len());
+    }
+}
+
+/// Three days in one pass, a hall that warms by noon: noise of three waves' slowness draws it.
+#[test]
+fn what_comes_back_each_day_is_no_slow_noise() {
+    for seed in seeds(1, 4) {
+        let mut noise = white(seed, 0.4);
+        let mut columns = [const { Vec::new() }; 3];
+        for row in 0..360 {
+            let time_s = 720.0 * f64::from(row);
+            let noon = libm::sin(std::f64::consts::TAU * time_s / 86_400.0).max(0.0);
+            let cells = [time_s, f64::from(row), 1.6 * noon + noise()];
+            columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+        }
+        let titles = ["time_s", "position_mm", "error_um"];
+        let found = diagnosed(titles.into_iter().zip(columns).collect());
+        assert_eq!(found.verdict, Verdict::Unexplained, "{seed}");
+        assert!(tells(&found, "repeats each day"), "{seed}: {:?}", found.residual.len());
+    }
+}
+
 /// Samples that a scratch lifts by forty deviations, one in eleven: an outlier weighs little, but these
 /// all stand at one angle. As many at any angle are bad readings.
 #[test]
