@@ -1,6 +1,8 @@
 //! Lines in time above what the samples resolve: at the comparisons of two speeds one frequency
 //! shows at two places, and only itself at both.
 
+use rayon::prelude::*;
+
 use crate::model::Problem;
 use crate::numerics::count;
 use crate::policy::evidence::MARGIN;
@@ -36,12 +38,13 @@ pub(crate) fn unfolded(
     let multiples = rates.iter().flat_map(|rate| (1..=RATES).map(move |k| f64::from(k) * rate));
     let beyond = multiples
         .flat_map(|multiple| lines.iter().flat_map(move |line| [multiple - line, multiple + line]));
-    let mut beyond: Vec<(f64, f64)> = beyond
-        .filter(|hertz| scan.highest < *hertz && scan.tells(*hertz))
-        .map(|hertz| (hertz, scan.gain(white, hertz)))
-        .collect();
+    let beyond: Vec<f64> = beyond.filter(|hertz| scan.highest < *hertz).collect();
+    let with_gain = |hertz: &f64| (*hertz, scan.gain(white, *hertz));
+    let mut beyond: Vec<(f64, f64)> = beyond.par_iter().map(with_gain).collect();
     beyond.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let settled = beyond.iter().take(SETTLED).map(|(hertz, _)| scan.settled(white, *hertz));
+    // What the samples tell takes several times as long as a gain, and is asked of the best only.
+    let told = beyond.iter().filter(|(hertz, _)| scan.tells(*hertz));
+    let settled = told.take(SETTLED).map(|(hertz, _)| scan.settled(white, *hertz));
     let (hertz, gain) = settled.max_by(|a, b| a.1.total_cmp(&b.1))?;
     let price = 2.0 * libm::log(2.0 * count(lines.len() * rates.len()) * f64::from(RATES));
     (as_they_are + MARGIN + price < gain).then_some(hertz)
