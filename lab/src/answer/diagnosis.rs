@@ -159,12 +159,18 @@ pub fn diagnose(problem: &Problem) -> Diagnosis {
     if !doubts.is_empty() {
         return doubtful(problem, doubts);
     }
-    let fine = searched(problem, &suspects, SEARCHED_ROWS);
+    let searched = search_on_all_rows(problem, SEARCHED_ROWS);
+    let fine = answered(searched, &suspects, SEARCHED_ROWS);
     let rows = problem.samples.len().min(SEARCHED_ROWS) / COARSER;
     if fine.verdict != Verdict::Unexplained || rows < FEWEST_COARSE {
         return fine;
     }
-    let coarse = searched(problem, &suspects, rows);
+    // What follows a search takes effects out and adds none.
+    let searched = search_on_all_rows(problem, rows);
+    if !fine.may_grow_to(&searched) {
+        return fine;
+    }
+    let coarse = answered(searched, &suspects, rows);
     if coarse.adds_to(&fine) { coarse } else { fine }
 }
 
@@ -172,16 +178,30 @@ impl Diagnosis {
     /// True when it has all names that another one has, each as often, and waves beside them: of a curve at one
     /// place, few rows do not tell what is left beside it.
     fn adds_to(&self, known: &Self) -> bool {
-        let last = |one: &Self| -> Vec<FittedEffect> {
-            one.rounds.last().map_or_else(Vec::new, |last| last.effects.clone())
-        };
-        let mut more = last(self);
-        let is_there = |effect: &FittedEffect| {
-            let place = more.iter().position(|other| other.name == effect.name);
-            place.map(|place| more.swap_remove(place)).is_some()
-        };
-        let known = last(known);
-        known.iter().all(is_there) && !more.is_empty() && more.iter().all(|one| one.term.is_wave())
+        let more = known.missing_of(self.last_effects().iter().collect(), |effect| &effect.name);
+        more.is_some_and(|more| !more.is_empty() && more.iter().all(|one| one.term.is_wave()))
+    }
+
+    /// True when a search has found all of its names and more.
+    fn may_grow_to(&self, searched: &Searched) -> bool {
+        let found = searched.steps.last().map_or(&[][..], |last| &last.state.components);
+        let more = self.missing_of(found.iter().collect(), |component| &component.term.name);
+        more.is_some_and(|more| !more.is_empty())
+    }
+
+    /// Those of a list whose names it lacks, each as often; `None` where the list lacks one of its own.
+    fn missing_of<'a, T>(&self, list: Vec<&'a T>, name: fn(&T) -> &str) -> Option<Vec<&'a T>> {
+        let mut more = list;
+        for effect in self.last_effects() {
+            let place = more.iter().position(|other| name(other) == effect.name)?;
+            more.swap_remove(place);
+        }
+        Some(more)
+    }
+
+    /// Effects of the final model.
+    fn last_effects(&self) -> &[FittedEffect] {
+        self.rounds.last().map_or(&[], |last| &last.effects)
     }
 }
 
@@ -203,10 +223,9 @@ fn doubtful(problem: &Problem, doubts: Vec<Doubt>) -> Diagnosis {
     }
 }
 
-/// The answer of a search on so many rows.
-fn searched(problem: &Problem, suspects: &[Suspect], rows: usize) -> Diagnosis {
-    let Searched { small, problem, mut steps, mut states, of_targets } =
-        search_on_all_rows(problem, rows);
+/// The answer that a search on so many rows leads to.
+fn answered(searched: Searched, suspects: &[Suspect], rows: usize) -> Diagnosis {
+    let Searched { small, problem, mut steps, mut states, of_targets } = searched;
     let last = &steps[steps.len() - 1].state;
     let mut found = rivals(&small, last, &steps[0].tried);
     let mut residual = structures(&small, &last.columns, &last.fit);
