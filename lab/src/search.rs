@@ -13,6 +13,7 @@ mod polish;
 mod pruning;
 mod refusal;
 mod rivals;
+mod seats;
 mod span;
 mod suspected;
 mod together;

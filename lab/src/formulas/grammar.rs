@@ -188,7 +188,9 @@ frequency = "160 Hz"
         for shape in &all {
             let told = format!("{} along {}", shape.words, shape.along);
             assert!(shape.written(Delta::Micrometres).is_some(), "{told}: unlike units");
-            let Some(placed) = shape.best(&stage, Entry::Motion) else { continue };
+            let Some(placed) = shape.best(&[&stage], Entry::Motion).pop().flatten() else {
+                continue;
+            };
             let term = placed.term("formula").expect(&told);
             let effect = term.effect(&problem.model, &problem.record.columns).expect(&told);
             let shown = problem.column(Entry::Motion, &effect.deltas_um(&problem.record));

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::dimension::Dimension;
 use super::expression::{Expression, Function, Unknown, call};
-use crate::model::{Columns, Gain, Problem, Stage};
+use crate::model::{Columns, Problem, Stage};
 use crate::numerics::{Looks, count, product};
 use crate::policy::evidence::NO_SINE_PRICE;
 use crate::spectrum::{Scan, strongest_first};
@@ -177,21 +177,39 @@ impl Shape {
         rare + count(self.sizes()) * of_a_size
     }
 
-    /// The best of it on what a stage's model leaves; `None` when it takes nothing away.
-    pub(crate) fn best(&self, stage: &Stage<'_>, entry: Entry) -> Option<Placed<'_>> {
-        let mut axes: Vec<Vec<f64>> = self.unknowns.iter().map(|one| one.axis.clone()).collect();
-        if let Some(band) = &self.scan {
-            axes[0] = band.strongest(stage);
-        }
-        let mut placed = self.best_of(stage, entry, &product(&axes))?;
+    /// The best of it on what each of some stages leaves; `None` where it takes nothing away.
+    pub(crate) fn best(&self, stages: &[&Stage<'_>], entry: Entry) -> Vec<Option<Placed<'_>>> {
+        let coarse: Vec<Option<Placed<'_>>> = match &self.scan {
+            None => self.best_of(stages, entry, &product(&self.axes())),
+            Some(band) => {
+                // Each stage leaves lines of its own.
+                let of = |stage: &&Stage<'_>| {
+                    let mut axes = self.axes();
+                    axes[0] = band.strongest(stage);
+                    self.best_of(&[stage], entry, &product(&axes)).pop().flatten()
+                };
+                stages.par_iter().map(of).collect()
+            }
+        };
+        let refined = |(placed, stage): (Option<_>, &&Stage<'_>)| self.refined(stage, placed?);
+        coarse.into_par_iter().zip(stages).map(refined).collect()
+    }
+
+    /// Values of each unknown that are tried.
+    fn axes(&self) -> Vec<Vec<f64>> {
+        self.unknowns.iter().map(|one| one.axis.clone()).collect()
+    }
+
+    /// It at better numbers near those of a grid; `None` when it takes nothing away.
+    fn refined<'a>(&'a self, stage: &Stage<'_>, coarse: Placed<'a>) -> Option<Placed<'a>> {
+        let mut placed = coarse;
         let steps = self.steps(&placed.values);
         for round in 0..ROUNDS * i32::from(!steps.is_empty()) {
             let share = FINER.powi(-round);
             let steps: Vec<f64> = steps.iter().map(|step| share * step).collect();
-            let near = self.best_of(stage, entry, &around(&placed.values, &steps));
-            if let Some(near) = near.filter(|near| placed.gain < near.gain) {
-                placed = near;
-            }
+            let near = self.best_of(&[stage], placed.entry, &around(&placed.values, &steps));
+            let better = near.into_iter().flatten().find(|near| placed.gain < near.gain);
+            placed = better.unwrap_or(placed);
         }
         (0.0 < placed.gain).then_some(placed)
     }
@@ -205,16 +223,39 @@ impl Shape {
         self.unknowns.iter().enumerate().map(of).collect()
     }
 
-    fn best_of(&self, stage: &Stage<'_>, entry: Entry, grid: &[Vec<f64>]) -> Option<Placed<'_>> {
-        let of = move |some: &'_ [Vec<f64>]| -> Option<((Vec<f64>, Columns), Gain)> {
+    /// The best place of a grid on each of some stages, which share its columns.
+    fn best_of(
+        &self,
+        stages: &[&Stage<'_>],
+        entry: Entry,
+        grid: &[Vec<f64>],
+    ) -> Vec<Option<Placed<'_>>> {
+        let Some(problem) = stages.first().map(|stage| stage.problem) else { return Vec::new() };
+        let of = |some: &[Vec<f64>]| -> Vec<Option<Placed<'_>>> {
             let columns: Vec<Columns> =
-                some.iter().map(|values| self.columns(stage.problem, entry, values)).collect();
-            let gains = stage.gains(&columns.iter().collect::<Vec<_>>());
-            let best = some.iter().cloned().zip(columns).zip(gains);
-            best.max_by(|a, b| a.1.gain.total_cmp(&b.1.gain))
+                some.iter().map(|values| self.columns(problem, entry, values)).collect();
+            stages.iter().map(|stage| self.best_at(stage, entry, some, &columns)).collect()
         };
-        let best = grid.par_chunks(TOGETHER).filter_map(of).collect::<Vec<_>>().into_iter();
-        let ((values, columns), gain) = best.max_by(|a, b| a.1.gain.total_cmp(&b.1.gain))?;
+        let parts: Vec<Vec<Option<Placed<'_>>>> = grid.par_chunks(TOGETHER).map(of).collect();
+        let of_stage = |nth: usize| {
+            let found = parts.iter().filter_map(|part| part[nth].as_ref());
+            found.max_by(|a, b| a.gain.total_cmp(&b.gain)).cloned()
+        };
+        (0..stages.len()).map(of_stage).collect()
+    }
+
+    /// The best of some places, whose columns are known, on a stage.
+    fn best_at(
+        &self,
+        stage: &Stage<'_>,
+        entry: Entry,
+        places: &[Vec<f64>],
+        columns: &[Columns],
+    ) -> Option<Placed<'_>> {
+        let gains = stage.gains(&columns.iter().collect::<Vec<_>>());
+        let all = places.iter().zip(columns).zip(gains);
+        let ((values, columns), gain) = all.max_by(|a, b| a.1.gain.total_cmp(&b.1.gain))?;
+        let (values, columns) = (values.clone(), columns.clone());
         let at = self.placed.then(|| values[0]);
         let coefficients = gain.fit.coefficients;
         Some(Placed { shape: self, values, entry, columns, coefficients, gain: gain.gain, at })

@@ -8,6 +8,7 @@
 use std::collections::BTreeSet;
 
 use helixlock_plant::{CATALOGUE, Column, Entry};
+use rayon::prelude::*;
 
 use super::acceptance::chance_in_any_noise;
 use super::analysis::Step;
@@ -16,6 +17,7 @@ use super::judging::plain_noises;
 use super::likeness::is_slope;
 use super::refusal::Refusal;
 use super::rivals::Rivals;
+use super::seats::{self, Seat, Tried};
 use super::span::{Span, shown};
 use super::uneven;
 use crate::formulas::{Placed, Shape, nameless};
@@ -23,7 +25,7 @@ use crate::hypotheses::{Structure, chance_with_tails, is_left};
 use crate::model::{
     Columns, Component, Fit, Judged, Problem, Stage, State, noises_of, settle, with_noise,
 };
-use crate::noise::{about_means, rms};
+use crate::noise::{Noise, about_means, rms};
 use crate::numerics::{Looks, chi_squared_tail, count};
 use crate::policy::chance::{NO_ALL_CLEAR, SIGNIFICANCE};
 use crate::policy::evidence::{MARGIN, SHAPE};
@@ -66,12 +68,10 @@ pub(crate) fn hear(problem: &Problem, state: &State, found: &[Rivals]) -> Heard 
     let shapes = nameless(problem);
     let court = Court::new(problem, state, found, &shapes, (SHORTLIST, MOST_PLACES));
     let mut heard = Heard::default();
-    for group in court.groups() {
-        let Some(base) = court.without(&group) else { continue };
-        let claims = court.claims(&group, &base);
-        heard.witnesses.extend(court.witness(&group, &claims));
-        heard.witnesses.extend(court.simpler(&group, &claims));
-        let won = court.winner(group, &base, claims);
+    for (seat, claims) in court.claims(court.groups()) {
+        heard.witnesses.extend(court.witness(&seat.group, &claims));
+        heard.witnesses.extend(court.simpler(&seat.group, &claims));
+        let won = court.winner(seat.group, &seat.base, claims);
         let farthest = heard.winner.as_ref().map_or(f64::NEG_INFINITY, |one| one.ahead);
         if won.as_ref().is_some_and(|one| farthest <= one.ahead) {
             heard.winner = won;
@@ -85,9 +85,8 @@ pub(crate) fn hear(problem: &Problem, state: &State, found: &[Rivals]) -> Heard 
 pub(crate) fn shape_beside(problem: &Problem, state: &State) -> Option<Winner> {
     let shapes = nameless(problem);
     let court = Court::new(problem, state, &[], &shapes, (SHORTLIST, MOST_PLACES));
-    let base = court.without(&[])?;
-    let claims = court.claims(&[], &base);
-    court.winner(Vec::new(), &base, claims)
+    let (seat, claims) = court.claims(vec![Vec::new()]).pop()?;
+    court.winner(seat.group, &seat.base, claims)
 }
 
 /// What every shape of a list has to say for itself beside the effects of a model or in the place
@@ -100,10 +99,7 @@ pub(crate) fn claims<'a>(
     shapes: &'a [Shape],
 ) -> Vec<Claim<'a>> {
     let court = Court::new(problem, state, found, shapes, (CLAIMS, f64::INFINITY));
-    let all = court.groups().into_iter().flat_map(|group| {
-        let base = court.without(&group);
-        base.map_or_else(Vec::new, |base| court.claims(&group, &base))
-    });
+    let all = court.claims(court.groups()).into_iter().flat_map(|(_, claims)| claims);
     let mut claims: Vec<Claim<'a>> = all.collect();
     claims.sort_by(|a, b| b.ahead.total_cmp(&a.ahead));
     claims
@@ -363,17 +359,36 @@ impl<'a> Court<'a> {
         group.iter().map(|&index| self.state.components[index].term.name.as_str()).collect()
     }
 
-    /// The best shapes in a group's place: found under the model's noise and under white noise, in
-    /// which slow noise hides nothing.
-    fn claims(&self, group: &[usize], base: &Columns) -> Vec<Claim<'a>> {
+    /// The best shapes in the place of each of some groups.
+    fn claims(&self, groups: Vec<Vec<usize>>) -> Vec<(Seat<'a>, Vec<Claim<'a>>)> {
         let noises = [self.state.fit.noises.clone(), plain_noises(self.problem, &self.state.fit)];
+        let seat = |group| self.seat(group, &noises);
+        let seats: Vec<Seat<'a>> = groups.into_iter().filter_map(seat).collect();
+        let tried = seats::tried(&seats, self.shapes, self.most_places);
+        let with_claims = |(seat, tried)| {
+            let claims = self.claims_in(&seat, tried);
+            (seat, claims)
+        };
+        seats.into_par_iter().zip(tried).map(with_claims).collect()
+    }
+
+    /// The place of some effects; `None` when the others have no columns.
+    fn seat(&self, group: Vec<usize>, noises: &[Vec<Noise>; 2]) -> Option<Seat<'a>> {
+        let base = self.without(&group)?;
+        let stages = noises.each_ref().map(|noises| Stage::new(self.problem, &base, noises));
+        Some(Seat { entries: self.entries(&group), group, base, stages })
+    }
+
+    /// The best shapes in a place.
+    fn claims_in(&self, seat: &Seat<'_>, tried: Tried<'a>) -> Vec<Claim<'a>> {
+        let Seat { group, base, stages, .. } = seat;
         let nothing = self.likelihood_of(base);
         let least_um = SHARE_OF_AN_EFFECT * self.shown_um(group);
         let mut claims = Vec::new();
-        for noises in noises {
-            let stage = Stage::new(self.problem, base, &noises);
-            claims.extend(self.shortlist(&stage, group).into_iter().map(|(placed, looks)| {
-                let fit = self.fitted(base, &placed, &stage);
+        for (stage, tried) in stages.iter().zip(tried) {
+            let shortlist = self.shortlist(stage, tried).into_iter();
+            claims.extend(shortlist.map(|(placed, looks)| {
+                let fit = self.fitted(base, &placed, stage);
                 let gain = 2.0 * (fit.log_likelihood - nothing);
                 let price = self.price(&placed, &looks, gain);
                 let unsaved = if self.contains(&placed, group) { self.chosen(group) } else { 0.0 };
@@ -384,7 +399,7 @@ impl<'a> Court<'a> {
                     libm::exp(-0.5 * ahead).min(1.0)
                 };
                 let looks = count(self.shapes.len()) * looks.for_gain(gain);
-                Claim { placed, fit, ahead, group: group.to_vec(), looks, p_value }
+                Claim { placed, fit, ahead, group: group.clone(), looks, p_value }
             }));
         }
         // What is far smaller has let the noise explain the effects.
@@ -401,8 +416,8 @@ impl<'a> Court<'a> {
         rms(&self.problem.layout, &all)
     }
 
-    /// The shapes that take the most away under a stage's noise.
-    fn shortlist(&self, stage: &Stage<'_>, group: &[usize]) -> Vec<(Placed<'a>, Looks)> {
+    /// Where a shape may enter in the place of a group.
+    fn entries(&self, group: &[usize]) -> Vec<Entry> {
         let mut entries: Vec<Entry> =
             group.iter().map(|&index| self.state.components[index].term.entry).collect();
         if group.is_empty() || self.problem.sensors.len() == 1 {
@@ -411,14 +426,12 @@ impl<'a> Court<'a> {
         }
         entries.sort();
         entries.dedup();
-        let tried = entries.iter().flat_map(|&entry| {
-            let shapes = self
-                .shapes
-                .iter()
-                .filter(|one| group.is_empty() || one.places() < self.most_places);
-            shapes.filter_map(move |shape| shape.best(stage, entry))
-        });
-        let mut tried: Vec<Placed<'a>> = tried.collect();
+        entries
+    }
+
+    /// The shapes that take the most away under a stage's noise.
+    fn shortlist(&self, stage: &Stage<'_>, tried: Vec<Placed<'a>>) -> Vec<(Placed<'a>, Looks)> {
+        let mut tried = tried;
         let of_a_size = self.problem.price_of_a_number();
         let at_most = |placed: &Placed<'_>| placed.gain - placed.shape.price(of_a_size);
         tried.sort_by(|a, b| at_most(b).total_cmp(&at_most(a)));
