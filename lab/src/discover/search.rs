@@ -424,7 +424,7 @@ frequency = "160 Hz"
         let shapes = formulas(&problem);
         let shape = shapes.iter().find(|shape| shape.words == "step at one place").expect("a step");
         let stage = Stage::new(&problem, &bare.columns, &bare.fit.noises);
-        let placed = shape.best(&stage, Entry::Motion).expect("a place");
+        let placed = shape.best(&[&stage], Entry::Motion).pop().flatten().expect("a place");
         let step = Component::new(placed.term("step").expect("a term"));
         let mut model = State::settled(&problem, vec![step], &bare.fit.noises).expect("a fit");
         model.fit.linear.coefficients.iter_mut().for_each(|size| *size *= times);
