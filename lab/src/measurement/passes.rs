@@ -210,6 +210,21 @@ fn speed(table: &Table, coordinates: &Coordinates, members: &[usize]) -> Vec<f64
     members.iter().map(|&row| told(row).unwrap_or(usual)).collect()
 }
 
+/// What follows the travel, its reading kept for all rows of a rest of the axis.
+pub(crate) fn kept_at_rest(values: &[f64], position: &[f64], pass: &[usize]) -> Vec<f64> {
+    let mut kept = values.to_vec();
+    let rests =
+        |a: usize, b: usize| pass[a] == pass[b] && position[a].to_bits() == position[b].to_bits();
+    let behind = (1..kept.len()).map(|row| (row, row - 1));
+    let before = (1..kept.len()).rev().map(|row| (row - 1, row));
+    for (row, neighbour) in behind.chain(before) {
+        if !kept[row].is_finite() && rests(row, neighbour) {
+            kept[row] = kept[neighbour];
+        }
+    }
+    kept
+}
+
 /// Missing values taken from their neighbours in the pass: between two, linear; at an end, equal.
 pub(crate) fn bridged(values: &[f64], pass: &[usize]) -> Vec<f64> {
     let overall = values.iter().copied().find(|value| value.is_finite()).unwrap_or(0.0);
@@ -266,6 +281,17 @@ mod tests {
         };
         let read = Measurement::from_table(&table, &nominal);
         read.map(|read| read.pass_names.len()).map_err(|error| error.to_string())
+    }
+
+    /// A pitch that is read once at each of three places.
+    #[test]
+    fn what_follows_the_travel_keeps_its_reading_at_rest() {
+        let nan = f64::NAN;
+        let place = [0.0, 0.0, 10.0, 10.0, 20.0, 20.0, 20.0];
+        let read = [1.0, nan, nan, 3.0, 5.0, nan, nan];
+        assert_eq!(kept_at_rest(&read, &place, &[0; 7]), [1.0, 1.0, 3.0, 3.0, 5.0, 5.0, 5.0]);
+        let of_two_passes = kept_at_rest(&read, &place, &[0, 1, 1, 1, 1, 1, 1]);
+        assert!(of_two_passes[1].is_nan());
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::iter::repeat_n;
 use std::ops::Deref;
 
 use helixlock_plant::prediction::Sensor;
-use helixlock_plant::{COVARIATES, Column, LoggedColumn, Machine, Part, Samples};
+use helixlock_plant::{Bridging, COVARIATES, Column, LoggedColumn, Machine, Part, Samples};
 use helixlock_traces::{Table, TextColumn};
 
 use super::coordinates::Coordinates;
@@ -480,6 +480,10 @@ fn covariates(
             }
             notes.push(format!("column `{}` is not known and kept as a covariate", column.name));
         }
+        let follows = LoggedColumn::named(&column.name)
+            .is_some_and(|known| known.bridging == Bridging::WithinPasses);
+        let values =
+            if follows { passes::kept_at_rest(&values, &position, &passes.pass) } else { values };
         known.insert(column.name.clone(), passes::bridged(&values, &passes.pass).into());
     }
     known
