@@ -13,15 +13,17 @@ pub(super) fn slips(problem: &Problem) -> Vec<Hypothesis> {
     sensors.flat_map(|sensor| moved.clone().map(move |rows| slip(problem, sensor, rows))).collect()
 }
 
-/// What is predicted of a row stands where its reading does; at an end of a pass that of the last row stands for
-/// what lies beyond.
+/// What is predicted of a row stands where its reading does, but for rows that would come from before a turn or from
+/// another pass: a reversal is often late by itself, as play is taken up.
 fn slip(problem: &Problem, sensor: usize, too_low: isize) -> Hypothesis {
     let mut predicted = problem.predicted.to_vec();
+    let way = |row: usize| problem.record.direction[problem.samples[row]];
     for block in problem.layout.blocks.iter().filter(|block| block.sensor == sensor) {
-        let (first, last) = (block.rows.start, block.rows.end - 1);
         for row in block.rows.clone() {
-            let meant = row.saturating_add_signed(-too_low).clamp(first, last);
-            predicted[row] = problem.predicted[meant];
+            let meant = row.saturating_add_signed(-too_low);
+            if block.rows.contains(&meant) && 0.0 < way(row) * way(meant) {
+                predicted[row] = problem.predicted[meant];
+            }
         }
     }
     let column = sensor_column(problem.sensors[sensor], problem.measurement.rotary);

@@ -6,7 +6,7 @@ use super::doubt::Doubt;
 use crate::measurement::{Measurement, sensor_column};
 use crate::numerics::{count, median};
 use crate::policy::mistakes::{
-    DOUBT, LEAP_OF_A_LOG, LEAP_OF_A_SENSOR, STUCK_LOG, STUCK_REPEATS_ELSEWHERE,
+    DOUBT, LEAP_OF_A_LOG, LEAP_OF_A_SENSOR, MOVES, STUCK_LOG, STUCK_REPEATS_ELSEWHERE,
 };
 
 /// Difference of two slopes along one line, against their size.
@@ -24,8 +24,8 @@ pub(super) fn stuck(measurement: &Measurement) -> Option<Doubt> {
         logs.map(|(name, values)| (name.as_str(), values.as_slice(), LEAP_OF_A_LOG, STUCK_LOG));
     let found = sensors.chain(logs).filter_map(|(name, values, leap, limit)| {
         let Still { rows, share, evidence } = longest(measurement, values)?;
-        let leaps = leap < leap_behind(measurement, values, &rows);
-        let is_stuck = limit < evidence && share < STUCK_REPEATS_ELSEWHERE && leaps;
+        let rests = limit < evidence && share < STUCK_REPEATS_ELSEWHERE;
+        let is_stuck = rests && leap < leap_behind(measurement, values, &rows);
         is_stuck.then(|| said(measurement, (name, values), rows, evidence))
     });
     found.max_by(|a, b| a.evidence.total_cmp(&b.evidence))
@@ -54,10 +54,12 @@ struct Still {
 
 /// The longest run of one reading while the axis moves.
 fn longest(measurement: &Measurement, values: &[f64]) -> Option<Still> {
+    let way = |row: usize| (measurement.angle_rev[row] - measurement.angle_rev[row - 1]).abs();
+    let usual = (1..values.len()).map(way).sum::<f64>() / count(values.len());
+    // Nought is a reading of its own: a force out of contact.
     let repeats = |row: &usize| {
-        let differs = |column: &[f64]| column[*row].to_bits() != column[*row - 1].to_bits();
-        let moves = differs(&measurement.position_mm) || differs(&measurement.angle_rev);
-        moves && goes_on(measurement, *row) && !differs(values)
+        let same = values[*row] != 0.0 && values[*row].to_bits() == values[*row - 1].to_bits();
+        same && MOVES * usual < way(*row) && goes_on(measurement, *row)
     };
     let repeating: Vec<usize> = (1..values.len()).filter(repeats).collect();
     let runs = repeating.chunk_by(|before, after| before + 1 == *after);

@@ -43,7 +43,7 @@ impl Quantities {
             Arc::new(Quantity { name: name.to_owned(), dimension: unit, values })
         };
         let unit = Dimension::unit;
-        let covariates = problem.measurement.covariates.iter();
+        let covariates = problem.measurement.causes();
         // What the motor was told follows from the error, and is taken off.
         let columns = covariates
             .filter(|(name, values)| *name != "steps" && 0.0 < spread(values))

@@ -162,10 +162,11 @@ fn keep_resolved(problem: &Problem, candidate: &mut Candidate) {
     if candidate.term.parameters.iter().all(|what| what.search != Search::Whole) {
         return;
     }
-    let places = LazyCell::new(|| problem.places());
+    let places =
+        LazyCell::new(|| problem.places().unwrap_or_else(|| problem.record.turns().collect()));
     let is_told = |point| {
         let waves = Component::new(candidate.at(point)).waves_a_turn(problem);
-        waves <= problem.highest_order() || places.as_ref().is_some_and(|at| may_resolve(at, waves))
+        waves <= problem.highest_order() || may_resolve(&places, waves)
     };
     let told = (0..candidate.grid.len()).filter(|point| is_told(*point));
     candidate.grid = told.map(|point| candidate.grid[point].clone()).collect();

@@ -562,7 +562,7 @@ fn quantiles(values: &[f64], points: usize) -> Vec<f64> {
 
 /// A straight relation to every logged covariate, to direction and to speed.
 fn covariates(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
-    let logged = problem.measurement.covariates.iter();
+    let logged = problem.measurement.causes();
     let mut columns: Vec<(&str, &Column)> =
         logged.map(|(name, values)| (name.as_str(), values)).collect();
     columns.push(("direction", &problem.record.direction));
@@ -584,7 +584,7 @@ fn curves_of_logs(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structur
     if problem.samples.len() < ROWS_A_COLUMN * CURVE_OF_A_LOG {
         return Vec::new();
     }
-    let logs = problem.measurement.covariates.iter();
+    let logs = problem.measurement.causes();
     logs.filter(|(name, values)| *name != "steps" && 0.0 < spread(values))
         .map(|(name, values)| {
             let raw = stacked(problem, &chebyshev(values, CURVE_OF_A_LOG));

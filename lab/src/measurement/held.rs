@@ -265,17 +265,18 @@ fn changes(time: &[f64], columns: &[&Column]) -> Vec<Change> {
     (1..time.len()).filter(differs).map(|row| [time[row - 1], time[row]]).collect()
 }
 
-/// True for a log that changes hardly anywhere but where an axis moves, which rests in between: what follows the
-/// travel then rests as well, and no instrument held it.
+/// True for a log that changes where an axis moves, which rests in between, and hardly anywhere else: what follows
+/// the travel then rests as well, and no instrument held it.
 fn rests_with(axis: [&Column; 2], values: &Column) -> bool {
     let differs = |column: &Column, row: usize| column[row].to_bits() != column[row - 1].to_bits();
     let moves = |row: &usize| axis.iter().any(|column| differs(column, *row));
     let rows = 1..values.len();
-    let share = count(rows.clone().filter(moves).count()) / count(rows.len().max(1));
+    let steps = count(rows.clone().filter(moves).count());
+    let share = steps / count(rows.len().max(1));
     let changes: Vec<usize> = rows.filter(|&row| differs(values, row)).collect();
     let with_it = count(changes.iter().filter(|row| moves(row)).count());
     let by_accident = with_it * libm::log(share);
-    AT_A_TICK * count(changes.len()) <= with_it && by_accident < libm::log(BY_ACCIDENT)
+    AT_A_TICK * steps.max(count(changes.len())) <= with_it && by_accident < libm::log(BY_ACCIDENT)
 }
 
 /// Usual interval of rows.
@@ -304,8 +305,10 @@ mod tests {
         let (steps, moving) = (column(&place), column(&count));
         let pitch = column(&|row| libm::sin(place(row)));
         let thermometer = column(&|row| truth(count(row / 7)));
+        let at_each_second_target = column(&|row| truth(count(row / 10)));
         assert!(rests_with([&steps, &steps], &pitch));
         assert!(!rests_with([&steps, &steps], &thermometer));
+        assert!(!rests_with([&steps, &steps], &at_each_second_target));
         assert!(!rests_with([&moving, &moving], &pitch));
     }
 

@@ -1,22 +1,50 @@
 //! Columns that are what was measured: the error was worked out of them and the position.
 
+use helixlock_plant::prediction::Sensor;
+use helixlock_plant::{COVARIATES, Column};
+
+use super::Measurement;
 use crate::numerics::least_squares::{dot, fit, left};
 use crate::numerics::mean;
 use crate::policy::reading::{SHARE_OF_ROUNDING, SHARE_OF_TRAVEL};
 
-/// How many of a column make a millimetre, or a turn.
-const OF_A_MILLIMETRE: [f64; 4] = [1.0, 1000.0, 0.001, 1.0 / 25.4];
-const OF_A_TURN: [f64; 4] = [1.0, 360.0, std::f64::consts::TAU, ARCSEC_A_TURN];
+/// How many of a column make a millimetre, or a turn, by the end of its name.
+const OF_A_MILLIMETRE: [(&str, f64); 4] =
+    [("_mm", 1.0), ("_um", 1000.0), ("_m", 0.001), ("_in", 1.0 / 25.4)];
+const OF_A_TURN: [(&str, f64); 4] =
+    [("_rev", 1.0), ("_deg", 360.0), ("_rad", std::f64::consts::TAU), ("_arcsec", ARCSEC_A_TURN)];
 
 const ARCSEC_A_TURN: f64 = 1_296_000.0;
 const UM_A_MM: f64 = 1000.0;
 
+impl Measurement {
+    /// The same with a note on each column that is the position as it was measured.
+    pub(super) fn with_positions_told(mut self) -> Self {
+        let Some(error) = self.observations.get(&Sensor::Recorder) else { return self };
+        let position = if self.rotary { &self.angle_rev } else { &self.position_mm };
+        let measurand = Measurand { rotary: self.rotary, position, error, pass: &self.pass };
+        let unknown =
+            self.covariates.iter().filter(|(name, _)| !COVARIATES.contains(&name.as_str()));
+        let is_one = unknown.filter(|(name, values)| measurand.is(name, values));
+        self.positions = is_one.map(|(name, _)| name.clone()).collect();
+        self.notes.extend(self.positions.iter().map(|name| {
+            format!("column `{name}` is the position as it was measured: not asked as a cause")
+        }));
+        self
+    }
+
+    /// Logged columns that may be causes, by name.
+    pub(crate) fn causes(&self) -> impl Iterator<Item = (&String, &Column)> {
+        self.covariates.iter().filter(|(name, _)| !self.positions.contains(name))
+    }
+}
+
 /// What was measured, and where: `position` in mm or turns, `error` in µm or arcsec.
-pub(super) struct Measurand<'a> {
-    pub(super) rotary: bool,
-    pub(super) position: &'a [f64],
-    pub(super) error: &'a [f64],
-    pub(super) pass: &'a [usize],
+struct Measurand<'a> {
+    rotary: bool,
+    position: &'a [f64],
+    error: &'a [f64],
+    pass: &'a [usize],
 }
 
 impl Measurand<'_> {
@@ -26,7 +54,7 @@ impl Measurand<'_> {
     /// Either it is that in a unit of length, or angle, to within what a machine may be off; or so much of it
     /// as makes a micrometre of position makes one of error. A cause may follow the position or the error, and
     /// the one by accident as closely as it will, but not both by the same number.
-    pub(super) fn is(&self, column: &[f64]) -> bool {
+    fn is(&self, name: &str, column: &[f64]) -> bool {
         let known: Vec<usize> = (0..self.pass.len())
             .filter(|&row| column[row].is_finite() && self.error[row].is_finite())
             .collect();
@@ -38,7 +66,9 @@ impl Measurand<'_> {
         let scale = dot(&column, &position) / dot(&position, &position);
         let rest = left(&[&position], &column, &[scale]);
         let units = if self.rotary { OF_A_TURN } else { OF_A_MILLIMETRE };
-        let is_unit = |unit: f64| (scale.abs() - unit).abs() <= SHARE_OF_TRAVEL * unit;
+        let is_unit = |(end, unit): (&str, f64)| {
+            name.ends_with(end) && (scale.abs() - unit).abs() <= SHARE_OF_TRAVEL * unit
+        };
         if units.into_iter().any(is_unit) && is_share(SHARE_OF_TRAVEL, &rest, &column) {
             return true;
         }
@@ -78,33 +108,35 @@ mod tests {
         (place, error, (0..40).map(|row| row / 20).collect())
     }
 
-    fn is_measured(column: impl Fn(f64, f64) -> f64) -> bool {
+    fn is_measured(name: &str, column: impl Fn(f64, f64) -> f64) -> bool {
         let (position, error, pass) = visits();
         let column: Vec<f64> = position.iter().zip(&error).map(|(x, e)| column(*x, *e)).collect();
-        Measurand { rotary: false, position: &position, error: &error, pass: &pass }.is(&column)
+        Measurand { rotary: false, position: &position, error: &error, pass: &pass }
+            .is(name, &column)
     }
 
     /// As a laser's reading beside the target, of five digits, in inches, and in counts of the other sign.
     #[test]
     fn the_reading_that_an_error_was_worked_out_of_is_no_cause() {
         let rounded = |mm: f64| (1e5 * mm).round() * 1e-5;
-        assert!(is_measured(|place, error| rounded(place - 1e-3 * error)));
-        assert!(is_measured(|place, error| (place - 1e-3 * error) / 25.4));
-        assert!(is_measured(|place, error| 7.0 - 8192.0 * (place + 1e-3 * error)));
+        assert!(is_measured("reference_mm", |place, error| rounded(place - 1e-3 * error)));
+        assert!(is_measured("laser", |place, error| (place - 1e-3 * error) / 25.4));
+        assert!(is_measured("counts", |place, error| 7.0 - 8192.0 * (place + 1e-3 * error)));
     }
 
     /// As a motor's encoder that does not see what a screw adds.
     #[test]
     fn the_position_by_another_gauge_is_no_cause() {
-        assert!(is_measured(|place, error| 3.0 + place - 1e-3 * libm::cos(error)));
+        assert!(is_measured("motor_mm", |place, error| 3.0 + place - 1e-3 * libm::cos(error)));
+        assert!(!is_measured("pull_n", |place, error| place - 1e-3 * libm::cos(error)), "a cable");
     }
 
     /// A temperature that the error follows to the last digit, one that follows the place as well, and
     /// one that grows with the place alone.
     #[test]
     fn what_goes_along_with_an_error_may_be_its_cause() {
-        assert!(!is_measured(|_, error| 20.0 + 0.3 * error));
-        assert!(!is_measured(|place, error| 20.0 + 0.01 * place + 0.3 * error));
-        assert!(!is_measured(|place, _| 20.0 + 0.01 * place));
+        assert!(!is_measured("load", |_, error| 20.0 + 0.3 * error));
+        assert!(!is_measured("load", |place, error| 20.0 + 0.01 * place + 0.3 * error));
+        assert!(!is_measured("load", |place, _| 20.0 + 0.01 * place));
     }
 }

@@ -1,5 +1,6 @@
 //! Measured samples in order: coordinates, sensors and covariates, pass by pass.
 
+use std::cell::LazyCell;
 use std::collections::BTreeMap;
 use std::iter::repeat_n;
 use std::ops::Deref;
@@ -10,7 +11,6 @@ use helixlock_traces::{Table, TextColumn};
 
 use super::coordinates::Coordinates;
 use super::error::LabError;
-use super::measurand::Measurand;
 use super::{coordinates, headers, passes, plausible};
 use crate::numerics::{spread, weighted_median};
 use crate::policy::reading::FEWEST_SAMPLES;
@@ -84,6 +84,8 @@ pub struct Measurement {
     /// Of covariates that were rounded to steps: standard deviation of what they may be off by where
     /// they passed from one step to the next, in their unit.
     pub off_by: BTreeMap<String, f64>,
+    /// Covariates that are the position as it was measured.
+    pub positions: Vec<String>,
     /// True when time was measured, not worked out from travel and speed.
     pub timed: bool,
     /// What columns tell that otherwise follows from travel and time.
@@ -224,7 +226,7 @@ impl Measurement {
             return Err(LabError::LonePasses { path, passes, lone });
         }
         let assembled = assemble(table, nominal, &coordinates, passes, notes);
-        Ok(assembled.without_holds().without_treads().with_zeros_told())
+        Ok(assembled.without_holds().without_treads().with_positions_told().with_zeros_told())
     }
 
     /// These samples and others of the same sensors and columns behind them, as further passes.
@@ -414,6 +416,7 @@ fn assemble(
         observations,
         deviations,
         off_by: BTreeMap::new(),
+        positions: Vec::new(),
         timed: coordinates.timed,
         told: Told {
             speed: table.column("speed_rpm").is_some(),
@@ -440,13 +443,7 @@ fn covariates(
     let rows = &passes.rows;
     let pick = |values: &[f64]| -> Vec<f64> { rows.iter().map(|&row| values[row]).collect() };
     let Coordinates { angle_rev, position_mm, .. } = coordinates;
-    let position = pick(if nominal.rotary { angle_rev } else { position_mm });
-    let error = table.column(sensor_column(Sensor::Recorder, nominal.rotary)).map(pick);
-    let is_position = |values: &[f64]| {
-        let Nominal { rotary, .. } = *nominal;
-        let of = |error| Measurand { rotary, position: &position, error, pass: &passes.pass };
-        error.as_ref().is_some_and(|error| of(error).is(values))
-    };
+    let place = LazyCell::new(|| pick(if nominal.rotary { angle_rev } else { position_mm }));
     let covariate = |name: &str| {
         if name == deviation_column(nominal) {
             return false;
@@ -471,19 +468,12 @@ fn covariates(
                 notes.push(format!("column `{name}` counts on from row to row and is left out"));
                 continue;
             }
-            if is_position(&values) {
-                let name = &column.name;
-                notes.push(format!(
-                    "column `{name}` is the position as it was measured, and is left out"
-                ));
-                continue;
-            }
             notes.push(format!("column `{}` is not known and kept as a covariate", column.name));
         }
         let follows = LoggedColumn::named(&column.name)
             .is_some_and(|known| known.bridging == Bridging::WithinPasses);
         let values =
-            if follows { passes::kept_at_rest(&values, &position, &passes.pass) } else { values };
+            if follows { passes::kept_at_rest(&values, &place, &passes.pass) } else { values };
         known.insert(column.name.clone(), passes::bridged(&values, &passes.pass).into());
     }
     known

@@ -196,3 +196,8 @@ pub(crate) const LEAP_OF_A_LOG: f64 = 5.0;
 ///
 /// Chosen: four times [`DOUBT`]. Doubled: a log of 300 rows must rest for 35 of them.
 pub(crate) const STUCK_LOG: f64 = 100.0;
+
+/// Way from one row to the next, in mean ways, from which on an axis moves and does not tremble.
+///
+/// Chosen: an encoder at rest trembles by a thousandth. Doubled: the slow half of a ramp rests.
+pub(crate) const MOVES: f64 = 0.25;
