@@ -532,6 +532,32 @@ fn a_sensor_that_sticks_is_told() {
     assert_eq!(held(1e-6, true), None, "parked");
 }
 
+/// Play that the file has, and that is taken up a target late: a slipped row at the turns and nowhere else.
+#[test]
+fn play_that_is_taken_up_late_is_no_slipped_row() {
+    let known = machine(150, "[[effect]]\nkind = 'backlash'\nwidth = '4 um'\n");
+    let target = |row: i32| 20.0 * f64::from(if row % 32 < 16 { row % 32 } else { 31 - row % 32 });
+    let column = |name: &str, of: &dyn Fn(i32) -> f64| Column {
+        name: name.to_owned(),
+        values: (0..160).map(of).collect(),
+    };
+    let mut table = Table::new(vec![
+        column("pass", &|row| f64::from(row / 32 + 1)),
+        column("time_s", &|row| 20.0 * f64::from(row)),
+        column("position_mm", &target),
+        column("direction", &|row| if row % 32 < 16 { 1.0 } else { -1.0 }),
+        column("error_um", &|_| 0.0),
+    ]);
+    let clean = problem(&known, &table).predicted;
+    let mut chance = ChaCha8Rng::seed_from_u64(7);
+    for row in 0..160 {
+        let late = if row % 32 == 16 { row - 1 } else { row };
+        let fresh: f64 = StandardNormal.sample(&mut chance);
+        table.columns[4].values[row] = clean[late] + 0.3 * fresh;
+    }
+    assert_eq!(doubted(&known, &table), None);
+}
+
 /// A column that was pasted three rows too low.
 #[test]
 fn a_slipped_column_is_told_by_its_rows() {
