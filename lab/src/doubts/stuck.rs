@@ -56,9 +56,10 @@ struct Still {
 fn longest(measurement: &Measurement, values: &[f64]) -> Option<Still> {
     let way = |row: usize| (measurement.angle_rev[row] - measurement.angle_rev[row - 1]).abs();
     let usual = (1..values.len()).map(way).sum::<f64>() / count(values.len());
-    // Nought is a reading of its own: a force out of contact.
+    // Nought is a reading of its own, a force out of contact, and none is none.
     let repeats = |row: &usize| {
-        let same = values[*row] != 0.0 && values[*row].to_bits() == values[*row - 1].to_bits();
+        let [before, now] = [values[*row - 1], values[*row]];
+        let same = now.is_normal() && now.to_bits() == before.to_bits();
         same && MOVES * usual < way(*row) && goes_on(measurement, *row)
     };
     let repeating: Vec<usize> = (1..values.len()).filter(repeats).collect();
