@@ -52,21 +52,22 @@ struct Still {
     evidence: f64,
 }
 
-/// The longest run of one reading while the axis moves.
+/// The longest run of one reading, by its rows that the axis moves to.
 fn longest(measurement: &Measurement, values: &[f64]) -> Option<Still> {
     let way = |row: usize| (measurement.angle_rev[row] - measurement.angle_rev[row - 1]).abs();
     let usual = (1..values.len()).map(way).sum::<f64>() / count(values.len());
+    let moving =
+        |rows: &[usize]| count(rows.iter().filter(|&&row| MOVES * usual < way(row)).count());
     // Nought is a reading of its own, a force out of contact, and none is none.
     let repeats = |row: &usize| {
         let [before, now] = [values[*row - 1], values[*row]];
-        let same = now.is_normal() && now.to_bits() == before.to_bits();
-        same && MOVES * usual < way(*row) && goes_on(measurement, *row)
+        now.is_normal() && now.to_bits() == before.to_bits() && goes_on(measurement, *row)
     };
     let repeating: Vec<usize> = (1..values.len()).filter(repeats).collect();
     let runs = repeating.chunk_by(|before, after| before + 1 == *after);
-    let run = runs.max_by_key(|run| run.len())?;
-    let (own, all) = (count(run.len()), count(values.len()));
-    let share = (count(repeating.len()) - own + 1.0) / (all - own);
+    let run = runs.max_by(|a, b| moving(a).total_cmp(&moving(b)))?;
+    let (own, all) = (moving(run), count(values.len()));
+    let share = (moving(&repeating) - own + 1.0) / (all - own);
     let evidence = -2.0 * (own * libm::log(share) + libm::log(all));
     Some(Still { rows: run[0] - 1..run[run.len() - 1] + 1, share, evidence })
 }
