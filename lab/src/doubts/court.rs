@@ -266,7 +266,7 @@ fn fitted(problem: &Problem, columns: &Columns) -> Fit {
 }
 
 /// A problem that predicts something else.
-fn saying(problem: &Problem, predicted: Vec<f64>) -> Problem {
+pub(super) fn saying(problem: &Problem, predicted: Vec<f64>) -> Problem {
     Problem { predicted: predicted.into(), ..problem.clone() }
 }
 

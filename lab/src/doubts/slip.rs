@@ -1,5 +1,6 @@
 //! Readings that stand some rows beside their place, as a column does that was pasted a row too low.
 
+use super::court::saying;
 use super::hypothesis::Hypothesis;
 use crate::measurement::sensor_column;
 use crate::model::Problem;
@@ -32,6 +33,5 @@ fn slip(problem: &Problem, sensor: usize, too_low: isize) -> Hypothesis {
     let rows = if rows == 1 { "1 row".to_owned() } else { format!("{rows} rows") };
     let says = format!("`{column}` stands {rows} {below} its place in every pass");
     let mend = format!("move `{column}` {back} by {rows} in every pass");
-    let mended = Problem { predicted: predicted.into(), ..problem.clone() };
-    Hypothesis::new(("shift", says, mend), mended)
+    Hypothesis::new(("shift", says, mend), saying(problem, predicted))
 }

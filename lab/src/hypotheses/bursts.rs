@@ -18,9 +18,7 @@ use crate::noise::Whitener;
 use crate::numerics::{count, fourier, mean, spread};
 use crate::policy::chance::SIGNIFICANCE;
 use crate::policy::extent::{FEWEST_ROWS_OF_A_BURST, PARTS_WITH_A_BURST, SLOWEST_WAVES};
-
-/// Places of a scan a frequency that a stretch resolves; three lose at most a tenth of a wave.
-const POINTS_A_CELL: f64 = 3.0;
+use crate::spectrum::POINTS_A_CELL;
 
 /// A wave in a stretch, which may be several runs of rows.
 struct Burst<'a> {

@@ -11,6 +11,8 @@
 //! sum of what the pairs differ by is held against all signs that these might have had, by
 //! Chernoff's bound: no law of the noise is needed, and no number of samples.
 
+use std::ops::Range;
+
 use super::repeatability::between_turns;
 use crate::model::{Fit, Problem};
 use crate::noise::rms;
@@ -53,15 +55,23 @@ impl Pair {
 #[must_use]
 pub(super) fn one_way(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
     let noise_um = rms(&problem.layout, &fit.left);
-    // Behind a reversal jumps go the other way.
-    let way = |row: usize| problem.record.direction[problem.samples[row]];
+    let direction = |row: usize| problem.record.direction[problem.samples[row]];
     let blocks = problem.layout.blocks.iter();
-    let strokes = blocks.flat_map(|block| between_turns(block.rows.clone(), way));
-    let strokes: Vec<(&[f64], f64)> = strokes
-        .map(|rows| (&fit.left[rows.clone()], if way(rows.start) < 0.0 { -1.0 } else { 1.0 }))
-        .collect();
+    let of_block = |rows: Range<usize>| strokes(&fit.left, rows, direction);
+    let strokes: Vec<_> = blocks.flat_map(|block| of_block(block.rows.clone())).collect();
     let (size, chance) = judged(&strokes)?;
     Some((noise_um * size, chance))
+}
+
+/// Values from one reversal of a pass to the next, with their way: behind it jumps go the other way.
+fn strokes(
+    left: &[f64],
+    rows: Range<usize>,
+    direction: impl Fn(usize) -> f64,
+) -> Vec<(&[f64], f64)> {
+    let way = |row: usize| if direction(row) < 0.0 { -1.0 } else { 1.0 };
+    let all = between_turns(rows, &direction).into_iter();
+    all.map(|rows| (&left[rows.clone()], way(rows.start))).collect()
 }
 
 /// Size of the jumps against the noise, and the chance, over some strokes and their ways.
@@ -230,10 +240,7 @@ mod tests {
         // The same in one pass, there and back and there again.
         let joined = passes.concat();
         let way = |row: usize| if row / 300 == 1 { -1.0 } else { 1.0 };
-        let strokes: Vec<(&[f64], f64)> = between_turns(0..joined.len(), way)
-            .into_iter()
-            .map(|rows| (&joined[rows.clone()], way(rows.start)))
-            .collect();
+        let strokes = strokes(&joined, 0..joined.len(), way);
         let chance_of = |strokes: &[(&[f64], f64)]| judged(strokes).unwrap().1;
         let (by_strokes, whole) = (chance_of(&strokes), chance_of(&[(&joined, 1.0)]));
         assert!(by_strokes < 1e-5 && 1e-3 < whole, "{by_strokes} {whole}");

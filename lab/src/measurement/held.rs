@@ -259,16 +259,18 @@ fn peaks(sizes: &[f64]) -> Vec<usize> {
 
 /// Where any of some columns has another value than in the row before.
 fn changes(time: &[f64], columns: &[&Column]) -> Vec<Change> {
-    let differs = |&row: &usize| {
-        columns.iter().any(|values| values[row].to_bits() != values[row - 1].to_bits())
-    };
-    (1..time.len()).filter(differs).map(|row| [time[row - 1], time[row]]).collect()
+    let changed = |row: &usize| columns.iter().any(|values| differs(values, *row));
+    (1..time.len()).filter(changed).map(|row| [time[row - 1], time[row]]).collect()
+}
+
+/// True when a column has another value than in the row before.
+fn differs(values: &Column, row: usize) -> bool {
+    values[row].to_bits() != values[row - 1].to_bits()
 }
 
 /// True for a log that changes where an axis moves, which rests in between, and hardly anywhere else: what follows
 /// the travel then rests as well, and no instrument held it.
 fn rests_with(axis: [&Column; 2], values: &Column) -> bool {
-    let differs = |column: &Column, row: usize| column[row].to_bits() != column[row - 1].to_bits();
     let moves = |row: &usize| axis.iter().any(|column| differs(column, *row));
     let rows = 1..values.len();
     let steps = count(rows.clone().filter(moves).count());

@@ -57,7 +57,7 @@ pub(crate) struct Point {
 }
 
 /// Scan points a frequency resolution cell; three lose at most a tenth of a peak's gain.
-const POINTS_A_CELL: f64 = 3.0;
+pub(crate) const POINTS_A_CELL: f64 = 3.0;
 
 /// Frequencies on either side up to the lowest at which a wave is compared with slow ones.
 const SLOW_STEPS: i8 = 2;
