@@ -56,6 +56,30 @@ fn two_effects_are_found_at_once() {
     assert!(2 <= found, "{found} of 5");
 }
 
+/// A table whose disc sits off its axis, and its play, in one pass there and back: noise so slow that the pass is
+/// worth four samples takes up either while the other is missing.
+#[test]
+fn two_effects_are_found_in_one_pass_there_and_back() {
+    const TABLE: &str = "[output]\nrotary = true\n[spindle]\nspeed = \"0.6 rpm\"\n[grating]\nlines = 18000\ndiameter = \"120 mm\"\n";
+    for seed in seeds(1, 5) {
+        let mut noise = white(seed, 1.2);
+        let mut columns = [const { Vec::new() }; 4];
+        for row in 0..430 {
+            let way = if row < 215 { 1.0 } else { -1.0 };
+            let turn = 0.5 + way * (f64::from(row) - 214.5) / 215.0;
+            let of_disc = libm::sin(std::f64::consts::TAU * turn + 0.6);
+            let error = of_disc - 0.7 * way + noise();
+            let cells = [0.457 * f64::from(row), turn, way, error];
+            columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+        }
+        let titles = ["time_s", "angle_rev", "direction", "error_arcsec"];
+        let found = diagnosed_on(TABLE, titles.into_iter().zip(columns).collect());
+        let mut names = names(&found);
+        names.sort_unstable();
+        assert_eq!(names, ["backlash", "grating-eccentricity"], "{seed}");
+    }
+}
+
 /// True when something is left of which these words are said.
 fn tells(found: &Diagnosis, words: &str) -> bool {
     found.residual.iter().any(|one| one.shape.contains(words))

@@ -16,6 +16,8 @@ pub(crate) struct Judged {
     pub(crate) evidence: f64,
     /// Independent places that were looked at.
     pub(crate) looks: f64,
+    /// Effects that were tried with it.
+    pub(crate) tried: f64,
     /// Chance in noise, the places looked at and the effects tried counted.
     pub(crate) p_value: f64,
     /// Root mean square left, µm (arcsec).

@@ -177,8 +177,7 @@ fn chance_in_slow_noise(problem: &Problem, now: &State, judged: &Judged, limit: 
     if FEW_SAMPLES <= worth(problem, now) {
         return judged.p_value;
     }
-    let plain = chi_squared_tail(judged.gain, count(columns.raw.len())).max(f64::MIN_POSITIVE);
-    let looks = judged.p_value / plain;
+    let looks = judged.looks.max(1.0) * judged.tried;
     let model = (&now.columns, &now.fit);
     let drawn = chance_in_noise(problem, model, &columns.raw, judged.gain, limit / looks);
     (looks * drawn).min(1.0)

@@ -105,6 +105,7 @@ fn judge(problem: &Problem, now: &State, trial: &Trial, tried: f64) -> Option<Ju
             - 2.0 * libm::log(looks)
             - likeness::price(&trial.component, &now.components),
         looks,
+        tried,
         p_value: (chi_squared_tail(gain, freedom) * looks.max(1.0) * tried).min(1.0),
         rms_um: rms(&problem.layout, &fit.left),
         holdout_rms_um: holdout_rms(problem, &columns, &fit.noises),

@@ -3,7 +3,7 @@
 //! Logged physics comes together, and slow noise that takes up one of two curves takes up the other while it is
 //! missing: then each alone explains nothing.
 
-use helixlock_plant::{CATALOGUE, Role};
+use helixlock_plant::Role;
 
 use super::acceptance::{refusal, worth};
 use super::judging::{plain_noises, tried};
@@ -99,7 +99,8 @@ impl Pair {
         let both = [self.one.component.clone(), self.second.component.clone()];
         let Ok(columns) = Columns::of(problem, &both) else { return false };
         let gain = 2.0 * (self.second.fit.log_likelihood - now.fit.log_likelihood);
-        let looks = looks(&self.one) * looks(&self.second);
+        let pairs = (0.5 * self.one.tried * (self.one.tried - 1.0)).max(1.0);
+        let looks = self.one.looks.max(1.0) * self.second.looks.max(1.0) * pairs;
         let model = (&now.columns, &now.fit);
         looks * chance_in_noise(problem, model, &columns.raw, gain, NAMED / looks) < NAMED
     }
@@ -161,9 +162,4 @@ pub(super) fn instead(
 /// A model with one effect more.
 fn with(problem: &Problem, now: &State, one: &Judged) -> Option<State> {
     State::settled(problem, now.with(&one.component), &one.fit.noises)
-}
-
-/// Places and names that were looked at before one was found.
-fn looks(one: &Judged) -> f64 {
-    one.looks.max(1.0) * count(CATALOGUE.len())
 }
