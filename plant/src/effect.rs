@@ -122,6 +122,8 @@ pub struct Parameter {
     pub unit: Unit,
     /// True for a length of a part, which stays one where δ is an angle.
     pub of_part: bool,
+    /// True for a way of what moves, which is an angle on a rotary chain.
+    pub of_way: bool,
     /// Plausible values; a fit that ends at an end has failed.
     pub range: RangeInclusive<f64>,
     /// What stands when the file does not say; `None` makes it required.
@@ -140,6 +142,7 @@ impl Parameter {
             name: Cow::Borrowed(name),
             unit,
             of_part: false,
+            of_way: false,
             range: 0.0..=0.0,
             default: None,
             role,
@@ -215,9 +218,20 @@ impl Parameter {
         self
     }
 
+    /// As a way of what moves, in mm: as many degrees are as plausible on a rotary chain.
+    #[must_use]
+    pub const fn of_way(mut self) -> Self {
+        self.of_way = true;
+        self
+    }
+
     /// The same parameter on a rotary chain: δ is in seconds of arc there.
     #[must_use]
     pub fn on_rotary_chain(mut self) -> Self {
+        if self.of_way {
+            self.unit = crate::units::DEG;
+            return self;
+        }
         let angular = self.unit.on_rotary_chain();
         if !self.of_part && angular != self.unit {
             self.unit = angular;

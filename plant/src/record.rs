@@ -116,9 +116,9 @@ pub struct Instant<'a> {
     pub velocity_rpm: f64,
     /// Pass, from 0.
     pub pass: usize,
-    /// Way since the start of the pass, mm, never falling.
+    /// Way since the start of the pass, mm, never falling; degrees on a rotary chain.
     pub travelled_mm: f64,
-    /// Way since the last reversal inside this pass, mm; infinite before the first.
+    /// Way since the last reversal inside this pass, mm; infinite before the first; degrees on a rotary chain.
     pub since_reversal_mm: f64,
     /// What the meter would show without the effects that depend on it, µm, laser lag positive.
     pub error_um: f64,

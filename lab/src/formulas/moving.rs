@@ -353,7 +353,7 @@ fn cube(x: &Arc<Quantity>, along: &str) -> Shape {
 pub(super) fn since_a_reversal(all: &Quantities) -> Option<Shape> {
     let ways = all.since_reversal.values.iter().copied().filter(|mm| mm.is_finite());
     let longest = ways.fold(0.0, f64::max);
-    let (mm, way) = (&all.position.dimension, &all.direction);
+    let (of_way, way) = (&all.since_reversal.dimension, &all.direction);
     let gone = number(-1.0) * of(&all.since_reversal) / unknown(0);
     (0.0 < longest).then(|| {
         shape(
@@ -361,7 +361,11 @@ pub(super) fn since_a_reversal(all: &Quantities) -> Option<Shape> {
             "way since the reversal",
             "play or wind-up that is taken up over a way",
         )
-        .unknown("over_mm", mm, by_factors(0.005 * longest, 0.5 * longest, 12))
+        .unknown(
+            all.in_unit("over_mm", "over_deg"),
+            of_way,
+            by_factors(0.005 * longest, 0.5 * longest, 12),
+        )
         .curve("play", of(way))
         .curve("size", of(way) * call(Function::Exp, gone))
     })
@@ -397,7 +401,7 @@ pub(super) fn of_each_pass(all: &Quantities) -> Vec<Shape> {
                 "way since the start",
                 "play or wind-up that is taken up over a way, each pass the other way",
             )
-            .unknown("over_mm", &x.dimension, over())
+            .unknown(all.in_unit("over_mm", "over_deg"), &since.dimension, over())
             .curve("play", of(way))
             .curve("size", of(way) * gone()),
         );
@@ -409,7 +413,7 @@ pub(super) fn of_each_pass(all: &Quantities) -> Vec<Shape> {
                 "way since the start",
                 "a table that runs in, oil that is pressed out",
             )
-            .unknown("over_mm", &x.dimension, over())
+            .unknown(all.in_unit("over_mm", "over_deg"), &since.dimension, over())
             .curve("size", gone()),
         );
     }

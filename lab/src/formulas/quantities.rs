@@ -53,6 +53,11 @@ impl Quantities {
         } else {
             quantity("position_mm", unit("mm"), record.position_mm.clone())
         };
+        let (travelled, since_reversal, way) = if problem.model.rotary {
+            ("travelled_deg", "since_reversal_deg", unit("deg"))
+        } else {
+            ("travelled_mm", "since_reversal_mm", unit("mm"))
+        };
         let targets = problem.places().map(|_| distinct(position.values.to_vec()));
         Self {
             targets: targets.unwrap_or_default(),
@@ -65,12 +70,8 @@ impl Quantities {
             velocity: problem
                 .velocity_rpm()
                 .map(|values| quantity("velocity_rpm", unit("rpm"), values.clone())),
-            since_reversal: quantity(
-                "since_reversal_mm",
-                unit("mm"),
-                record.since_reversal_mm.clone(),
-            ),
-            travelled: quantity("travelled_mm", unit("mm"), record.travelled_mm.clone()),
+            since_reversal: quantity(since_reversal, way.clone(), record.since_reversal_mm.clone()),
+            travelled: quantity(travelled, way, record.travelled_mm.clone()),
             pass: quantity(
                 "pass",
                 Dimension::number(),

@@ -7,6 +7,8 @@
 //! δ in µm    d direction    F force in N    c compliance in µm/N    s₀ sliding distance in mm
 //! ```
 //!
+//! On a rotary chain δ is in seconds of arc, and s and s₀ are in degrees of the output.
+//!
 //! 0.01 µm/N under 100 N is 1 µm, and 2 µm from one direction to the other.
 
 use super::shape::banded;
@@ -17,13 +19,14 @@ pub(super) const CARD: Card = Card {
     kind: "wind-up",
     entry: Entry::Motion,
     summary: "force winds the drive up, and a reversal has to wind it up again",
-    formula: "d·F·c·(1 − 2·exp(−s/s₀)), s way since the reversal",
+    formula: "d·F·c·(1 − 2·exp(−s/s₀)), s way since the reversal (degrees on a rotary chain)",
     example: "c = 0.01 µm/N, F = 100 N: ±1 µm by direction",
     parameters: &[
         Parameter::linear("compliance", UM_PER_N, "travel per force").within(-1.0..=1.0),
         Parameter::nonlinear("sliding_distance", MM, Search::Logarithmic, "way to wind up again")
             .within(0.01..=50.0)
-            .or(1.0),
+            .or(1.0)
+            .of_way(),
     ],
     parts: &[],
     needs: &["force_n"],

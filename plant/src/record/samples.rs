@@ -113,61 +113,82 @@ impl Record {
     }
 }
 
-/// Way since the start of the pass and since the last reversal in it, mm.
+/// Where the axis is along its way, and how fast that is: mm, or degrees on a rotary chain, on which nothing travels.
+struct Places {
+    of_row: Column,
+    /// Way of one turn of the spindle.
+    of_turn: f64,
+}
+
+impl Places {
+    fn of(record: &Record, machine: &Machine) -> Self {
+        if machine.rotary {
+            let of_row = record.spindle_rad.iter().map(|angle| angle.to_degrees()).collect();
+            return Self { of_row, of_turn: 360.0 };
+        }
+        Self { of_row: record.position_mm.clone(), of_turn: machine.workpiece.lead.mm() }
+    }
+
+    fn move_to(&self, row: usize) -> f64 {
+        self.of_row[row] - self.of_row[row - 1]
+    }
+
+    /// Longest way between neighbours of one direction.
+    fn longest(&self, record: &Record, rows: Range<usize>) -> f64 {
+        let moves = (rows.start + 1..rows.end).filter(|&row| !record.turned(row));
+        moves.map(|row| self.move_to(row).abs()).fold(0.0, f64::max)
+    }
+}
+
+/// Way since the start of the pass and since the last reversal in it, mm, or degrees on a rotary chain.
 ///
 /// A reversal is where the direction changes, so that what turns with the direction and what winds
 /// up anew turn together. The turning point lies between two samples, as far beyond them as the
 /// table had time for.
 fn ways(record: &Record, machine: &Machine) -> (Column, Column) {
-    let lead_mm = machine.workpiece.lead.mm();
+    let places = Places::of(record, machine);
     let mut travelled = Vec::with_capacity(record.len());
     let mut since_reversal = Vec::with_capacity(record.len());
     for rows in record.passes() {
-        let longest_mm = longest_mm(record, rows.clone());
-        let start_mm = way_before_mm(machine, record.position_mm[rows.start]);
-        let (mut way_mm, mut since_mm) = (start_mm, f64::INFINITY);
+        let longest = places.longest(record, rows.clone());
+        let (mut way, mut since) = (way_before(machine, places.of_row[rows.start]), f64::INFINITY);
         for row in rows.clone() {
             if rows.start < row {
-                let move_mm = record.position_mm[row] - record.position_mm[row - 1];
+                let step = places.move_to(row);
                 if record.turned(row) {
                     let elapsed_s = record.time_s[row] - record.time_s[row - 1];
-                    let pace_mm_s = lead_mm * record.speed_rpm[row] / 60.0;
+                    let pace = places.of_turn * record.speed_rpm[row] / 60.0;
                     // At rest in between it has gone less far than its speed says.
-                    let between_mm = (pace_mm_s * elapsed_s).min(longest_mm).max(move_mm.abs());
-                    way_mm += between_mm;
+                    let between = (pace * elapsed_s).min(longest).max(step.abs());
+                    way += between;
                     // Out and back are the way between; what one is longer than the other, the move.
-                    since_mm = 0.5 * (between_mm + record.direction[row] * move_mm);
+                    since = 0.5 * (between + record.direction[row] * step);
                 } else {
-                    way_mm += move_mm.abs();
-                    since_mm += move_mm.abs();
+                    way += step.abs();
+                    since += step.abs();
                 }
             }
-            travelled.push(way_mm);
-            since_reversal.push(since_mm);
+            travelled.push(way);
+            since_reversal.push(since);
         }
     }
     (travelled.into(), since_reversal.into())
 }
 
-/// Way of a pass before its first sample, mm.
+/// Way of a pass before its first sample, mm; none on a rotary chain, which has no such device.
 ///
 /// A recorder does not say where its pass began. If the first sample lies no farther from travel
 /// zero than the device takes to its first comparison, the pass began at zero; any other is taken
 /// to begin with its first sample.
-fn way_before_mm(machine: &Machine, first_mm: f64) -> f64 {
+fn way_before(machine: &Machine, first_mm: f64) -> f64 {
+    if machine.rotary {
+        return 0.0;
+    }
     let dividers = &machine.dividers;
     let comparison = f64::from(dividers.range.factor()) * f64::from(dividers.b);
     let pulses = f64::from(dividers.initial_phase) + 2.0 * comparison;
     let longest_mm = pulses * machine.fringe_um() / 1000.0;
     if first_mm.abs() <= longest_mm { first_mm.abs() } else { 0.0 }
-}
-
-/// Longest way between neighbours of one direction, mm.
-fn longest_mm(record: &Record, rows: Range<usize>) -> f64 {
-    let moves = (rows.start + 1..rows.end).filter(|&row| !record.turned(row));
-    moves
-        .map(|row| (record.position_mm[row] - record.position_mm[row - 1]).abs())
-        .fold(0.0, f64::max)
 }
 
 #[cfg(test)]
@@ -230,5 +251,25 @@ drive = { step = "0.0125 um", frequency = "160 Hz" }
         let record = Record::new(&machine, &samples);
         assert!((record.since_reversal_mm[3] - 0.3).abs() < 1e-12);
         assert!((record.travelled_mm[5] - 3.0).abs() < 1e-12);
+    }
+
+    /// A table that turns 40° there and back, at a degree a row.
+    #[test]
+    fn the_way_of_a_rotary_chain_is_its_angle() {
+        let table = "output.rotary = true\nspindle.speed = \"1 rpm\"\n";
+        let machine = Model::parse(table, Path::new("machine.toml")).unwrap();
+        let ways: Vec<f64> = (0..80).map(|row| 40.0 - (f64::from(row) - 39.5).abs()).collect();
+        let rows = ways.len();
+        let samples = Samples {
+            time_s: (0..80).map(|row| f64::from(row) / 6.0).collect(),
+            angle_rev: ways.iter().map(|degrees| degrees / 360.0).collect(),
+            direction: (0..80).map(|row| if row < 40 { 1.0 } else { -1.0 }).collect(),
+            ..Samples::forward(&machine, vec![0.0; rows])
+        };
+        let record = Record::new(&machine, &samples);
+        assert!(record.since_reversal_mm[39].is_infinite());
+        assert!((record.since_reversal_mm[40] - 0.5).abs() < 1e-9);
+        assert!((record.since_reversal_mm[79] - 39.5).abs() < 1e-9);
+        assert!((record.travelled_mm[79] - 79.0).abs() < 1e-9);
     }
 }

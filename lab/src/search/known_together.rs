@@ -1,0 +1,60 @@
+//! Effects of known size that show only together.
+
+use helixlock_plant::Role;
+
+use super::judging::plain_noises;
+use crate::hypotheses::candidates;
+use crate::model::{Columns, Component, Judged, Problem, Stage, State, noises_of, with_noise};
+use crate::numerics::count;
+use crate::policy::chance::NAMED;
+use crate::policy::evidence::SET_MARGIN;
+use crate::policy::extent::KNOWN_IN_SETS;
+
+/// Several effects of known size that together beat every single effect.
+///
+/// Logged physics comes together: a warm day has weather too, and one part of it alone may fit
+/// worse than none. Which of the sets it is, is chosen at the price of a number for each member.
+/// Whether it is there at all is another question: their sizes are known, so that noise multiplies
+/// the likelihood by `x` no oftener than once in `x` (Markov's inequality), and by as much in one
+/// of `n` sets `n` times as often.
+pub(super) fn known_together(
+    problem: &Problem,
+    now: &State,
+    tried: &[Judged],
+) -> Option<Vec<Component>> {
+    let coloured = Stage::new(problem, &now.columns, &now.fit.noises);
+    let known: Vec<Component> = candidates(&coloured, &now.components)
+        .into_iter()
+        .map(|candidate| Component::new(candidate.term))
+        .filter(|component| {
+            component.term.parameters.iter().any(|what| matches!(what.role, Role::Known { .. }))
+                && now.components.iter().all(|other| other.term.name != component.term.name)
+        })
+        .collect();
+    let price = problem.price_of_a_number();
+    let single = tried.first().map_or(0.0, |best| best.evidence);
+    let known = &known[..known.len().min(KNOWN_IN_SETS)];
+    let sets = (1_usize..1 << known.len()).filter(|set| 1 < set.count_ones());
+    let looks = 2.0 * libm::log(count(sets.clone().count().max(1)));
+    let (_, gain, members) = sets
+        .filter_map(|set| {
+            let members: Vec<Component> = (0..known.len())
+                .filter(|index| set & (1 << index) != 0)
+                .map(|index| known[index].clone())
+                .collect();
+            let all = [now.components.clone(), members.clone()].concat();
+            let columns = Columns::of_model(problem, &all).ok()?;
+            let rough = with_noise(
+                &problem.layout,
+                &columns,
+                &problem.residual(),
+                &plain_noises(problem, &now.fit),
+            );
+            let state = State::of(problem, all, &noises_of(problem, &rough.left))?;
+            let gain = 2.0 * (state.fit.log_likelihood - now.fit.log_likelihood);
+            Some((gain - price * count(members.len()), gain, members))
+        })
+        .max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let least = (single.max(0.0) + SET_MARGIN).max(-2.0 * libm::log(NAMED));
+    (least < gain - looks).then_some(members)
+}
