@@ -80,6 +80,37 @@ fn two_effects_are_found_in_one_pass_there_and_back() {
     }
 }
 
+/// Once round an encoder whose disc is off, tilted and squeezed: each wave alone leaves the others to slow noise,
+/// and so do two of them.
+#[test]
+fn three_waves_of_one_turn_are_found_at_once() {
+    const ENCODER: &str = "output.rotary = true\nspindle.speed = \"60 rpm\"\n\
+                           grating = { lines = 4096, diameter = \"6 mm\" }\n";
+    for seed in seeds(1, 3) {
+        let mut noise = white(seed, 40.0);
+        let turn = |row: u16| f64::from(row) / 1024.0;
+        let wave =
+            |order: f64, turn: f64, phase| libm::sin(std::f64::consts::TAU * order * turn + phase);
+        let error = |turn| {
+            404.0 * wave(1.0, turn, 0.3)
+                + 429.0 * wave(2.0, turn, 1.9)
+                + 214.0 * wave(4.0, turn, -1.0)
+        };
+        let columns = vec![
+            ("angle_rev", (0..1024).map(turn).collect()),
+            ("error_arcsec", (0..1024).map(|row| error(turn(row)) + noise()).collect()),
+        ];
+        let found = diagnosed_on(ENCODER, columns);
+        let mut names = names(&found);
+        names.sort_unstable();
+        assert_eq!(
+            names,
+            ["grating-eccentricity", "grating-graduation", "grating-graduation"],
+            "{seed}"
+        );
+    }
+}
+
 /// True when something is left of which these words are said.
 fn tells(found: &Diagnosis, words: &str) -> bool {
     found.residual.iter().any(|one| one.shape.contains(words))

@@ -7,6 +7,7 @@ mod analysis;
 mod beside_the_rest;
 mod court;
 mod judging;
+mod known_together;
 mod likeness;
 mod own_errors;
 mod polish;

@@ -3,9 +3,10 @@
 use super::acceptance::refusal;
 use super::court::shape_beside;
 use super::judging::tried;
+use super::known_together::known_together;
 use super::pruning::{Dropped, pruned};
 use super::refusal::Refusal;
-use super::together::{Pair, instead, known_together, pair};
+use super::together::{Together, instead, together};
 use crate::model::{Component, Judged, Problem, State};
 use crate::policy::evidence::MARGIN;
 use crate::policy::extent::MOST_ROUNDS;
@@ -96,11 +97,14 @@ fn with_one_more(problem: &mut Problem, now: &State, best: &Judged) -> Option<St
     with_more(problem, &[&best.component.term.name], now, best)
 }
 
-/// The steps from a model to the one with two effects more.
-fn with_two_more(problem: &mut Problem, two: Pair) -> Option<[Step; 2]> {
-    let next = with_more(problem, &two.names(), &two.first, &two.second)?;
-    let name = two.names()[0].to_owned();
-    Some([Step::to(two.first, Some(name), Vec::new()), next])
+/// The steps from a model to the one with several effects more.
+fn with_all(problem: &mut Problem, all: &Together) -> Option<Vec<Step>> {
+    let (_, before) = all.firsts.last()?;
+    let end = with_more(problem, &all.names(), before, &all.last)?;
+    let to = |(one, state): &(Judged, State)| {
+        Step::to(state.clone(), Some(one.component.term.name.clone()), Vec::new())
+    };
+    Some(all.firsts.iter().map(to).chain([end]).collect())
 }
 
 fn go_on(problem: &mut Problem, steps: &mut Vec<Step>) {
@@ -130,18 +134,18 @@ fn go_on(problem: &mut Problem, steps: &mut Vec<Step>) {
     }
 }
 
-/// The steps to the model with the best effect more, or with two where they explain what it bends to, or where
+/// The steps to the model with the best effect more, or with several where they explain what it bends to, or where
 /// there is none; none where there is nothing more.
 fn next(problem: &mut Problem, now: &State, best: Option<&Judged>, tried: &[Judged]) -> Vec<Step> {
     let two = best.and_then(|best| instead(problem, now, best, tried));
-    if let Some(steps) = two.and_then(|two| with_two_more(problem, two)) {
-        return steps.into();
+    if let Some(steps) = two.and_then(|two| with_all(problem, &two)) {
+        return steps;
     }
     if let Some(step) = best.and_then(|best| with_one_more(problem, now, best)) {
         return vec![step];
     }
-    let two = pair(problem, now, tried).and_then(|two| with_two_more(problem, two));
-    two.map_or_else(Vec::new, Vec::from)
+    let all = together(problem, now, tried);
+    all.and_then(|all| with_all(problem, &all)).unwrap_or_default()
 }
 
 /// Adds the members of a set one a step.

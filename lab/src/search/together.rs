@@ -1,131 +1,146 @@
 //! Effects that show only together.
 //!
-//! Logged physics comes together, and slow noise that takes up one of two curves takes up the other while it is
-//! missing: then each alone explains nothing.
+//! Slow noise that takes up one of some curves takes up the others while it is missing: then each alone explains
+//! nothing.
 
-use helixlock_plant::Role;
+use helixlock_plant::Search;
 
 use super::acceptance::{refusal, worth};
-use super::judging::{plain_noises, tried};
-use crate::hypotheses::{candidates, chance_in_noise};
-use crate::model::{Columns, Component, Judged, Problem, Stage, State, noises_of, with_noise};
+use super::judging::tried;
+use crate::hypotheses::chance_in_noise;
+use crate::model::{Columns, Component, Judged, Problem, State};
 use crate::numerics::count;
 use crate::policy::chance::{NAMED, SWALLOWED};
 use crate::policy::evidence::{MARGIN, SET_MARGIN};
-use crate::policy::extent::{FIRST_OF_PAIRS, KNOWN_IN_SETS, MANY_NUMBERS, SAME_CURVE};
+use crate::policy::extent::{FIRST_OF_PAIRS, MANY_NUMBERS, SAME_CURVE};
 
-/// Several effects of known size that together beat every single effect.
-///
-/// Logged physics comes together: a warm day has weather too, and one part of it alone may fit
-/// worse than none. Which of the sets it is, is chosen at the price of a number for each member.
-/// Whether it is there at all is another question: their sizes are known, so that noise multiplies
-/// the likelihood by `x` no oftener than once in `x` (Markov's inequality), and by as much in one
-/// of `n` sets `n` times as often.
-pub(super) fn known_together(
-    problem: &Problem,
-    now: &State,
-    tried: &[Judged],
-) -> Option<Vec<Component>> {
-    let coloured = Stage::new(problem, &now.columns, &now.fit.noises);
-    let known: Vec<Component> = candidates(&coloured, &now.components)
-        .into_iter()
-        .map(|candidate| Component::new(candidate.term))
-        .filter(|component| {
-            component.term.parameters.iter().any(|what| matches!(what.role, Role::Known { .. }))
-                && now.components.iter().all(|other| other.term.name != component.term.name)
-        })
-        .collect();
-    let price = problem.price_of_a_number();
-    let single = tried.first().map_or(0.0, |best| best.evidence);
-    let known = &known[..known.len().min(KNOWN_IN_SETS)];
-    let sets = (1_usize..1 << known.len()).filter(|set| 1 < set.count_ones());
-    let looks = 2.0 * libm::log(count(sets.clone().count().max(1)));
-    let (_, gain, members) = sets
-        .filter_map(|set| {
-            let members: Vec<Component> = (0..known.len())
-                .filter(|index| set & (1 << index) != 0)
-                .map(|index| known[index].clone())
-                .collect();
-            let all = [now.components.clone(), members.clone()].concat();
-            let columns = Columns::of_model(problem, &all).ok()?;
-            let rough = with_noise(
-                &problem.layout,
-                &columns,
-                &problem.residual(),
-                &plain_noises(problem, &now.fit),
-            );
-            let state = State::of(problem, all, &noises_of(problem, &rough.left))?;
-            let gain = 2.0 * (state.fit.log_likelihood - now.fit.log_likelihood);
-            Some((gain - price * count(members.len()), gain, members))
-        })
-        .max_by(|a, b| a.0.total_cmp(&b.0))?;
-    let least = (single.max(0.0) + SET_MARGIN).max(-2.0 * libm::log(NAMED));
-    (least < gain - looks).then_some(members)
+/// Effects taken in turn, though none may be accepted yet, and what was tried beside them.
+struct Start {
+    /// Each, judged beside those before it, and the model with it.
+    taken: Vec<(Judged, State)>,
+    /// Others, best evidence first.
+    listed: Vec<Judged>,
 }
 
-/// Two effects that are accepted beside each other.
-pub(super) struct Pair {
-    /// The first, judged alone.
-    one: Judged,
-    /// The model with it.
-    pub(super) first: State,
-    /// The second, judged beside it.
-    pub(super) second: Judged,
-    /// Evidence of both.
+impl Start {
+    fn with(
+        problem: &Problem,
+        now: &State,
+        before: &[(Judged, State)],
+        one: &Judged,
+    ) -> Option<Self> {
+        let model = before.last().map_or(now, |(_, state)| state);
+        let state = with(problem, model, one)?;
+        let taken = [before, &[(one.clone(), state.clone())]].concat();
+        let mut listed = tried(problem, &state);
+        listed.retain(|other| !taken.iter().any(|(one, _)| imitate(one, other)));
+        Some(Self { taken, listed })
+    }
+
+    /// The same and the best of what was tried; `None` where they do not pay for themselves.
+    fn and_the_best(&self, problem: &Problem, now: &State) -> Option<Self> {
+        let best = self.listed.first()?;
+        (0.0 < self.evidence_with(now, best)).then_some(())?;
+        Self::with(problem, now, &self.taken, best)
+    }
+
+    /// Evidence of all of them and another.
+    fn evidence_with(&self, now: &State, other: &Judged) -> f64 {
+        let gain = 2.0 * (other.fit.log_likelihood - now.fit.log_likelihood);
+        let before: f64 = self.taken.iter().map(|(one, _)| one.price()).sum();
+        gain - before - other.price()
+    }
+
+    /// The set with the best of what is accepted beside them.
+    fn complete(&self, problem: &Problem, now: &State) -> Option<Together> {
+        let (_, state) = self.taken.last()?;
+        let last = self.listed.iter().find(|other| refusal(problem, state, other).is_none())?;
+        let evidence = self.evidence_with(now, last);
+        Some(Together { firsts: self.taken.clone(), last: last.clone(), evidence })
+    }
+}
+
+/// Effects each of which is accepted beside the others.
+pub(super) struct Together {
+    /// All but one, and the models with them.
+    pub(super) firsts: Vec<(Judged, State)>,
+    /// That one, judged beside the others.
+    pub(super) last: Judged,
+    /// Evidence of all.
     evidence: f64,
 }
 
-impl Pair {
-    /// A first effect and the best of another name that is accepted beside it: two of one name, such as a slip there
-    /// and one back, imitate a spell of anything.
-    fn beside(problem: &Problem, now: &State, one: &Judged) -> Option<Self> {
-        let first = with(problem, now, one)?;
-        let listed = tried(problem, &first);
-        let name = &one.component.term.name;
-        let mut others = listed.into_iter().filter(|two| two.component.term.name != *name);
-        let second = others.find(|two| refusal(problem, &first, two).is_none())?;
-        let gain = 2.0 * (second.fit.log_likelihood - now.fit.log_likelihood);
-        let evidence = gain - one.price() - second.price();
-        Some(Self { one: one.clone(), first, second, evidence })
+impl Together {
+    fn members(&self) -> impl Iterator<Item = &Judged> {
+        self.firsts.iter().map(|(one, _)| one).chain([&self.last])
     }
 
-    /// Names of both.
-    pub(super) fn names(&self) -> [&str; 2] {
-        [&self.one.component.term.name, &self.second.component.term.name]
+    /// Names of all.
+    pub(super) fn names(&self) -> Vec<&str> {
+        self.members().map(|one| one.component.term.name.as_str()).collect()
     }
 
     /// True where noise like that of the model, which may be slow, hardly ever does as much.
     fn is_beyond_noise(&self, problem: &Problem, now: &State) -> bool {
-        let both = [self.one.component.clone(), self.second.component.clone()];
-        let Ok(columns) = Columns::of(problem, &both) else { return false };
-        let gain = 2.0 * (self.second.fit.log_likelihood - now.fit.log_likelihood);
-        let pairs = (0.5 * self.one.tried * (self.one.tried - 1.0)).max(1.0);
-        let looks = self.one.looks.max(1.0) * self.second.looks.max(1.0) * pairs;
+        let all: Vec<Component> = self.members().map(|one| one.component.clone()).collect();
+        let Ok(columns) = Columns::of(problem, &all) else { return false };
+        let gain = 2.0 * (self.last.fit.log_likelihood - now.fit.log_likelihood);
+        let tried = self.firsts[0].0.tried;
+        let sets: f64 =
+            (0..all.len()).map(|place| (tried - count(place)) / count(place + 1)).product();
+        let looks: f64 =
+            self.members().map(|one| one.looks.max(1.0)).product::<f64>() * sets.max(1.0);
         let model = (&now.columns, &now.fit);
         looks * chance_in_noise(problem, model, &columns.raw, gain, NAMED / looks) < NAMED
     }
 
-    /// True where the first is accepted beside the second, too.
+    /// True where each is accepted beside the others, as the last is.
     fn is_mutual(&self, problem: &Problem, now: &State) -> bool {
-        let Some(other) = with(problem, now, &self.second) else { return false };
-        let listed = tried(problem, &other);
-        let again = listed.iter().find(|one| one.component.term.name == self.names()[0]);
-        again.is_some_and(|one| refusal(problem, &other, one).is_none())
+        (0..self.firsts.len()).all(|place| self.needs(problem, now, place).unwrap_or(false))
+    }
+
+    /// True where one of the first is accepted beside all others; `None` without a fit of those.
+    fn needs(&self, problem: &Problem, now: &State, place: usize) -> Option<bool> {
+        let mut others: Vec<&Judged> = self.members().collect();
+        let one = others.remove(place);
+        let all = others.iter().map(|other| other.component.clone());
+        let components = now.components.iter().cloned().chain(all).collect();
+        let model = State::settled(problem, components, &self.last.fit.noises)?;
+        let listed = tried(problem, &model);
+        let again =
+            listed.iter().find(|other| other.component.term.name == one.component.term.name)?;
+        Some(refusal(problem, &model, again).is_none())
     }
 }
 
-/// The two effects that together explain most, where slow noise may hide each while the other is missing;
-/// `None` unless they beat every single one, every other two, and noise.
-pub(super) fn pair(problem: &Problem, now: &State, single: &[Judged]) -> Option<Pair> {
+/// Two or three effects that together explain most, where slow noise may hide each while another is missing;
+/// `None` unless they beat every single one, all others of as many, and noise.
+pub(super) fn together(problem: &Problem, now: &State, single: &[Judged]) -> Option<Together> {
     if SWALLOWED <= worth(problem, now) {
         return None;
     }
     let firsts = single.iter().take(FIRST_OF_PAIRS);
-    let mut pairs: Vec<Pair> = firsts.filter_map(|one| Pair::beside(problem, now, one)).collect();
-    pairs.sort_by(|a, b| a.evidence.total_cmp(&b.evidence));
-    let best = pairs.pop()?;
+    let ones: Vec<Start> = firsts.filter_map(|one| Start::with(problem, now, &[], one)).collect();
+    clear_winner(problem, now, single, &ones).or_else(|| {
+        let twos = ones.iter().filter_map(|one| one.and_the_best(problem, now));
+        clear_winner(problem, now, single, &twos.collect::<Vec<Start>>())
+    })
+}
+
+/// The best set that some starts lead to, where it is ahead of every single effect and of sets without any of its
+/// members.
+fn clear_winner(
+    problem: &Problem,
+    now: &State,
+    single: &[Judged],
+    starts: &[Start],
+) -> Option<Together> {
+    let complete = starts.iter().filter_map(|start| start.complete(problem, now));
+    let mut sets: Vec<Together> = complete.collect();
+    sets.sort_by(|a, b| a.evidence.total_cmp(&b.evidence));
+    let best = sets.pop()?;
     let rivals =
-        pairs.iter().filter(|other| !other.names().iter().any(|a| best.names().contains(a)));
+        sets.iter().filter(|other| !other.names().iter().any(|a| best.names().contains(a)));
     let rival = rivals.map(|other| other.evidence).fold(f64::NEG_INFINITY, f64::max);
     let alone = single.first().map_or(0.0, |best| best.evidence).max(0.0);
     let wins = alone + SET_MARGIN < best.evidence && rival + MARGIN < best.evidence;
@@ -139,7 +154,7 @@ pub(super) fn instead(
     now: &State,
     best: &Judged,
     single: &[Judged],
-) -> Option<Pair> {
+) -> Option<Together> {
     let numbers = |one: &Judged| one.component.width() + one.component.term.nonlinear().len();
     if numbers(best) < MANY_NUMBERS {
         return None;
@@ -151,7 +166,7 @@ pub(super) fn instead(
             firsts.push(one);
         }
     }
-    let of = |one: &Judged| Pair::beside(problem, now, one);
+    let of = |one: &Judged| Start::with(problem, now, &[], one)?.complete(problem, now);
     let pairs = firsts.into_iter().take(FIRST_OF_PAIRS).filter_map(of);
     let name = best.component.term.name.as_str();
     let others = pairs.filter(|pair| !pair.names().contains(&name));
@@ -162,4 +177,14 @@ pub(super) fn instead(
 /// A model with one effect more.
 fn with(problem: &Problem, now: &State, one: &Judged) -> Option<State> {
     State::settled(problem, now.with(&one.component), &one.fit.noises)
+}
+
+/// True for two of one name that imitate a spell of anything, such as a slip there and one back; whole waves of a
+/// turn and those of listed gears are few to choose from.
+fn imitate(one: &Judged, other: &Judged) -> bool {
+    let listed = |what: &helixlock_plant::Parameter| {
+        matches!(what.search, Search::Whole | Search::GearOrder)
+    };
+    let (one, other) = (&one.component.term, &other.component.term);
+    one.name == other.name && !one.parameters.iter().any(listed)
 }
