@@ -38,7 +38,9 @@ mod waves;
 
 pub(crate) use agreement::disagreements;
 pub(crate) use calibration::chance as chance_in_noise;
-pub(crate) use candidates::{Candidate, as_it_stands, candidate, candidates, turn_scan};
+pub(crate) use candidates::{
+    Candidate, as_it_stands, candidate, candidates, of_known_size, turn_scan,
+};
 pub(crate) use flaws::{above_flaws, above_hunting, least_above_hunting};
 pub(crate) use likelihood::Likelihood;
 pub use probes::Structure;

@@ -47,6 +47,28 @@ const MOST: usize = 3000;
 /// the search has added so far.
 #[must_use]
 pub(crate) fn candidates(stage: &Stage<'_>, found: &[Component]) -> Vec<Candidate> {
+    let mut all = candidates_of(stage, found, |_| true);
+    all.extend(corrections(stage, found));
+    all
+}
+
+/// Those of them whose size physics fixes.
+#[must_use]
+pub(crate) fn of_known_size(stage: &Stage<'_>, found: &[Component]) -> Vec<Candidate> {
+    let is_known =
+        |term: &Term| term.parameters.iter().any(|what| matches!(what.role, Role::Known { .. }));
+    let mut known = candidates_of(stage, found, is_known);
+    known.retain(|candidate| is_known(&candidate.term));
+    known
+}
+
+/// Some effects of the catalogue and of the user's own. Where to look for one takes long to find out, so that
+/// nobody should ask for those that are not wanted.
+fn candidates_of(
+    stage: &Stage<'_>,
+    found: &[Component],
+    is_wanted: fn(&Term) -> bool,
+) -> Vec<Candidate> {
     let problem = stage.problem;
     CATALOGUE
         .iter()
@@ -56,12 +78,11 @@ pub(crate) fn candidates(stage: &Stage<'_>, found: &[Component]) -> Vec<Candidat
         .filter(|card| !is_another_size(problem, card))
         .map(|card| Term::candidate(card, problem.model.rotary))
         .chain(problem.extra.iter().cloned())
-        .filter(|term| logged(problem, term))
+        .filter(|term| is_wanted(term) && logged(problem, term))
         .filter_map(|term| candidate(stage, term))
         .map(|candidate| with_overtones(candidate, stage.problem, found))
         .flat_map(|candidate| [freed(&candidate), doubled(stage, &candidate), Some(candidate)])
         .flatten()
-        .chain(corrections(stage, found))
         .collect()
 }
 

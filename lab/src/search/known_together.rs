@@ -1,9 +1,7 @@
 //! Effects of known size that show only together.
 
-use helixlock_plant::Role;
-
 use super::judging::plain_noises;
-use crate::hypotheses::candidates;
+use crate::hypotheses::of_known_size;
 use crate::model::{Columns, Component, Judged, Problem, Stage, State, noises_of, with_noise};
 use crate::numerics::count;
 use crate::policy::chance::NAMED;
@@ -23,13 +21,12 @@ pub(super) fn known_together(
     tried: &[Judged],
 ) -> Option<Vec<Component>> {
     let coloured = Stage::new(problem, &now.columns, &now.fit.noises);
-    let known: Vec<Component> = candidates(&coloured, &now.components)
+    let is_new =
+        |one: &Component| now.components.iter().all(|other| other.term.name != one.term.name);
+    let known: Vec<Component> = of_known_size(&coloured, &now.components)
         .into_iter()
         .map(|candidate| Component::new(candidate.term))
-        .filter(|component| {
-            component.term.parameters.iter().any(|what| matches!(what.role, Role::Known { .. }))
-                && now.components.iter().all(|other| other.term.name != component.term.name)
-        })
+        .filter(is_new)
         .collect();
     let price = problem.price_of_a_number();
     let single = tried.first().map_or(0.0, |best| best.evidence);
