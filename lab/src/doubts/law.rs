@@ -17,10 +17,13 @@ pub(super) fn usualness(measurement: &Measurement, machine: &Machine) -> f64 {
         + travel(measurement, machine, 1.0)
 }
 
+/// The same of what columns mostly show, or of what they show first: a bed that is heated begins with the hall.
 fn readings(measurement: &Measurement) -> f64 {
     let of = |&(column, usual, deviation): &(&str, f64, f64)| {
-        let mut values = measurement.covariates.get(column)?.clone();
-        Some(-((median(&mut values) - usual) / deviation).powi(2))
+        let values = measurement.covariates.get(column)?;
+        let first = values.iter().copied().find(|value| value.is_finite())?;
+        let off = |value: f64| ((value - usual) / deviation).powi(2);
+        Some(-off(median(&mut values.clone())).min(off(first)))
     };
     USUAL.iter().filter_map(of).sum()
 }

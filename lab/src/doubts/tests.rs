@@ -246,6 +246,17 @@ fn fahrenheit_is_told_by_the_swing_and_by_the_shop() {
     }
 }
 
+/// A chamber that is heated from 22 to 95 °C: its median is usual in °F.
+#[test]
+fn what_is_heated_is_not_in_fahrenheit() {
+    let mut row = 0.0;
+    let heated = changed(measured(&machine(150, "")), "air_temperature_c", |_| {
+        row += 1.0;
+        22.0 + 73.0 * (1.0 - libm::exp(-row / 150.0))
+    });
+    assert_eq!(doubted(&machine(150, ""), &heated), None);
+}
+
 /// Weather in which a machine shows what it is known for is not doubted, and is in mmHg.
 fn mercury_is_told(known: &Model, weather: Table, noise_um: f64) {
     let clean = problem(known, &weather).predicted;
