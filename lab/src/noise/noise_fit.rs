@@ -173,10 +173,10 @@ fn longest_block(layout: &Layout) -> f64 {
 ///
 /// A sample is judged against the median of itself and its neighbours, so a slow effect or a step,
 /// which neighbours share, is never an outlier (Hampel's identifier). Where most samples are that
-/// median themselves, as on a smooth curve or a staircase, nothing tells how far noise takes one, and
-/// none is an outlier. No deviation is taken to be less than `least_variance` says of its sensor. Where
-/// four fifths of the samples say far more than half of them, as no law of noise does, those are
-/// believed: half may lie where a wave turns slowly.
+/// median themselves, as on a smooth curve or a staircase, those that are not tell how far noise takes
+/// one. No deviation is taken to be less than `least_variance` says of its sensor. Where four fifths of the
+/// samples say far more than half of them, as no law of noise does, those are believed: half may lie where
+/// a wave turns slowly.
 #[must_use]
 pub(crate) fn outlier_inflation(
     layout: &Layout,
@@ -189,6 +189,9 @@ pub(crate) fn outlier_inflation(
         let departures: Vec<f64> =
             blocks().flat_map(|block| departures(&residual[block.rows.clone()])).collect();
         let mut sizes: Vec<f64> = departures.iter().map(|value| value.abs()).collect();
+        if deviation(&mut sizes) <= 0.0 {
+            sizes.retain(|size| 0.0 < *size);
+        }
         let told = deviation(&mut sizes);
         if 0.0 < told {
             let most = one_in(&mut sizes, BEYOND_ARE_OUTLIERS) / BEYOND_DEVIATIONS;

@@ -164,3 +164,17 @@ fn samples_that_scatter_by_turns_are_no_outliers() {
     let weighed = outlier_inflation(&layout, &residual, &[0.0]);
     assert!((0..40).all(|nth| 20.0 < weighed[10 * nth + 5]), "{weighed:?}");
 }
+
+/// A display that hardly moves from row to row, and one reading in fifty that is wild: steps of one digit are no
+/// outliers, though most rows are the median of their neighbours.
+#[test]
+fn wild_readings_of_a_coarse_display_are_outliers() {
+    let layout = even();
+    let digits = |row: usize| f64::from(u8::from(row % 13 == 6)) + (count(row) / 40.0).floor();
+    let shown = |row: usize| if row % 50 == 25 { 300.0 } else { digits(row) };
+    let residual: Vec<f64> = (0..400).map(shown).collect();
+    let weighed = outlier_inflation(&layout, &residual, &[0.0]);
+    let wild = weighed.iter().filter(|by| 100.0 < **by).count();
+    let usual = weighed.iter().filter(|by| **by < 1.5).count();
+    assert_eq!((wild, usual), (8, 392), "{weighed:?}");
+}
