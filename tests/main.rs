@@ -66,6 +66,7 @@ mod phase_meter;
 mod print;
 mod programmable_divider;
 mod properties;
+mod proposals;
 mod python;
 mod quadrature_decoder;
 mod range_stage;

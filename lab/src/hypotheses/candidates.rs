@@ -268,9 +268,9 @@ fn corrector_moves(problem: &Problem) -> bool {
     problem.model.loop_closed || problem.measurement.covariates.contains_key("steps")
 }
 
-/// True when the covariates an effect needs are logged and not constant.
+/// True when the covariates an effect needs are logged, and none is what was measured.
 fn logged(problem: &Problem, term: &Term) -> bool {
-    term.needs().iter().all(|name| problem.measurement.covariates.contains_key(*name))
+    term.needs().iter().all(|name| problem.measurement.is_cause(name))
 }
 
 pub(super) fn axis(stage: &Stage<'_>, parameter: &Parameter) -> Vec<f64> {

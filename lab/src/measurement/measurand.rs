@@ -1,12 +1,14 @@
-//! Columns that are what was measured: the error was worked out of them and the position.
+//! Columns that are what was measured: the error was worked out of them, alone or with the position.
 
 use helixlock_plant::prediction::Sensor;
 use helixlock_plant::{COVARIATES, Column};
 
-use super::Measurement;
+use super::{Measurement, spacing};
 use crate::numerics::least_squares::{dot, fit, left};
-use crate::numerics::mean;
-use crate::policy::reading::{SHARE_OF_ROUNDING, SHARE_OF_TRAVEL};
+use crate::numerics::{count, mean};
+use crate::policy::reading::{
+    FINE_ROUNDING, MOST_OF_ROUNDING, SAME_READING, SHARE_OF_ROUNDING, SHARE_OF_TRAVEL,
+};
 
 /// How many of a column make a millimetre, or a turn, by the end of its name.
 const OF_A_MILLIMETRE: [(&str, f64); 4] =
@@ -17,25 +19,43 @@ const OF_A_TURN: [(&str, f64); 4] =
 const ARCSEC_A_TURN: f64 = 1_296_000.0;
 const UM_A_MM: f64 = 1000.0;
 
+/// What a column is that the error, or the position, was read from.
+const READING: &str = "the error in other units";
+const POSITION: &str = "the position as it was measured";
+
 impl Measurement {
-    /// The same with a note on each column that is the position as it was measured.
-    pub(super) fn with_positions_told(mut self) -> Self {
+    /// The same with a note on each column that is what was measured.
+    pub(super) fn with_measurands_told(mut self) -> Self {
         let Some(error) = self.observations.get(&Sensor::Recorder) else { return self };
         let position = if self.rotary { &self.angle_rev } else { &self.position_mm };
         let measurand = Measurand { rotary: self.rotary, position, error, pass: &self.pass };
-        let unknown =
-            self.covariates.iter().filter(|(name, _)| !COVARIATES.contains(&name.as_str()));
-        let is_one = unknown.filter(|(name, values)| measurand.is(name, values));
-        self.positions = is_one.map(|(name, _)| name.clone()).collect();
-        self.notes.extend(self.positions.iter().map(|name| {
-            format!("column `{name}` is the position as it was measured: not asked as a cause")
-        }));
+        let is_position = |name: &String, values: &[f64]| {
+            !COVARIATES.contains(&name.as_str()) && measurand.is_position(name, values)
+        };
+        let mut told = Vec::new();
+        for (name, values) in &self.covariates {
+            // What the motor was told is taken off.
+            if name != "steps" && measurand.is_reading(values) {
+                told.push((name.clone(), READING));
+            } else if is_position(name, values) {
+                told.push((name.clone(), POSITION));
+            }
+        }
+        for (name, what) in told {
+            self.notes.push(format!("column `{name}` is {what}: not asked as a cause"));
+            self.measurands.push(name);
+        }
         self
     }
 
     /// Logged columns that may be causes, by name.
     pub(crate) fn causes(&self) -> impl Iterator<Item = (&String, &Column)> {
-        self.covariates.iter().filter(|(name, _)| !self.positions.contains(name))
+        self.covariates.iter().filter(|(name, _)| self.is_cause(name))
+    }
+
+    /// True for the name of a logged column that may be a cause.
+    pub(crate) fn is_cause(&self, name: &str) -> bool {
+        self.covariates.contains_key(name) && !self.measurands.iter().any(|own| own == name)
     }
 }
 
@@ -48,16 +68,43 @@ struct Measurand<'a> {
 }
 
 impl Measurand<'_> {
+    /// True for a column that gives the error by a straight line, each pass from a zero of its own, so closely as
+    /// no cause does beside a sensor's noise: to the last digit, or to what rounding of the error leaves.
+    fn is_reading(&self, column: &[f64]) -> bool {
+        let known = self.known(column);
+        let digit = |values: &[f64]| {
+            spacing(&known.iter().map(|&row| values[row]).collect::<Vec<_>>()).unwrap_or(0.0)
+        };
+        let digits = [digit(column), digit(self.error)];
+        let [column, error] =
+            [column, self.error].map(|values| about_means(values, &known, self.pass));
+        let whole = dot(&error, &error);
+        if whole <= 0.0 || dot(&column, &column) <= 0.0 {
+            return false;
+        }
+        let size = dot(&column, &error) / dot(&column, &column);
+        let off = left(&[&column], &error, &[size]);
+        let variance = (size * digits[0]).powi(2) + digits[1].powi(2);
+        let rounding = MOST_OF_ROUNDING * (variance / 12.0 * count(known.len()) / whole).sqrt();
+        let share =
+            if rounding < FINE_ROUNDING { rounding.max(SAME_READING) } else { SAME_READING };
+        is_share(share, &off, &error)
+    }
+
+    /// Rows of which the error and a column are known.
+    fn known(&self, column: &[f64]) -> Vec<usize> {
+        let rows = 0..self.pass.len();
+        rows.filter(|&row| column[row].is_finite() && self.error[row].is_finite()).collect()
+    }
+
     /// True for a column that is the position, as another gauge or the one that the error is of has measured
     /// it, each pass from a zero of its own.
     ///
     /// Either it is that in a unit of length, or angle, to within what a machine may be off; or so much of it
     /// as makes a micrometre of position makes one of error. A cause may follow the position or the error, and
     /// the one by accident as closely as it will, but not both by the same number.
-    fn is(&self, name: &str, column: &[f64]) -> bool {
-        let known: Vec<usize> = (0..self.pass.len())
-            .filter(|&row| column[row].is_finite() && self.error[row].is_finite())
-            .collect();
+    fn is_position(&self, name: &str, column: &[f64]) -> bool {
+        let known = self.known(column);
         let [column, position, error] = [column, self.position, self.error]
             .map(|values| about_means(values, &known, self.pass));
         if dot(&position, &position) <= 0.0 {
@@ -111,8 +158,8 @@ mod tests {
     fn is_measured(name: &str, column: impl Fn(f64, f64) -> f64) -> bool {
         let (position, error, pass) = visits();
         let column: Vec<f64> = position.iter().zip(&error).map(|(x, e)| column(*x, *e)).collect();
-        Measurand { rotary: false, position: &position, error: &error, pass: &pass }
-            .is(name, &column)
+        let one = Measurand { rotary: false, position: &position, error: &error, pass: &pass };
+        one.is_reading(&column) || one.is_position(name, &column)
     }
 
     /// As a laser's reading beside the target, of five digits, in inches, and in counts of the other sign.
@@ -131,11 +178,20 @@ mod tests {
         assert!(!is_measured("pull_n", |place, error| place - 1e-3 * libm::cos(error)), "a cable");
     }
 
-    /// A temperature that the error follows to the last digit, one that follows the place as well, and
-    /// one that grows with the place alone.
+    /// A reading in pixels, whatever it is called, in a pass of another zero, and rounded to a hundredth of what
+    /// it shows.
+    #[test]
+    fn what_gives_the_error_by_itself_to_its_last_digits_is_no_cause() {
+        assert!(is_measured("x_pixel", |_, error| 1278.0 + error / 3.0864));
+        assert!(is_measured("air_temperature_c", |_, error| 20.0 - 0.3 * error));
+        assert!(is_measured("count", |_, error| (1e4 * error).round()));
+    }
+
+    /// A temperature that the error follows to a hundredth, one that it follows beside the place, and one that
+    /// grows with the place alone.
     #[test]
     fn what_goes_along_with_an_error_may_be_its_cause() {
-        assert!(!is_measured("load", |_, error| 20.0 + 0.3 * error));
+        assert!(!is_measured("load", |place, error| 20.0 + 0.3 * error + 0.005 * libm::sin(place)));
         assert!(!is_measured("load", |place, error| 20.0 + 0.01 * place + 0.3 * error));
         assert!(!is_measured("load", |place, _| 20.0 + 0.01 * place));
     }

@@ -84,8 +84,8 @@ pub struct Measurement {
     /// Of covariates that were rounded to steps: standard deviation of what they may be off by where
     /// they passed from one step to the next, in their unit.
     pub off_by: BTreeMap<String, f64>,
-    /// Covariates that are the position as it was measured.
-    pub positions: Vec<String>,
+    /// Covariates that are the error or the position as it was measured.
+    pub measurands: Vec<String>,
     /// True when time was measured, not worked out from travel and speed.
     pub timed: bool,
     /// What columns tell that otherwise follows from travel and time.
@@ -226,7 +226,7 @@ impl Measurement {
             return Err(LabError::LonePasses { path, passes, lone });
         }
         let assembled = assemble(table, nominal, &coordinates, passes, notes);
-        Ok(assembled.without_holds().without_treads().with_positions_told().with_zeros_told())
+        Ok(assembled.without_holds().without_treads().with_measurands_told().with_zeros_told())
     }
 
     /// These samples and others of the same sensors and columns behind them, as further passes.
@@ -416,7 +416,7 @@ fn assemble(
         observations,
         deviations,
         off_by: BTreeMap::new(),
-        positions: Vec::new(),
+        measurands: Vec::new(),
         timed: coordinates.timed,
         told: Told {
             speed: table.column("speed_rpm").is_some(),

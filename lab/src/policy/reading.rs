@@ -224,3 +224,15 @@ pub(crate) const MOST_LOUD: f64 = 2.0;
 /// skewed noise fall below 0.01; by none, 167 with a stretch four times as loud do. Doubled: so do many of
 /// these.
 pub(crate) const CLEARLY_LOUDER: f64 = 1.5;
+
+/// Share of an error that a column may leave of it by a straight line, where it is that error in another unit.
+///
+/// Chosen: sensors that tell a cause apart to a ten-thousandth of it are rare, digits that are carried over are
+/// not. Doubled: two thermometers of five digits beside a fault of exactly one of them are that fault.
+pub(crate) const SAME_READING: f64 = 1e-4;
+
+/// The same where it is no more than the rounding of both.
+///
+/// Derived: digits of a fiftieth of its size leave twice a 173rd. Doubled: a sensor that shows a cause in steps of
+/// a twenty-fifth, and nothing else, is the cause's reading.
+pub(crate) const FINE_ROUNDING: f64 = 0.012;
