@@ -4,6 +4,7 @@ use helixlock_lab::{Discovery, discover};
 
 use crate::support::diagnosed::{diagnosed_on, names, problem_of};
 use crate::support::passes::white;
+use crate::support::seeds::seeds;
 
 /// An instrument at rest: what moves it is a lead and a speed of the machine file only.
 const AT_REST: &str = "spindle.speed = '60 rpm'\nlead_screw.lead = '8 mm'\n";
@@ -17,6 +18,15 @@ fn discovered(machine: &str, columns: &Table) -> Discovery {
 /// What each proposal stands along.
 fn along(found: &Discovery) -> Vec<&str> {
     found.proposals.iter().map(|proposal| proposal.along.as_str()).collect()
+}
+
+/// Minutes of an air temperature that swings in two periods, one of them with flat tops.
+fn air(rows: u32) -> (Vec<f64>, Vec<f64>) {
+    let time_s: Vec<f64> = (0..rows).map(|row| 60.0 * f64::from(row)).collect();
+    let heated = |time_s: f64| (3.0 * libm::sin(time_s / 5200.0)).clamp(-1.0, 1.0);
+    let air_c = time_s.iter().map(|t| 23.0 + 2.0 * libm::sin(t / 8000.0) + 1.5 * heated(*t));
+    let air_c = air_c.collect();
+    (time_s, air_c)
 }
 
 /// A camera's pixels and what was worked out of them, to three digits.
@@ -39,5 +49,33 @@ fn a_reading_does_not_explain_itself() {
         let named = diagnosed_on(AT_REST, table);
         assert!(names(&named).is_empty(), "{name}: {:?}", names(&named));
         assert!(named.residual.iter().all(|left| left.along != name), "{name}: {named:?}");
+    }
+}
+
+/// A temperature, and a humidity beside it that hardly matters: of laws that cannot be told apart the one of the
+/// fewest numbers is told, and none of its sizes is lost in its error.
+#[test]
+fn of_laws_alike_the_one_of_fewest_numbers_is_told() {
+    for seed in seeds(3, 8) {
+        let (time_s, air_c) = air(600);
+        let damp_pct: Vec<f64> =
+            time_s.iter().map(|t| 40.0 + 5.0 * libm::sin(t / 7000.0 + 2.0)).collect();
+        let mut noise = white(seed, 0.35);
+        let error = air_c.iter().zip(&damp_pct);
+        let error = error.map(|(air, damp)| 0.3 * air + 0.028 * damp + noise()).collect();
+        let table =
+            vec![("time_s", time_s), ("air_c", air_c), ("damp_pct", damp_pct), ("error_um", error)];
+        let found = discovered(AT_REST, &table);
+        assert!(!found.proposals.is_empty(), "{seed}");
+        for proposal in &found.proposals {
+            for what in proposal.parameters.iter().filter(|what| !what.name.ends_with("_s")) {
+                let stderr = what.stderr.expect("an error");
+                assert!(2.0 * stderr < what.value.abs(), "{seed}: {proposal:?}");
+            }
+            let rivals = proposal.runners_up.iter().filter(|one| one.alike);
+            let mut rivals = rivals.filter(|one| one.instead_of == proposal.instead_of);
+            let fewer = rivals.find(|one| one.numbers < proposal.parameters.len());
+            assert!(fewer.is_none(), "{seed}: {fewer:?} for {proposal:?}");
+        }
     }
 }

@@ -56,11 +56,12 @@ pub(super) fn print(out: &mut impl Write, found: &Discovery, unit: &str) -> anyh
 }
 
 /// Where a runner-up stands, and why that is not in front.
-fn standing(other: &RunnerUp) -> String {
+fn standing(one: &Proposal, other: &RunnerUp) -> String {
     match other.refused {
         Some(why) => format!("ahead, but {why}"),
-        None if other.behind < 0.0 => "ahead by more numbers".to_owned(),
-        None => "behind".to_owned(),
+        None if 0.0 <= other.behind => "behind".to_owned(),
+        None if one.parameters.len() < other.numbers => "ahead by more numbers".to_owned(),
+        None => "ahead".to_owned(),
     }
 }
 
@@ -93,7 +94,7 @@ fn print_proposal(out: &mut impl Write, one: &Proposal) -> anyhow::Result<()> {
             other.shape,
             other.along,
             other.behind.abs(),
-            standing(other),
+            standing(one, other),
             other.formula
         )?;
     }

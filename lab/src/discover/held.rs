@@ -1,31 +1,33 @@
 //! Whether the data hold a formula that was granted: its sizes against their errors, and against what
 //! least squares make of it.
 
-use helixlock_plant::Role;
-
 use super::errors::errors;
+use crate::formulas::Shape;
 use crate::model::{Columns, Problem, State, with_noise};
 use crate::noise::weighed_rms;
 use crate::policy::chance::STANDARD_ERRORS;
 use crate::policy::size::LEAST_TAKEN;
 use crate::search::plain_noises;
 
-/// True for a component of which a size is beyond its error, and which takes its share.
+/// The part of a shape whose size is lost most in its error, as where the samples meet a wave always at the same
+/// two phases; `None` where every size is beyond its own.
 #[must_use]
-pub(super) fn is_held(problem: &Problem, state: &State, index: usize) -> bool {
-    has_a_size(problem, state, index) && takes_its_share(problem, state, index)
-}
-
-/// True unless every size of a component is lost in its error, as where the samples meet a wave always
-/// at the same two phases.
-fn has_a_size(problem: &Problem, state: &State, index: usize) -> bool {
-    let term = state.components[index].valued(state.coefficients(index).0);
-    let sizes = term.parameters.iter().zip(&term.values).zip(errors(problem, state, index));
-    let mut sizes =
-        sizes.filter(|((what, _), _)| matches!(what.role, Role::Linear | Role::Amplitude));
-    sizes.any(|((_, value), stderr)| {
-        stderr.is_some_and(|stderr| STANDARD_ERRORS * stderr < value.abs())
-    })
+pub(super) fn lost_part(
+    problem: &Problem,
+    state: &State,
+    index: usize,
+    shape: &Shape,
+) -> Option<usize> {
+    let values = state.components[index].valued(state.coefficients(index).0).values;
+    let errors = errors(problem, state, index);
+    let in_errors = |part: usize| {
+        let place = shape.numbers_of(part).start;
+        let stderr = errors.get(place).copied().flatten();
+        stderr.map_or(0.0, |stderr| values[place].abs() / stderr)
+    };
+    let all = (0..shape.parts.len()).map(|part| (part, in_errors(part)));
+    let least = all.min_by(|a, b| a.1.total_cmp(&b.1));
+    least.filter(|(_, size)| *size <= STANDARD_ERRORS).map(|(part, _)| part)
 }
 
 /// True where the sizes of a component take most of what its columns take by least squares.

@@ -3,7 +3,7 @@
 use helixlock_plant::{EffectError, Entry, Term};
 
 use super::errors::errors;
-use crate::formulas::{Delta, Placed};
+use crate::formulas::{Delta, Placed, Shape};
 use crate::model::{Columns, Problem, State};
 use crate::numerics::spread;
 use crate::policy::evidence::MARGIN;
@@ -36,6 +36,8 @@ pub struct RunnerUp {
     pub instead_of: Vec<String>,
     /// Evidence behind the proposal, in units of twice the log likelihood.
     pub behind: f64,
+    /// How many numbers it has.
+    pub numbers: usize,
     /// True when the data cannot tell it from the proposal.
     pub alike: bool,
     /// Why it is not proposed though it is clearly ahead.
@@ -72,9 +74,7 @@ pub struct Proposal {
 /// A claim the court has granted, with its rivals.
 #[derive(Debug, Clone)]
 pub(super) struct Granted {
-    pub(super) shape: &'static str,
-    pub(super) along: String,
-    pub(super) physics: &'static str,
+    pub(super) shape: Shape,
     pub(super) units: Vec<String>,
     pub(super) term: Term,
     pub(super) instead_of: Vec<String>,
@@ -119,6 +119,7 @@ impl Granted {
                 formula: formula(&other.placed, delta),
                 instead_of: named(&other.group),
                 behind: gap,
+                numbers: other.placed.shape.numbers(),
                 alike: gap < MARGIN && refused.is_none(),
                 refused: *refused,
             });
@@ -129,9 +130,7 @@ impl Granted {
             }
         }
         Ok(Self {
-            shape: shape.words,
-            along: shape.along.clone(),
-            physics: shape.physics,
+            shape: shape.clone(),
             units: shape.units(delta),
             term: claim.placed.term(name)?,
             instead_of: named(&claim.group),
@@ -142,6 +141,19 @@ impl Granted {
             columns: claim.placed.columns.clone(),
             looks: claim.looks,
         })
+    }
+
+    /// It without one of its parts, with values that it has now; `None` where nothing is left of it.
+    pub(super) fn without(&self, part: usize, now: &Term, delta: Delta) -> Option<Self> {
+        let shape = self.shape.without(part)?;
+        let mut values = now.values.clone();
+        values.drain(self.shape.numbers_of(part));
+        let term = shape.term(&now.name, now.entry, values).ok()?;
+        let mut raw = self.columns.raw.clone();
+        raw.drain(self.shape.numbers_of(part));
+        let columns = Columns::free(raw);
+        let units = shape.units(delta);
+        Some(Self { shape, units, term, columns, ..self.clone() })
     }
 
     /// It with the values of a fit to all rows of which it is a component, and with the errors of
@@ -166,9 +178,9 @@ impl Granted {
         let turns =
             parameters.iter().any(|what| what.unit == "1/s" && turns_with(small, what.value));
         Proposal {
-            shape: self.shape,
-            along: self.along.clone(),
-            physics: if turns { OF_THE_SPINDLE } else { self.physics },
+            shape: self.shape.words,
+            along: self.shape.along.clone(),
+            physics: if turns { OF_THE_SPINDLE } else { self.shape.physics },
             formula: term.formula_text().to_owned(),
             entry: term.entry,
             parameters,

@@ -1,7 +1,7 @@
 //! The search for formulas: named effects first, then the grammar in their place and beside them,
 //! one formula a round until what is left is noise.
 
-use super::held::is_held;
+use super::held::{lost_part, takes_its_share};
 use super::proposal::{Granted, Proposal};
 use crate::answer::{Advice, FittedEffect, apart, effects};
 use crate::doubts::{Doubt, doubts_and_suspects};
@@ -114,6 +114,7 @@ fn doubtful(problem: &Problem, doubts: Vec<Doubt>) -> Discovery {
 }
 
 /// The model while formulas are looked for: those granted so far are its last components.
+#[derive(Clone)]
 struct Now {
     state: State,
     /// What was tried in the place of its effects, by which they pay for their looks.
@@ -130,13 +131,15 @@ impl Now {
         (Self { state, found, granted: Vec::new() }, steps)
     }
 
-    /// It with as many formulas as may join.
+    /// It with as many formulas as may join; one that is lost beside a later one leaves its place to another.
     fn with_formulas(self, problem: &Problem, shapes: &[Shape]) -> Self {
         let mut now = self;
-        while now.granted.len() < MOST_FORMULAS {
-            match now.with_one_more(problem, shapes) {
+        for _ in 0..2 * MOST_FORMULAS {
+            now = now.without_lost(problem);
+            let has_room = now.granted.len() < MOST_FORMULAS;
+            match has_room.then(|| now.with_one_more(problem, shapes)).flatten() {
                 Some(next) => now = next,
-                None => break,
+                None => return now,
             }
         }
         now.without_lost(problem)
@@ -161,19 +164,37 @@ impl Now {
         left.or_else(|| in_place_of(small, &self.state, paid))
     }
 
-    /// The model with the best formula that may join, and whose size the data hold; `None` when none
-    /// may.
+    /// The model with the best formula that may join, and whose sizes the data hold; of those in its place that the
+    /// data cannot tell from it, the one of the fewest numbers. `None` when none may.
     fn with_one_more(&self, problem: &Problem, shapes: &[Shape]) -> Option<Self> {
-        let mut claims = claims(problem, &self.state, &self.found, shapes);
-        loop {
-            let may_join = |claim: &Claim<'_>| kept_out(problem, &self.state, claim).is_none();
-            let best = simplest(&claims, may_join)?;
-            let next = self.with(problem, &claims, &claims[best])?;
-            if is_held(problem, &next.state, next.state.components.len() - 1) {
-                return Some(next);
+        let claims = claims(problem, &self.state, &self.found, shapes);
+        let mut best: Option<(&Claim<'_>, Self)> = None;
+        for claim in &claims {
+            let is_alike = |(first, _): &(&Claim<'_>, Self)| {
+                first.group == claim.group && first.ahead - claim.ahead < MARGIN
+            };
+            let is_worth = best.as_ref().is_none_or(|best| {
+                is_alike(best) && claim.placed.shape.fewest_numbers() < best.1.last_numbers()
+            });
+            if !is_worth || kept_out(problem, &self.state, claim).is_some() {
+                continue;
             }
-            claims.remove(best);
+            let next = self.with(problem, &claims, claim)?;
+            let Some(next) = next.held(problem, next.granted.len() - 1) else { continue };
+            best = match best {
+                None => Some((claim, next)),
+                Some((first, now)) if next.last_numbers() < now.last_numbers() => {
+                    Some((first, next))
+                }
+                now => now,
+            };
         }
+        best.map(|(_, next)| next)
+    }
+
+    /// Numbers of its last formula.
+    fn last_numbers(&self) -> usize {
+        self.granted.last().map_or(0, |last| last.shape.numbers())
     }
 
     /// The model with one formula more, all others of a list its runners-up.
@@ -181,8 +202,8 @@ impl Now {
         let mut others: Vec<(&Claim<'_>, Option<&'static str>)> = Vec::new();
         for other in claims {
             if !is_same(best, other) && !others.iter().any(|(known, _)| is_same(known, other)) {
-                let clearer = best.ahead + MARGIN <= other.ahead;
-                let why = if clearer { kept_out(problem, &self.state, other) } else { None };
+                let is_ahead = best.ahead < other.ahead;
+                let why = if is_ahead { kept_out(problem, &self.state, other) } else { None };
                 others.push((other, why));
             }
         }
@@ -203,19 +224,44 @@ impl Now {
         Some(Self { state: polished(problem, state), found: Vec::new(), granted })
     }
 
-    /// The same without formulas whose size is lost in its error beside later ones.
+    /// The same without what of a formula is lost in its error; `None` where that makes it, or where it takes less
+    /// than its share.
+    fn held(&self, problem: &Problem, place: usize) -> Option<Self> {
+        let index = self.state.components.len() - self.granted.len() + place;
+        if !takes_its_share(problem, &self.state, index) {
+            return None;
+        }
+        let one = &self.granted[place];
+        let Some(part) = lost_part(problem, &self.state, index, &one.shape) else {
+            return Some(self.clone());
+        };
+        let now = self.state.components[index].valued(self.state.coefficients(index).0);
+        let fewer = one.without(part, &now, Delta::of(problem))?;
+        let mut components = self.state.components.clone();
+        components[index] = Component::new(fewer.term.clone());
+        let state = State::settled(problem, components, &self.state.fit.noises)?;
+        let mut granted = self.granted.clone();
+        granted[place] = fewer;
+        let found = self.found.clone();
+        Self { state: polished(problem, state), found, granted }.held(problem, place)
+    }
+
+    /// The same without formulas, or parts of them, whose size is lost in its error beside later ones.
     fn without_lost(mut self, problem: &Problem) -> Self {
-        loop {
-            let named = self.state.components.len() - self.granted.len();
-            let mut places = 0..self.granted.len();
-            let lost = places.find(|place| !is_held(problem, &self.state, named + place));
-            let Some(place) = lost else { return self };
-            let others = self.state.without(&[named + place]);
+        let mut place = 0;
+        while place < self.granted.len() {
+            if let Some(held) = self.held(problem, place) {
+                (self, place) = (held, place + 1);
+                continue;
+            }
+            let index = self.state.components.len() - self.granted.len() + place;
+            let others = self.state.without(&[index]);
             let state = State::settled(problem, others, &self.state.fit.noises);
             let Some(state) = state else { return self };
             self.granted.remove(place);
-            self.state = polished(problem, state);
+            (self.state, place) = (polished(problem, state), 0);
         }
+        self
     }
 
     /// What is left that is not noise, as `diagnose` asks for it: of a model without formulas what may not be
@@ -323,18 +369,6 @@ fn kept_out(problem: &Problem, state: &State, claim: &Claim<'_>) -> Option<&'sta
     }
     let left = is_left(problem, &state.fit, &claim.shown(problem));
     (!left).then_some("too small to change a figure")
-}
-
-/// The claim that is most ahead of those that may join; where others in its place cannot be told
-/// from it, the one of the fewest numbers: a late relation with hardly any lateness is a straight
-/// one.
-fn simplest(claims: &[Claim<'_>], may_join: impl Fn(&Claim<'_>) -> bool) -> Option<usize> {
-    let best = claims.iter().find(|claim| may_join(claim))?;
-    let alike = claims.iter().enumerate().filter(|(_, claim)| {
-        claim.group == best.group && best.ahead - claim.ahead < MARGIN && may_join(claim)
-    });
-    let numbers = |claim: &Claim<'_>| claim.placed.shape.numbers();
-    alike.min_by(|a, b| numbers(a.1).total_cmp(&numbers(b.1))).map(|(place, _)| place)
 }
 
 fn is_same(a: &Claim<'_>, b: &Claim<'_>) -> bool {

@@ -69,6 +69,7 @@ pub(super) fn shape(words: &'static str, along: &str, physics: &'static str) -> 
         along: along.to_owned(),
         physics,
         parts: Vec::new(),
+        makes: 1,
         unknowns: Vec::new(),
         turns: false,
         placed: false,
@@ -103,6 +104,12 @@ impl Shape {
         axis: Vec<f64>,
     ) -> Self {
         self.unknowns.push(Unknown { name, dimension: dimension.clone(), axis });
+        self
+    }
+
+    /// With so many of its last parts each making it.
+    pub(super) fn made_by(mut self, parts: usize) -> Self {
+        self.makes = parts;
         self
     }
 

@@ -83,7 +83,8 @@ pub(super) fn along_travel(all: &Quantities) -> Vec<Shape> {
                 by_factors(0.005 * range, 0.1 * range, 4),
             )
             .curve("size", (from() / unknown(1)) * bell(from() / unknown(1)))
-            .curve("rim_size", rim(from() / unknown(1))),
+            .curve("rim_size", rim(from() / unknown(1)))
+            .made_by(2),
     ]
 }
 

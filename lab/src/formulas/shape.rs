@@ -1,6 +1,7 @@
 //! One shape of the grammar: its formula, where its unknowns are looked for, and its best place.
 
 use std::borrow::Cow;
+use std::ops::Range;
 
 use helixlock_plant::{Column, EffectError, Entry, Parameter, Term};
 use rayon::prelude::*;
@@ -23,6 +24,8 @@ pub(crate) struct Shape {
     pub(crate) physics: &'static str,
     /// What it adds up from, a size each.
     pub(crate) parts: Vec<Part>,
+    /// How many of the last parts make it: without all of them it is no such shape.
+    pub(crate) makes: usize,
     /// Its nonlinear numbers.
     pub(crate) unknowns: Vec<Unknown>,
     /// True when it comes back with every turn of a shaft, and is no sine.
@@ -102,6 +105,11 @@ const LINES: usize = 6;
 const SHARE: f64 = 0.4;
 
 impl Part {
+    /// Its numbers: a size, and a phase.
+    fn width(&self) -> usize {
+        if matches!(self, Self::Wave { .. }) { 2 } else { 1 }
+    }
+
     fn columns(&self, at: &[f64], samples: usize) -> Vec<Vec<f64>> {
         let full = |values: Cow<'_, [f64]>| {
             if values.len() == 1 { vec![values[0]; samples] } else { values.into_owned() }
@@ -160,15 +168,35 @@ impl Shape {
         lines * axes.map(|unknown| count(unknown.axis.len())).product::<f64>()
     }
 
-    /// Its nonlinear numbers.
-    pub(crate) fn numbers(&self) -> f64 {
-        count(self.unknowns.len())
+    /// All its numbers.
+    pub(crate) fn numbers(&self) -> usize {
+        self.sizes() + self.unknowns.len()
     }
 
     /// Its sizes, a phase among them.
     pub(crate) fn sizes(&self) -> usize {
-        let width = |part: &Part| if matches!(part, Part::Wave { .. }) { 2 } else { 1 };
-        self.parts.iter().map(width).sum()
+        self.parts.iter().map(Part::width).sum()
+    }
+
+    /// Its numbers where only what makes it is left.
+    pub(crate) fn fewest_numbers(&self) -> usize {
+        self.parts.last().map_or(0, Part::width) + self.unknowns.len()
+    }
+
+    /// It without one of its parts; `None` where nothing is left that makes it.
+    pub(crate) fn without(&self, part: usize) -> Option<Self> {
+        let mut fewer = self.clone();
+        if self.parts.len() <= part + self.makes {
+            fewer.makes -= 1;
+        }
+        fewer.parts.remove(part);
+        (0 < fewer.makes).then_some(fewer)
+    }
+
+    /// Where in a list of its numbers those of a part stand, its size first.
+    pub(crate) fn numbers_of(&self, part: usize) -> Range<usize> {
+        let first = self.parts[..part].iter().map(Part::width).sum();
+        first..first + self.parts[part].width()
     }
 
     /// What it costs as evidence beside its looks when a size costs so much.
@@ -314,9 +342,6 @@ impl Placed<'_> {
     ///
     /// [`EffectError`] when the formula cannot be read, which a test excludes.
     pub(crate) fn term(&self, name: &str) -> Result<Term, EffectError> {
-        let Some((formula, units)) = self.shape.written(Delta::Micrometres) else {
-            return Term::custom(name, self.entry, "", Vec::new(), Vec::new());
-        };
         let mut values = Vec::new();
         let mut rest = self.coefficients.iter().copied();
         for part in &self.shape.parts {
@@ -329,11 +354,30 @@ impl Placed<'_> {
             }
         }
         values.extend(&self.values);
+        self.shape.term(name, self.entry, values)
+    }
+}
+
+impl Shape {
+    /// It as an effect of the user, with values of its sizes and then of its unknowns.
+    ///
+    /// # Errors
+    ///
+    /// [`EffectError`] when the formula cannot be read, which a test excludes.
+    pub(crate) fn term(
+        &self,
+        name: &str,
+        entry: Entry,
+        values: Vec<f64>,
+    ) -> Result<Term, EffectError> {
+        let Some((formula, units)) = self.written(Delta::Micrometres) else {
+            return Term::custom(name, entry, "", Vec::new(), Vec::new());
+        };
         let parameter = |((name, _), value): (&(&'static str, _), &f64)| {
             Parameter::of_formula((*name).to_owned(), *value)
         };
         let parameters = units.iter().zip(&values).map(parameter).collect();
-        Term::custom(name, self.entry, &formula, parameters, values)
+        Term::custom(name, entry, &formula, parameters, values)
     }
 }
 
