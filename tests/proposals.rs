@@ -1,5 +1,7 @@
 //! What `discover` proposes where a reading, a clock or a ripple could pass for a cause.
 
+use std::f64::consts::TAU;
+
 use helixlock_lab::{Discovery, discover};
 
 use crate::support::diagnosed::{diagnosed_on, names, problem_of};
@@ -8,6 +10,11 @@ use crate::support::seeds::seeds;
 
 /// An instrument at rest: what moves it is a lead and a speed of the machine file only.
 const AT_REST: &str = "spindle.speed = '60 rpm'\nlead_screw.lead = '8 mm'\n";
+
+/// An encoder on the shaft of a stepper motor.
+const ENCODER: &str = "output.rotary = true\nspindle.speed = '60 rpm'\n\
+                       gear = [{ name = 'rotor teeth', order = 50 }]\n\
+                       grating = { lines = 4096, diameter = '6 mm' }\n";
 
 type Table = Vec<(&'static str, Vec<f64>)>;
 
@@ -76,6 +83,33 @@ fn of_laws_alike_the_one_of_fewest_numbers_is_told() {
             let mut rivals = rivals.filter(|one| one.instead_of == proposal.instead_of);
             let fewer = rivals.find(|one| one.numbers < proposal.parameters.len());
             assert!(fewer.is_none(), "{seed}: {fewer:?} for {proposal:?}");
+        }
+    }
+}
+
+/// Poles whose waves swell within a turn, five times as loud from row to row as what is seven times as large: its
+/// names are in the model, and a sideband is no wheel of its own.
+#[test]
+fn what_is_named_under_a_ripple_stays_beside_a_formula() {
+    for seed in seeds(1, 3) {
+        let mut noise = white(seed, 6.0);
+        let mut columns = [const { Vec::new() }; 2];
+        for row in 0..3000 {
+            let rad = TAU * f64::from(row) / 3000.0;
+            let of_poles = 300.0 * libm::sin(100.0 * rad + 1.2 * libm::sin(2.0 * rad + 0.4))
+                + 120.0 * libm::sin(50.0 * rad + 0.8 * libm::sin(rad));
+            let long = 900.0 * libm::sin(2.0 * rad + 0.45) + 450.0 * libm::sin(rad + 1.0);
+            let cells = [f64::from(row) / 3000.0, long + of_poles + noise()];
+            columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+        }
+        let table = ["angle_rev", "error_arcsec"].into_iter().zip(columns).collect();
+        let found = discovered(ENCODER, &table);
+        let of = |name: &str| found.effects.iter().any(|effect| effect.name == name);
+        assert!(of("grating-eccentricity") && of("grating-graduation"), "{seed}: {found:?}");
+        assert!(found.rms_um[1] < 0.2 * found.rms_um[0], "{seed}: {:?}", found.rms_um);
+        assert!(!found.proposals.is_empty(), "{seed}");
+        for proposal in &found.proposals {
+            assert!(!proposal.physics.contains("does not list"), "{seed}: {proposal:?}");
         }
     }
 }

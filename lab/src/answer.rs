@@ -11,8 +11,8 @@ mod searched;
 
 pub use adding::{Added, add};
 pub use compare::{Comparison, NoiseSize, PassSize, SensorResidual, SlowSize, compare};
-pub(crate) use diagnosis::effects;
 pub use diagnosis::{Diagnosis, FittedEffect, FittedParameter, Ranked, Round, Verdict, diagnose};
+pub(crate) use diagnosis::{accepted_beyond, effects};
 pub use experiment::Advice;
 pub(crate) use experiment::{apart, carried_out};
 pub use final_check::{FinalCheck, SensorCheck, final_check};

@@ -3,6 +3,7 @@
 
 mod errors;
 mod held;
+mod orders;
 mod proposal;
 mod search;
 

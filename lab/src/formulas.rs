@@ -11,4 +11,4 @@ mod shape;
 mod turning;
 
 pub(crate) use grammar::{formulas, nameless};
-pub(crate) use shape::{Delta, Placed, Shape};
+pub(crate) use shape::{Delta, ORDER, Placed, Shape};

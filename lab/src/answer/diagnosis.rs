@@ -144,6 +144,8 @@ pub struct Diagnosis {
     pub left: Vec<f64>,
     /// The residual of the file's model, for pictures.
     pub before: Vec<f64>,
+    /// The final model.
+    pub(crate) accepted: State,
 }
 
 /// Diagnoses a problem.
@@ -191,18 +193,44 @@ impl Diagnosis {
 
     /// Those of a list whose names it lacks, each as often; `None` where the list lacks one of its own.
     fn missing_of<'a, T>(&self, list: Vec<&'a T>, name: fn(&T) -> &str) -> Option<Vec<&'a T>> {
-        let mut more = list;
-        for effect in self.last_effects() {
-            let place = more.iter().position(|other| name(other) == effect.name)?;
-            more.swap_remove(place);
-        }
-        Some(more)
+        beyond(self.last_effects(), list, name)
     }
 
     /// Effects of the final model.
     fn last_effects(&self) -> &[FittedEffect] {
         self.rounds.last().map_or(&[], |last| &last.effects)
     }
+}
+
+/// Those of a list whose names some effects lack, each as often; `None` where the list lacks one of theirs.
+fn beyond<'a, T>(
+    effects: &[FittedEffect],
+    list: Vec<&'a T>,
+    name: fn(&T) -> &str,
+) -> Option<Vec<&'a T>> {
+    let mut more = list;
+    for effect in effects {
+        let place = more.iter().position(|other| name(other) == effect.name)?;
+        more.swap_remove(place);
+    }
+    Some(more)
+}
+
+/// What a diagnosis accepts, where a search on fewer rows finds waves that are not among some effects.
+#[must_use]
+pub(crate) fn accepted_beyond(problem: &Problem, known: &[FittedEffect]) -> Option<State> {
+    let rows = problem.samples.len().min(SEARCHED_ROWS) / COARSER;
+    if rows < FEWEST_COARSE {
+        return None;
+    }
+    let is_same =
+        |one: &Term, other: &Term| one.name == other.name && one.nonlinear() == other.nonlinear();
+    let is_known = |term: &Term| known.iter().any(|effect| is_same(&effect.term, term));
+    let is_new_wave = |one: &Component| one.term.is_wave() && !is_known(&one.term);
+    let searched = search_on_all_rows(problem, rows);
+    searched.steps.last()?.state.components.iter().any(is_new_wave).then_some(())?;
+    let accepted = diagnose(problem).accepted;
+    accepted.components.iter().any(is_new_wave).then_some(accepted)
 }
 
 /// The diagnosis of mistaken input: the model as it is, and nothing added.
@@ -218,8 +246,9 @@ fn doubtful(problem: &Problem, doubts: Vec<Doubt>) -> Diagnosis {
         candidates: Vec::new(),
         residual: Vec::new(),
         experiments: Vec::new(),
-        left: state.fit.left,
+        left: state.fit.left.clone(),
         before: problem.residual(),
+        accepted: state,
     }
 }
 
@@ -274,6 +303,7 @@ fn answered(searched: Searched, suspects: &[Suspect], rows: usize) -> Diagnosis 
         residual,
         experiments,
         before: problem.residual(),
+        accepted: state.clone(),
         left: states.pop().map(|state| state.fit.left).unwrap_or_default(),
     }
 }

@@ -3,7 +3,8 @@
 use helixlock_plant::{EffectError, Entry, Term};
 
 use super::errors::errors;
-use crate::formulas::{Delta, Placed, Shape};
+use super::orders::is_beside_listed;
+use crate::formulas::{Delta, ORDER, Placed, Shape};
 use crate::model::{Columns, Problem, State};
 use crate::numerics::spread;
 use crate::policy::evidence::MARGIN;
@@ -177,10 +178,16 @@ impl Granted {
         let parameters: Vec<FormulaParameter> = parameters.collect();
         let turns =
             parameters.iter().any(|what| what.unit == "1/s" && turns_with(small, what.value));
+        let mut orders = parameters.iter().filter(|what| what.name == ORDER);
+        let physics = match (turns, orders.any(|what| is_beside_listed(small, what.value))) {
+            (true, _) => OF_THE_SPINDLE,
+            (_, true) => BESIDE_A_LINE,
+            _ => self.shape.physics,
+        };
         Proposal {
             shape: self.shape.words,
             along: self.shape.along.clone(),
-            physics: if turns { OF_THE_SPINDLE } else { self.shape.physics },
+            physics,
             formula: term.formula_text().to_owned(),
             entry: term.entry,
             parameters,
@@ -195,6 +202,9 @@ impl Granted {
 
 /// What has a frequency in time that is none of the clock's.
 const OF_THE_SPINDLE: &str = "whole waves in a turn at the mean speed: what turns with the spindle where its angle is stamped unevenly, or a pump, a motor";
+
+/// What has an order beside that of a listed wheel.
+const BESIDE_A_LINE: &str = "a listed wheel's wave, or one that swells or comes early and late with the turn of a slower one";
 
 /// True for a frequency that is a whole multiple of the mean rate of a spindle, over the longest pass to half a wave.
 fn turns_with(problem: &Problem, hertz: f64) -> bool {

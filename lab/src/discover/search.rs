@@ -2,16 +2,17 @@
 //! one formula a round until what is left is noise.
 
 use super::held::{lost_part, takes_its_share};
+use super::orders::is_listed;
 use super::proposal::{Granted, Proposal};
-use crate::answer::{Advice, FittedEffect, apart, effects};
+use crate::answer::{Advice, FittedEffect, accepted_beyond, apart, effects};
 use crate::doubts::{Doubt, doubts_and_suspects};
 use crate::formulas::{Delta, Shape, formulas};
 use crate::hypotheses::{
     Structure, at_targets, disagreements, is_left, no_all_clear, samples_a_pass, slow_cause,
     slow_without, structures,
 };
-use crate::model::{Columns, Component, Problem, State, helps_unseen, holdout_rms};
-use crate::noise::rms;
+use crate::model::{Columns, Component, Fit, Problem, State, helps_unseen, holdout_rms};
+use crate::noise::{rms, weighed_rms};
 use crate::policy::chance::SIGNIFICANCE;
 use crate::policy::evidence::MARGIN;
 use crate::policy::extent::{MOST_FORMULAS, SEARCHED_ROWS};
@@ -103,8 +104,27 @@ pub fn discover(problem: &Problem) -> Discovery {
     if let Some(own_errors) = of_targets {
         answer.residual.push(own_errors);
         answer.found = Found::Unexplained;
+    } else if answer.found == Found::Unexplained {
+        let beside = beside_accepted(problem, &answer, &shapes, &steps);
+        answer = beside.unwrap_or(answer);
     }
     answer
+}
+
+/// The answer beside the names of a diagnosis, where a search on fewer rows finds waves that an answer lacks.
+fn beside_accepted(
+    problem: &Problem,
+    answer: &Discovery,
+    shapes: &[Shape],
+    steps: &[Step],
+) -> Option<Discovery> {
+    let accepted = accepted_beyond(problem, &answer.effects)?;
+    let mut small = problem.thinned(SEARCHED_ROWS).unwrap_or_else(|| problem.clone());
+    let first = accepted.on(&small)?;
+    small.mark_outliers(&first.fit.left);
+    let state = first.on(&small)?;
+    let named = Now { state, found: Vec::new(), granted: Vec::new(), names_stay: true };
+    Some(named.with_formulas(&small, shapes).told(problem, &small, steps))
 }
 
 /// The answer to mistaken input.
@@ -120,6 +140,8 @@ struct Now {
     /// What was tried in the place of its effects, by which they pay for their looks.
     found: Vec<Rivals>,
     granted: Vec<Granted>,
+    /// True where no formula may stand in the place of a name.
+    names_stay: bool,
 }
 
 impl Now {
@@ -128,7 +150,7 @@ impl Now {
         let steps = search(problem);
         let state = steps[steps.len() - 1].state.clone();
         let found = rivals(problem, &state, &steps[0].tried);
-        (Self { state, found, granted: Vec::new() }, steps)
+        (Self { state, found, granted: Vec::new(), names_stay: false }, steps)
     }
 
     /// It with as many formulas as may join; one that is lost beside a later one leaves its place to another.
@@ -176,7 +198,7 @@ impl Now {
             let is_worth = best.as_ref().is_none_or(|best| {
                 is_alike(best) && claim.placed.shape.fewest_numbers() < best.1.last_numbers()
             });
-            if !is_worth || kept_out(problem, &self.state, claim).is_some() {
+            if !is_worth || self.kept_out(problem, claim).is_some() {
                 continue;
             }
             let next = self.with(problem, &claims, claim)?;
@@ -203,7 +225,7 @@ impl Now {
         for other in claims {
             if !is_same(best, other) && !others.iter().any(|(known, _)| is_same(known, other)) {
                 let is_ahead = best.ahead < other.ahead;
-                let why = if is_ahead { kept_out(problem, &self.state, other) } else { None };
+                let why = if is_ahead { self.kept_out(problem, other) } else { None };
                 others.push((other, why));
             }
         }
@@ -221,7 +243,26 @@ impl Now {
         components.push(Component::new(one.term.clone()));
         granted.push(one);
         let state = State::settled(problem, components, &best.fit.noises)?;
-        Some(Self { state: polished(problem, state), found: Vec::new(), granted })
+        let state = polished(problem, state);
+        Some(Self { state, found: Vec::new(), granted, ..*self })
+    }
+
+    /// Why a claim may not join; in the place of names it must leave no more than they do.
+    fn kept_out(&self, problem: &Problem, claim: &Claim<'_>) -> Option<&'static str> {
+        let named = self.state.components.len() - self.granted.len();
+        let rms_um = |fit: &Fit| weighed_rms(&problem.layout, &fit.left);
+        if claim.group.iter().any(|&index| index < named) {
+            if self.names_stay {
+                return Some("the names are found on fewer rows");
+            }
+            if rms_um(&self.state.fit) < rms_um(&claim.fit) {
+                return Some("leaves more than the names");
+            }
+        }
+        if claim.placed.order().is_some_and(|order| is_listed(problem, order)) {
+            return Some("not told from a listed shaft");
+        }
+        kept_out(problem, &self.state, claim)
     }
 
     /// The same without what of a formula is lost in its error; `None` where that makes it, or where it takes less
@@ -243,7 +284,7 @@ impl Now {
         let mut granted = self.granted.clone();
         granted[place] = fewer;
         let found = self.found.clone();
-        Self { state: polished(problem, state), found, granted }.held(problem, place)
+        Self { state: polished(problem, state), found, granted, ..*self }.held(problem, place)
     }
 
     /// The same without formulas, or parts of them, whose size is lost in its error beside later ones.

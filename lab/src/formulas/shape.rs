@@ -91,6 +91,9 @@ pub(crate) struct Placed<'a> {
     pub(crate) at: Option<f64>,
 }
 
+/// What the number of waves a turn is called.
+pub(crate) const ORDER: &str = "order";
+
 /// Columns whose gains are worked out together.
 const TOGETHER: usize = 16;
 
@@ -334,6 +337,13 @@ impl Placed<'_> {
                 stage.span(&self.shape.columns(stage.problem, self.entry, &values))
             }),
         })
+    }
+
+    /// Its order of the spindle, for a wave of any.
+    pub(crate) fn order(&self) -> Option<f64> {
+        let is_order = |unknown: &Unknown| unknown.name == ORDER;
+        let place = self.shape.unknowns.iter().position(is_order)?;
+        Some(self.values[place])
     }
 
     /// It as an effect of the user, with its values.

@@ -7,7 +7,7 @@ use super::expression::{Expression, Function, Quantity, call, number, turns};
 use super::grammar::{shape, unknown};
 use super::moving::{KNOCK, knock, triangle};
 use super::quantities::{Quantities, about_mean, of, shaft_turns};
-use super::shape::{Band, Shape};
+use super::shape::{Band, ORDER, Shape};
 use crate::model::Problem;
 use crate::numerics::{evenly, spread, usual_rate};
 use crate::policy::extent::{LONGEST_WAVE, SLOWEST_WAVES, TURNS};
@@ -68,7 +68,7 @@ pub(super) fn waves(all: &Quantities, problem: &Problem) -> Vec<Shape> {
     if let Some(band) = Band::new(over.values.clone(), [lowest, highest]) {
         let physics = "a shaft, wheel or belt that the machine file does not list";
         let mut wave = shape("sine of an order", "spindle angle", physics)
-            .unknown("order", &Dimension::number(), vec![lowest, highest])
+            .unknown(ORDER, &Dimension::number(), vec![lowest, highest])
             .wave("amplitude", "phase_rad", None, turns(unknown(0) * of(over)));
         wave.scan = Some(band);
         shapes.push(wave);

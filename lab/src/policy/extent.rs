@@ -171,6 +171,11 @@ pub(crate) const LONGEST: f64 = 2.0;
 /// Chosen. Doubled: lines at up to ten times an order found are the gear's.
 pub(crate) const OVERTONES: u16 = 5;
 
+/// Turns of a slower wheel by which a line lies off a listed one and is that one's, uneven within such a turn.
+///
+/// Chosen: ten waves in a turn are an uneven one still. Doubled: half of all orders are beside one of fifty.
+pub(crate) const SIDEBANDS: u16 = 10;
+
 /// Harmonics of gears and of the lead screw that lines are named by.
 ///
 /// Chosen. Doubled: eight, and more lines bear two shafts' names.
