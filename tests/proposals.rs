@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use helixlock_lab::{Discovery, discover};
+use helixlock_lab::{Discovery, Found, discover};
 
 use crate::support::diagnosed::{diagnosed_on, names, problem_of};
 use crate::support::passes::white;
@@ -111,5 +111,51 @@ fn what_is_named_under_a_ripple_stays_beside_a_formula() {
         for proposal in &found.proposals {
             assert!(!proposal.physics.contains("does not list"), "{seed}: {proposal:?}");
         }
+    }
+}
+
+/// A meter that shows a part of what the air has changed by and it has not followed yet: no travel is in it.
+#[test]
+fn what_a_column_has_not_been_followed_in_is_a_law_of_its_own() {
+    for (seed, follows) in [(1, 0.0), (2, 0.1)] {
+        let (time_s, air_c) = air(900);
+        let mut noise = white(seed, 0.1);
+        let mut late = air_c[0];
+        let error = air_c.iter().map(|air| {
+            late += (air - late) * (1.0 - libm::exp(-60.0 / 800.0));
+            follows * air + 1.5 * (air - late) + noise()
+        });
+        let error = error.collect();
+        let table = vec![("time_s", time_s), ("air_c", air_c), ("error_um", error)];
+        let found = discovered(AT_REST, &table);
+        assert_eq!((found.found, found.proposals.len()), (Found::Formula, 1), "{found:?}");
+        let proposal = &found.proposals[0];
+        let slope = if follows == 0.0 { "" } else { "slope*air_c + " };
+        let formula = format!("{slope}size*(air_c - lag(air_c, late_s))");
+        assert_eq!(proposal.formula, formula);
+        let late = proposal.parameters.last().expect("a time constant");
+        let stderr = late.stderr.expect("an error");
+        assert!((late.value - 800.0).abs() < 3.0 * stderr, "{late:?}");
+    }
+}
+
+/// Ground that sinks ever more slowly, by the clock alone: nothing along a travel that was made of it.
+#[test]
+fn a_travel_made_of_the_clock_has_no_laws() {
+    for seed in seeds(1, 4) {
+        let mut noise = white(seed, 0.3);
+        let time_s: Vec<f64> = (0..500).map(|row| 60.0 * f64::from(row)).collect();
+        let error = time_s.iter().map(|t| {
+            let share = t / 30_000.0;
+            20.0 * libm::exp(-t / 7000.0) + 12.0 * share * share + noise()
+        });
+        let error = error.collect();
+        let table = vec![("time_s", time_s), ("error_um", error)];
+        let found = discovered(AT_REST, &table);
+        let of_travel = ["position", "spindle angle", "way since the start"];
+        assert!(along(&found).iter().all(|along| !of_travel.contains(along)), "{found:?}");
+        let named = diagnosed_on(AT_REST, table);
+        let all: Vec<&str> = named.candidates.iter().map(|one| one.name.as_str()).collect();
+        assert!(!all.contains(&"screw-progressive"), "{seed}: {all:?}");
     }
 }

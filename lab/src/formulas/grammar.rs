@@ -49,6 +49,7 @@ pub(crate) fn formulas(problem: &Problem) -> Vec<Shape> {
         all.extend(moving::powers(&quantities));
     }
     all.extend(moving::of_the_way(&quantities));
+    all.extend(quantities.columns.iter().map(|one| logged::not_followed(&quantities, one)));
     all
 }
 

@@ -29,7 +29,7 @@ pub(super) fn of_a_column(all: &Quantities, column: &Arc<Quantity>) -> Vec<Shape
             .unknown("hysteresis", &column.dimension, hysteresis)
             .curve("size", Expression::Relay { of: Arc::clone(column), middle: 0, width: 1 }),
     ];
-    if 0.0 < spread(&x.values) {
+    if all.moves() {
         shapes.push(
             of_column(
                 "straight relation times the travel",
@@ -69,6 +69,19 @@ pub(super) fn of_a_column(all: &Quantities, column: &Arc<Quantity>) -> Vec<Shape
         ]);
     }
     shapes
+}
+
+/// What follows a column ahead of its time, or by what it has not followed yet.
+pub(super) fn not_followed(all: &Quantities, column: &Arc<Quantity>) -> Shape {
+    let time = &all.time;
+    let record_s = spread(&time.values).max(f64::MIN_POSITIVE);
+    let late = Expression::Lag { of: Arc::clone(column), time: Arc::clone(time), constant: 0 };
+    let physics =
+        "what shows how fast the column changes: a bridge, a sensor or a part of two heats";
+    shape("what the column has not followed yet", &column.name, physics)
+        .unknown("late_s", &time.dimension, by_factors(0.01 * record_s, 0.5 * record_s, 12))
+        .curve("slope", of(column))
+        .curve("size", of(column) - late)
 }
 
 /// A square, a kink at a value, and each way its own.

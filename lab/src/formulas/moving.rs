@@ -434,7 +434,7 @@ fn late_by(velocity: Expression) -> Shape {
 /// What depends on how fast, which way, and which pass.
 pub(super) fn of_the_way(all: &Quantities) -> Vec<Shape> {
     let (x, v, way) = (&all.position, &all.speed, &all.direction);
-    let moves = 0.0 < spread(&x.values);
+    let moves = all.moves();
     let mut shapes = Vec::new();
     if 0.0 < spread(&way.values) {
         shapes.push(

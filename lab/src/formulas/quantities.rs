@@ -17,6 +17,8 @@ const MOST_TOGETHER: usize = 12;
 pub(crate) struct Quantities {
     /// Travel, or the angle of a rotary chain.
     pub(crate) position: Arc<Quantity>,
+    /// True when it was measured: one that was made of the clock is a time.
+    pub(crate) placed: bool,
     /// Where on it all samples lie, lowest first, if those places are few.
     pub(crate) targets: Vec<f64>,
     pub(crate) time: Arc<Quantity>,
@@ -62,6 +64,7 @@ impl Quantities {
         Self {
             targets: targets.unwrap_or_default(),
             position,
+            placed: problem.measurement.placed,
             time: quantity("time_s", unit("s"), record.time_s.clone()),
             timed: problem.measurement.timed,
             turns: quantity("angle_rev", Dimension::number(), record.turns().collect()),
@@ -82,11 +85,16 @@ impl Quantities {
         }
     }
 
-    /// True where the axis moves. In one pass of a rotary chain that does not turn back an angle is a
+    /// True where the axis is known to move.
+    pub(crate) fn moves(&self) -> bool {
+        self.placed && 0.0 < spread(&self.position.values)
+    }
+
+    /// The same where a place is no moment. In one pass of a rotary chain that does not turn back an angle is a
     /// moment, and is looked for as such.
     pub(crate) fn have_places(&self) -> bool {
         let told = !self.is_rotary() || self.meet_places_again();
-        told && 0.0 < spread(&self.position.values)
+        told && self.moves()
     }
 
     /// True unless a moment is a place as well, as in one pass that does not turn back.

@@ -65,7 +65,8 @@ pub(super) fn waves(all: &Quantities, problem: &Problem) -> Vec<Shape> {
     let over = &all.turns;
     let highest = problem.highest_order().min(0.5 * usual_rate(&over.values));
     let lowest = LONGEST_WAVE / spread(&over.values).max(f64::MIN_POSITIVE);
-    if let Some(band) = Band::new(over.values.clone(), [lowest, highest]) {
+    let band = Band::new(over.values.clone(), [lowest, highest]).filter(|_| all.placed);
+    if let Some(band) = band {
         let physics = "a shaft, wheel or belt that the machine file does not list";
         let mut wave = shape("sine of an order", "spindle angle", physics)
             .unknown(ORDER, &Dimension::number(), vec![lowest, highest])

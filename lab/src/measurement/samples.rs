@@ -88,6 +88,8 @@ pub struct Measurement {
     pub measurands: Vec<String>,
     /// True when time was measured, not worked out from travel and speed.
     pub timed: bool,
+    /// True when travel or angle was measured, not worked out from time and speed.
+    pub placed: bool,
     /// What columns tell that otherwise follows from travel and time.
     pub told: Told,
     /// What a user should know about how the file was read.
@@ -418,6 +420,7 @@ fn assemble(
         off_by: BTreeMap::new(),
         measurands: Vec::new(),
         timed: coordinates.timed,
+        placed: coordinates.placed,
         told: Told {
             speed: table.column("speed_rpm").is_some(),
             direction: table.column("direction").is_some(),
