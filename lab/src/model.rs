@@ -16,6 +16,7 @@ mod stage;
 mod state;
 mod targets;
 mod uncertainty;
+mod unsure;
 
 pub(crate) use columns::Columns;
 pub(crate) use component::Component;
@@ -28,4 +29,4 @@ pub(crate) use shafts::Shaft;
 pub(crate) use stage::{Gain, Stage};
 pub(crate) use state::{State, pattern};
 pub(crate) use targets::distinct;
-pub(crate) use uncertainty::{JointCovariance, covariance_of_all_values, joint_covariance, slopes};
+pub(crate) use uncertainty::{JointCovariance, joint_covariance, slopes, told_covariances};

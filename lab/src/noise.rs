@@ -7,6 +7,7 @@ mod factor;
 mod kernel;
 mod layout;
 mod noise_fit;
+mod plausible;
 mod sweep;
 #[cfg(test)]
 mod tests;
@@ -16,6 +17,7 @@ mod worth;
 pub use kernel::{Noise, SlowPart};
 pub use layout::{Block, Layout};
 pub(crate) use layout::{about_means, rms, swift_rms, weighed_rms};
-pub(crate) use noise_fit::{departures, fit_noise, is_surely_slow, outlier_inflation};
+pub(crate) use noise_fit::{departures, fit_noise, is_surely_slow, outlier_inflation, scaled_to};
+pub(crate) use plausible::plausible;
 pub(crate) use whitener::Whitener;
 pub(crate) use worth::effective_samples;

@@ -12,8 +12,7 @@ use crate::hypotheses::{
     slow_without, structures, waves_left,
 };
 use crate::model::{
-    Component, JointCovariance, Judged, Problem, State, covariance_of_all_values, holdout_rms,
-    joint_covariance,
+    Component, JointCovariance, Judged, Problem, State, holdout_rms, told_covariances,
 };
 use crate::noise::rms;
 use crate::numerics::least_squares::covariance_rows;
@@ -443,9 +442,7 @@ const WIDENED: f64 = 1.2;
 /// Every component of a state with its parameters.
 #[must_use]
 pub(crate) fn effects(problem: &Problem, state: &State) -> Vec<FittedEffect> {
-    let of_used = joint_covariance(problem, state);
-    let of_all = covariance_of_all_values(problem, state).unwrap_or_else(|| of_used.clone());
-    let both = [of_used, of_all];
+    let both = told_covariances(problem, state);
     (0..state.components.len()).map(|index| fitted(problem, state, &both, index)).collect()
 }
 

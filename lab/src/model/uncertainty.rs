@@ -7,6 +7,7 @@ use super::columns::Columns;
 use super::component::Component;
 use super::problem::Problem;
 use super::state::State;
+use super::unsure::widening;
 use crate::noise::{Noise, Whitener};
 use crate::numerics::least_squares;
 
@@ -23,39 +24,73 @@ pub(crate) struct JointCovariance {
 /// continuous nonlinear parameter, whose derivative is taken by a central difference.
 #[must_use]
 pub(crate) fn joint_covariance(problem: &Problem, state: &State) -> JointCovariance {
-    covariance_beside(problem, state, &Columns::default())
+    let linearised = Linearised::of(problem, state, &Columns::default());
+    linearised.parted(state, &linearised.under_fitted(problem, state))
 }
 
-/// The same where a value that was left at 0 for want of evidence may be another one: a slope is known
-/// no better than the bow beside it lets it be. `None` where no value is.
+/// Two covariances as they are told: of the values in use; and where a value that was left at 0 for want
+/// of evidence may be another one, for a slope is known no better than the bow beside it lets it be. Both
+/// with what is not known of the noise.
 #[must_use]
-pub(crate) fn covariance_of_all_values(
-    problem: &Problem,
-    state: &State,
-) -> Option<JointCovariance> {
+pub(crate) fn told_covariances(problem: &Problem, state: &State) -> [JointCovariance; 2] {
+    let told = |others: &Columns| {
+        let linearised = Linearised::of(problem, state, others);
+        linearised.parted(state, &linearised.under_any(problem, state))
+    };
+    let of_used = told(&Columns::default());
     let others = set_aside(problem, state);
-    (!others.raw.is_empty()).then(|| covariance_beside(problem, state, &others))
+    let of_all = if others.raw.is_empty() { of_used.clone() } else { told(&others) };
+    [of_used, of_all]
 }
 
-fn covariance_beside(problem: &Problem, state: &State, others: &Columns) -> JointCovariance {
-    let mut columns = state.columns.clone();
-    columns.fixed = None;
-    let linear_width = columns.raw.len();
-    let slopes = slopes(problem, state);
-    let raw = slopes.iter().map(|slope| slope.column.clone());
-    columns = columns.and(&Columns::free(raw)).and(others);
-    let covariance = covariance(problem, &columns, &state.fit.noises);
-    let mut nonlinear: Vec<Vec<Option<f64>>> = state
-        .components
-        .iter()
-        .map(|component| vec![None; component.term.nonlinear_indices().len()])
-        .collect();
-    for (offset, slope) in slopes.iter().enumerate() {
-        let at = linear_width + offset;
-        nonlinear[slope.component][slope.place] = Some(covariance[(at, at)].max(0.0).sqrt());
+/// A model's columns, and how it changes with its nonlinear values.
+struct Linearised {
+    /// Those of the model, a slope each, and others.
+    columns: Columns,
+    slopes: Vec<Slope>,
+    /// Number of the model's own.
+    linear_width: usize,
+}
+
+impl Linearised {
+    fn of(problem: &Problem, state: &State, others: &Columns) -> Self {
+        let mut columns = state.columns.clone();
+        columns.fixed = None;
+        let linear_width = columns.raw.len();
+        let slopes = slopes(problem, state);
+        let raw = slopes.iter().map(|slope| slope.column.clone());
+        let columns = columns.and(&Columns::free(raw)).and(others);
+        Self { columns, slopes, linear_width }
     }
-    let linear = covariance.view((0, 0), (linear_width, linear_width)).into_owned();
-    JointCovariance { linear, nonlinear }
+
+    /// Covariance of all coefficients under the fitted noise.
+    fn under_fitted(&self, problem: &Problem, state: &State) -> DMatrix<f64> {
+        covariance(problem, &self.columns, &state.fit.noises)
+    }
+
+    /// The same with what is not known of the noise.
+    fn under_any(&self, problem: &Problem, state: &State) -> DMatrix<f64> {
+        let fitted = self.under_fitted(problem, state);
+        if state.components.is_empty() {
+            return fitted;
+        }
+        let wider = widening(problem, state, &self.columns);
+        DMatrix::from_fn(fitted.nrows(), fitted.ncols(), |i, j| {
+            wider[i] * fitted[(i, j)] * wider[j]
+        })
+    }
+
+    /// A covariance of all coefficients as that of the linear ones and errors of the others.
+    fn parted(&self, state: &State, covariance: &DMatrix<f64>) -> JointCovariance {
+        let of = |component: &Component| vec![None; component.term.nonlinear_indices().len()];
+        let mut nonlinear: Vec<Vec<Option<f64>>> = state.components.iter().map(of).collect();
+        for (offset, slope) in self.slopes.iter().enumerate() {
+            let at = self.linear_width + offset;
+            nonlinear[slope.component][slope.place] = Some(covariance[(at, at)].max(0.0).sqrt());
+        }
+        let own = (self.linear_width, self.linear_width);
+        JointCovariance { linear: covariance.view((0, 0), own).into_owned(), nonlinear }
+    }
 }
 
 /// The columns of a model's effects that are not in use, but for counts, which are whole, and for the

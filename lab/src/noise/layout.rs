@@ -70,6 +70,13 @@ impl Layout {
         self.picked(blocks.map(|block| (block, block.rows.clone().take(most).collect())))
     }
 
+    /// The layout of every so many-th row of each block, and the rows they had here.
+    #[must_use]
+    pub(crate) fn every(&self, step: usize) -> (Self, Vec<usize>) {
+        let blocks = self.blocks.iter();
+        self.picked(blocks.map(|block| (block, block.rows.clone().step_by(step).collect())))
+    }
+
     /// The layout of neighbouring rows of one block, as of one sensor.
     #[must_use]
     pub(crate) fn stretch(&self, rows: Range<usize>, pass: usize) -> Self {

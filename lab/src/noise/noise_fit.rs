@@ -25,7 +25,7 @@ pub(crate) struct NoiseFit {
 }
 
 /// Longest correlation tried, against the longest block: beyond it a random walk looks alike.
-const LONGEST_AGAINST_BLOCK: f64 = 3.0;
+pub(super) const LONGEST_AGAINST_BLOCK: f64 = 3.0;
 
 /// Logarithm of the shortest length tried, in sample intervals: anything shorter is white.
 const SHORTEST: f64 = -1.0;
@@ -63,6 +63,12 @@ pub(crate) fn fit_noise(layout: &Layout, residual: &[f64], warm: Option<&Noise>)
 pub(crate) fn is_surely_slow(layout: &Layout, residual: &[f64], noise: &Noise) -> bool {
     let [white, slow] = [&Noise::white(), noise].map(|shape| profile(layout, residual, shape));
     white.log_likelihood + price_of_a_part(layout) < slow.log_likelihood
+}
+
+/// A shape of noise at the scale that makes a residual of one sensor likeliest.
+#[must_use]
+pub(crate) fn scaled_to(layout: &Layout, residual: &[f64], shape: &Noise) -> Noise {
+    profile(layout, residual, shape).noise
 }
 
 /// What two parameters must add to the log likelihood, by the Bayesian information criterion.
@@ -164,7 +170,8 @@ fn profile(layout: &Layout, residual: &[f64], shape: &Noise) -> NoiseFit {
     best_of(profiles(layout, residual, std::slice::from_ref(shape)).into_iter())
 }
 
-fn longest_block(layout: &Layout) -> f64 {
+/// Clock from the first to the last row of the longest block, in sample intervals.
+pub(super) fn longest_block(layout: &Layout) -> f64 {
     let length = |block: &Block| layout.clock[block.rows.end - 1] - layout.clock[block.rows.start];
     layout.blocks.iter().filter(|block| !block.rows.is_empty()).map(length).fold(0.0, f64::max)
 }

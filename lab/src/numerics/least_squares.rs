@@ -13,6 +13,8 @@ pub(crate) struct LinearFit {
     pub(crate) residual_square: f64,
     /// Number of directions of the columns that the data determine.
     pub(crate) rank: usize,
+    /// Logarithm of the determinant of the columns' products, on those directions.
+    pub(crate) log_determinant: f64,
 }
 
 /// Share of a square below which a difference of squares has lost half of its digits.
@@ -56,31 +58,37 @@ fn by_normal_equations(columns: &[&[f64]], target: &[f64]) -> LinearFit {
     });
     let gram = DMatrix::from_fn(count, count, |i, j| gram[(i.min(j), i.max(j))]);
     let moment = DVector::from_fn(count, |i, _| dot(columns[i], target) * scale(i));
-    let (inverse, rank) = pseudo_inverse(gram);
+    let (inverse, rank, of_scaled) = pseudo_inverse(gram);
+    let lengths = norms.iter().filter(|norm| 0.0 < **norm);
+    let log_determinant = of_scaled + 2.0 * lengths.map(|norm| libm::log(*norm)).sum::<f64>();
     let scaled = &inverse * &moment;
     let explained = scaled.dot(&moment);
     let covariance = DMatrix::from_fn(count, count, |i, j| inverse[(i, j)] * scale(i) * scale(j));
     let coefficients = (0..count).map(|i| scaled[i] * scale(i)).collect();
-    LinearFit { coefficients, covariance, residual_square: (total - explained).max(0.0), rank }
+    let residual_square = (total - explained).max(0.0);
+    LinearFit { coefficients, covariance, residual_square, rank, log_determinant }
 }
 
-/// Inverse of a symmetric matrix of unit diagonal on the directions that matter, and their number.
-fn pseudo_inverse(gram: DMatrix<f64>) -> (DMatrix<f64>, usize) {
+/// Inverse of a symmetric matrix of unit diagonal on the directions that matter, their number, and the
+/// logarithm of its determinant there.
+fn pseudo_inverse(gram: DMatrix<f64>) -> (DMatrix<f64>, usize, f64) {
     let count = gram.nrows();
     if count == 0 {
-        return (gram, 0);
+        return (gram, 0, 0.0);
     }
     let eigen = SymmetricEigen::new(gram);
     let largest = eigen.eigenvalues.iter().copied().fold(0.0, f64::max);
     let mut inverse = DMatrix::zeros(count, count);
     let mut rank = 0;
+    let mut log_determinant = 0.0;
     for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
         if *value > 1e-10 * largest {
             inverse += vector * vector.transpose() / *value;
             rank += 1;
+            log_determinant += libm::log(*value);
         }
     }
-    (inverse, rank)
+    (inverse, rank, log_determinant)
 }
 
 /// Scalar product, summed in eight lanes: one sum after the other would wait for itself.
