@@ -24,6 +24,7 @@ mod documented_waveforms;
 mod each_way;
 mod effects_by_card;
 mod effects_in_the_loop;
+mod errors_in_slow_noise;
 mod even_rows;
 mod example_data;
 mod examples;
