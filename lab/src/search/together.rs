@@ -3,7 +3,7 @@
 //! Slow noise that takes up one of some curves takes up the others while it is missing: then each alone explains
 //! nothing.
 
-use helixlock_plant::Search;
+use helixlock_plant::{CATALOGUE, Parameter, Search, Term};
 
 use super::acceptance::{refusal, worth};
 use super::judging::tried;
@@ -80,16 +80,21 @@ impl Together {
         self.members().map(|one| one.component.term.name.as_str()).collect()
     }
 
+    /// How many sets of as many effects there are to choose from: of those that were tried, or of all that there
+    /// might be where one bends to anything.
+    fn sets(&self) -> f64 {
+        let bends = self.members().any(|one| bends(&one.component.term));
+        let among = if bends { count(CATALOGUE.len()) } else { self.firsts[0].0.tried };
+        let sets = (0..=self.firsts.len()).map(|place| (among - count(place)) / count(place + 1));
+        sets.product::<f64>().max(1.0)
+    }
+
     /// True where noise like that of the model, which may be slow, hardly ever does as much.
     fn is_beyond_noise(&self, problem: &Problem, now: &State) -> bool {
         let all: Vec<Component> = self.members().map(|one| one.component.clone()).collect();
         let Ok(columns) = Columns::of(problem, &all) else { return false };
         let gain = 2.0 * (self.last.fit.log_likelihood - now.fit.log_likelihood);
-        let tried = self.firsts[0].0.tried;
-        let sets: f64 =
-            (0..all.len()).map(|place| (tried - count(place)) / count(place + 1)).product();
-        let looks: f64 =
-            self.members().map(|one| one.looks.max(1.0)).product::<f64>() * sets.max(1.0);
+        let looks = self.members().map(|one| one.looks.max(1.0)).product::<f64>() * self.sets();
         let model = (&now.columns, &now.fit);
         looks * chance_in_noise(problem, model, &columns.raw, gain, NAMED / looks) < NAMED
     }
@@ -179,12 +184,21 @@ fn with(problem: &Problem, now: &State, one: &Judged) -> Option<State> {
     State::settled(problem, now.with(&one.component), &one.fit.noises)
 }
 
+/// True for an effect whose shape is free, such as a bump of any width at any place.
+fn bends(term: &Term) -> bool {
+    let free = |what: &Parameter| {
+        matches!(
+            what.search,
+            Search::Linear | Search::Logarithmic | Search::Position | Search::Time
+        )
+    };
+    term.parameters.iter().any(free)
+}
+
 /// True for two of one name that imitate a spell of anything, such as a slip there and one back; whole waves of a
 /// turn and those of listed gears are few to choose from.
 fn imitate(one: &Judged, other: &Judged) -> bool {
-    let listed = |what: &helixlock_plant::Parameter| {
-        matches!(what.search, Search::Whole | Search::GearOrder)
-    };
+    let listed = |what: &Parameter| matches!(what.search, Search::Whole | Search::GearOrder);
     let (one, other) = (&one.component.term, &other.component.term);
     one.name == other.name && !one.parameters.iter().any(listed)
 }
