@@ -6,6 +6,7 @@ use helixlock_plant::{COVARIATES, Column};
 use super::{Measurement, spacing};
 use crate::numerics::least_squares::{dot, fit, left};
 use crate::numerics::{count, mean};
+use crate::policy::extent::SEARCHED_ROWS;
 use crate::policy::reading::{
     FINE_ROUNDING, MOST_OF_ROUNDING, SAME_READING, SHARE_OF_ROUNDING, SHARE_OF_TRAVEL,
 };
@@ -69,9 +70,12 @@ struct Measurand<'a> {
 
 impl Measurand<'_> {
     /// True for a column that gives the error by a straight line, each pass from a zero of its own, so closely as
-    /// no cause does beside a sensor's noise: to the last digit, or to what rounding of the error leaves.
+    /// no cause does beside a sensor's noise: to the last digit, or to what rounding of the error leaves. As many
+    /// rows as a search looks at, evenly picked, tell.
     fn is_reading(&self, column: &[f64]) -> bool {
-        let known = self.known(column);
+        let mut known = self.known(column);
+        let step = known.len().div_ceil(SEARCHED_ROWS).max(1);
+        known = known.into_iter().step_by(step).collect();
         let digit = |values: &[f64]| {
             spacing(&known.iter().map(|&row| values[row]).collect::<Vec<_>>()).unwrap_or(0.0)
         };
