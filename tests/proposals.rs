@@ -153,9 +153,6 @@ fn a_travel_made_of_the_clock_has_no_laws() {
         let table = vec![("time_s", time_s), ("error_um", error)];
         let found = discovered(AT_REST, &table);
         let of_travel = ["position", "spindle angle", "way since the start"];
-        assert!(along(&found).iter().all(|along| !of_travel.contains(along)), "{found:?}");
-        let named = diagnosed_on(AT_REST, table);
-        let all: Vec<&str> = named.candidates.iter().map(|one| one.name.as_str()).collect();
-        assert!(!all.contains(&"screw-progressive"), "{seed}: {all:?}");
+        assert!(along(&found).iter().all(|along| !of_travel.contains(along)), "{seed}: {found:?}");
     }
 }

@@ -2,7 +2,7 @@
 
 use std::cell::LazyCell;
 
-use helixlock_plant::{CATALOGUE, Card, Context, Entry, Formula, Parameter, Role, Search, Term};
+use helixlock_plant::{CATALOGUE, Card, Entry, Formula, Parameter, Role, Search, Term};
 
 use super::corrections::{corrections, is_correctable};
 use super::unfolding::unfolded;
@@ -33,8 +33,6 @@ const PLAIN: usize = 24;
 const PLACES: usize = 48;
 /// Instants along the record.
 pub(super) const INSTANTS: usize = 96;
-/// Travel that shows whether an effect depends on it, against that of the record: none of its periods.
-const ELSEWHERE: f64 = 1.618;
 /// Values of a user's own parameter on either side of the one that was given, and how far they
 /// reach, as a factor: neighbours differ by half a per cent, a quarter of a wave after fifty.
 const OWN_VALUES: usize = 280;
@@ -79,43 +77,19 @@ fn candidates_of(
         .filter(|card| card.entry != Entry::Actuator || corrector_moves(problem))
         .filter(|card| !is_another_size(problem, card))
         .map(|card| Term::candidate(card, problem.model.rotary))
+        .chain(problem.extra.iter().cloned())
         .filter(|term| is_wanted(term) && logged(problem, term))
         .filter_map(|term| candidate(stage, term))
-        .filter(|candidate| !is_of_the_clock(problem, &candidate.at(0)))
-        .chain(of_the_user(stage, is_wanted))
         .map(|candidate| with_overtones(candidate, stage.problem, found))
         .flat_map(|candidate| [freed(&candidate), doubled(stage, &candidate), Some(candidate)])
         .flatten()
         .collect()
 }
 
-/// The user's own effects, which may be along anything.
-fn of_the_user<'a>(
-    stage: &'a Stage<'_>,
-    is_wanted: fn(&Term) -> bool,
-) -> impl Iterator<Item = Candidate> + 'a {
-    let wanted = move |term: &&Term| is_wanted(term) && logged(stage.problem, term);
-    let terms = stage.problem.extra.iter().filter(wanted);
-    terms.filter_map(|term| candidate(stage, term.clone()))
-}
-
 /// True for an effect that beside one of the file's is that one in another size.
 fn is_another_size(problem: &Problem, card: &Card) -> bool {
     card.parameters.iter().all(|what| !what.is_nonlinear())
         && problem.model.effects.iter().any(|term| term.kind() == card.kind && is_correctable(term))
-}
-
-/// True for a curve along a travel that was worked out of the clock, by the clock alone: it is one in time. A
-/// wave turns with what the machine file lists.
-fn is_of_the_clock(problem: &Problem, term: &Term) -> bool {
-    if problem.measurement.placed || term.is_wave() || !term.needs().is_empty() {
-        return false;
-    }
-    let context = Context { machine: &problem.model, columns: &problem.record.columns };
-    let Ok(basis) = term.basis(&context) else { return false };
-    let mut elsewhere = problem.record.clone();
-    elsewhere.position_mm.iter_mut().for_each(|place| *place *= ELSEWHERE);
-    basis.columns.iter().any(|unit| unit.deltas_um(&problem.record) != unit.deltas_um(&elsewhere))
 }
 
 /// Adds the overtones of gears of which the model has a line already.
