@@ -8,7 +8,7 @@ use crate::hypotheses::{
     chance_in_noise, chance_with_tails, gain_at, least_above_hunting, turn_scan,
 };
 use crate::model::{
-    Columns, Component, Judged, Problem, Stage, State, helps_unseen, holdout_rms_where,
+    Columns, Component, Fit, Judged, Problem, Stage, State, helps_unseen, holdout_rms_where,
 };
 use crate::noise::{effective_samples, rms, swift_rms};
 use crate::numerics::least_squares::covariance_rows;
@@ -159,11 +159,11 @@ fn chance_without_one_sample(problem: &Problem, now: &State, judged: &Judged) ->
     chance_with_tails(problem, [&now.fit, &judged.fit], other_samples)
 }
 
-/// Samples that a record is worth under the noise of a model, of the sensor with the slowest.
-pub(super) fn worth(problem: &Problem, now: &State) -> f64 {
+/// Samples that a record is worth under the noise of a fit, of the sensor with the slowest.
+pub(super) fn worth(problem: &Problem, fit: &Fit) -> f64 {
     let of = |sensor: usize| {
         let (layout, _) = problem.layout.of_sensor(sensor);
-        effective_samples(&layout, &now.fit.noises[sensor])
+        effective_samples(&layout, &fit.noises[sensor])
     };
     (0..problem.sensors.len()).map(of).fold(f64::INFINITY, f64::min)
 }
@@ -174,7 +174,7 @@ fn chance_in_slow_noise(problem: &Problem, now: &State, judged: &Judged, limit: 
     let Some(columns) = own_columns(problem, judged).filter(|one| !one.raw.is_empty()) else {
         return judged.p_value;
     };
-    if FEW_SAMPLES <= worth(problem, now) {
+    if FEW_SAMPLES <= worth(problem, &now.fit) {
         return judged.p_value;
     }
     let looks = judged.looks.max(1.0) * judged.tried;

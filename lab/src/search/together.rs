@@ -119,16 +119,18 @@ impl Together {
 }
 
 /// Two or three effects that together explain most, where slow noise may hide each while another is missing;
-/// `None` unless they beat every single one, all others of as many, and noise.
+/// `None` unless they beat every single one, all others of as many, and noise. Three must leave noise that hides
+/// nothing: what they leave else is the rest of a shape that they begin to draw.
 pub(super) fn together(problem: &Problem, now: &State, single: &[Judged]) -> Option<Together> {
-    if SWALLOWED <= worth(problem, now) {
+    if SWALLOWED <= worth(problem, &now.fit) {
         return None;
     }
     let firsts = single.iter().take(FIRST_OF_PAIRS);
     let ones: Vec<Start> = firsts.filter_map(|one| Start::with(problem, now, &[], one)).collect();
     clear_winner(problem, now, single, &ones).or_else(|| {
         let twos = ones.iter().filter_map(|one| one.and_the_best(problem, now));
-        clear_winner(problem, now, single, &twos.collect::<Vec<Start>>())
+        let three = clear_winner(problem, now, single, &twos.collect::<Vec<Start>>());
+        three.filter(|all| SWALLOWED <= worth(problem, &all.last.fit))
     })
 }
 
