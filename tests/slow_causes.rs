@@ -111,6 +111,25 @@ fn three_waves_of_one_turn_are_found_at_once() {
     }
 }
 
+/// One hump of a turn is a hump: three whole waves would only begin to draw it.
+#[test]
+fn a_hump_of_a_turn_is_not_its_harmonics() {
+    const ENCODER: &str =
+        "output.rotary = true\nspindle.speed = \"10 rpm\"\ngrating.lines = 1024\n";
+    for seed in seeds(1, 3) {
+        let mut noise = white(seed, 1.6);
+        let turn = |row: u16| f64::from(row) / 2048.0;
+        let hump = |turn: f64| 40.0 * libm::exp(-0.5 * ((turn - 0.355) / 0.076).powi(2));
+        let columns = vec![
+            ("angle_rev", (0..2048).map(turn).collect()),
+            ("error_arcsec", (0..2048).map(|row| hump(turn(row)) + noise()).collect()),
+        ];
+        let found = diagnosed_on(ENCODER, columns);
+        assert_eq!(found.verdict, Verdict::Unexplained, "{seed}");
+        assert!(names(&found).is_empty(), "{seed}: {:?}", names(&found));
+    }
+}
+
 /// True when something is left of which these words are said.
 fn tells(found: &Diagnosis, words: &str) -> bool {
     found.residual.iter().any(|one| one.shape.contains(words))
