@@ -192,27 +192,18 @@ impl Diagnosis {
 
     /// Those of a list whose names it lacks, each as often; `None` where the list lacks one of its own.
     fn missing_of<'a, T>(&self, list: Vec<&'a T>, name: fn(&T) -> &str) -> Option<Vec<&'a T>> {
-        beyond(self.last_effects(), list, name)
+        let mut more = list;
+        for effect in self.last_effects() {
+            let place = more.iter().position(|other| name(other) == effect.name)?;
+            more.swap_remove(place);
+        }
+        Some(more)
     }
 
     /// Effects of the final model.
     fn last_effects(&self) -> &[FittedEffect] {
         self.rounds.last().map_or(&[], |last| &last.effects)
     }
-}
-
-/// Those of a list whose names some effects lack, each as often; `None` where the list lacks one of theirs.
-fn beyond<'a, T>(
-    effects: &[FittedEffect],
-    list: Vec<&'a T>,
-    name: fn(&T) -> &str,
-) -> Option<Vec<&'a T>> {
-    let mut more = list;
-    for effect in effects {
-        let place = more.iter().position(|other| name(other) == effect.name)?;
-        more.swap_remove(place);
-    }
-    Some(more)
 }
 
 /// What a diagnosis accepts, where a search on fewer rows finds waves that are not among some effects.

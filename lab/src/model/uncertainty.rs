@@ -24,7 +24,7 @@ pub(crate) struct JointCovariance {
 /// continuous nonlinear parameter, whose derivative is taken by a central difference.
 #[must_use]
 pub(crate) fn joint_covariance(problem: &Problem, state: &State) -> JointCovariance {
-    let linearised = Linearised::of(problem, state, &Columns::default());
+    let linearised = Linearised::of(problem, state);
     linearised.parted(state, &linearised.under_fitted(problem, state))
 }
 
@@ -33,13 +33,12 @@ pub(crate) fn joint_covariance(problem: &Problem, state: &State) -> JointCovaria
 /// with what is not known of the noise.
 #[must_use]
 pub(crate) fn told_covariances(problem: &Problem, state: &State) -> [JointCovariance; 2] {
-    let told = |others: &Columns| {
-        let linearised = Linearised::of(problem, state, others);
-        linearised.parted(state, &linearised.under_any(problem, state))
-    };
-    let of_used = told(&Columns::default());
+    let told = |one: &Linearised| one.parted(state, &one.under_any(problem, state));
+    let linearised = Linearised::of(problem, state);
+    let of_used = told(&linearised);
     let others = set_aside(problem, state);
-    let of_all = if others.raw.is_empty() { of_used.clone() } else { told(&others) };
+    let of_all =
+        if others.raw.is_empty() { of_used.clone() } else { told(&linearised.beside(&others)) };
     [of_used, of_all]
 }
 
@@ -53,14 +52,18 @@ struct Linearised {
 }
 
 impl Linearised {
-    fn of(problem: &Problem, state: &State, others: &Columns) -> Self {
+    fn of(problem: &Problem, state: &State) -> Self {
         let mut columns = state.columns.clone();
         columns.fixed = None;
         let linear_width = columns.raw.len();
         let slopes = slopes(problem, state);
         let raw = slopes.iter().map(|slope| slope.column.clone());
-        let columns = columns.and(&Columns::free(raw)).and(others);
-        Self { columns, slopes, linear_width }
+        Self { columns: columns.and(&Columns::free(raw)), slopes, linear_width }
+    }
+
+    /// It with others beside.
+    fn beside(self, others: &Columns) -> Self {
+        Self { columns: self.columns.and(others), ..self }
     }
 
     /// Covariance of all coefficients under the fitted noise.

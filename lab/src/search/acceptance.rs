@@ -1,6 +1,6 @@
 //! Whether the best effect of a round may be taken into a model.
 
-use helixlock_plant::{Parameter, Role, Search};
+use helixlock_plant::{Parameter, Role, Search, Term};
 
 use super::refusal::Refusal;
 use super::{likeness, uneven};
@@ -204,11 +204,14 @@ fn repeats(judged: &Judged, now: &State) -> bool {
     let term = &judged.component.term;
     let periodic =
         term.parameters.iter().any(|what| what.role == Role::Amplitude || what.name == "count");
-    let listed =
-        term.parameters.iter().any(|what| matches!(what.search, Search::Whole | Search::GearOrder));
-    let most = if listed { MOST_WHOLE_WAVES } else { MOST_OF_A_NAME };
+    let most = if is_of_whole_waves(term) { MOST_WHOLE_WAVES } else { MOST_OF_A_NAME };
     let before = now.components.iter().filter(|other| other.term.name == term.name).count();
     before == 0 || (periodic && before < most)
+}
+
+/// True for whole waves of a turn and those of listed gears, which are few to choose from.
+pub(super) fn is_of_whole_waves(term: &Term) -> bool {
+    term.parameters.iter().any(|what| matches!(what.search, Search::Whole | Search::GearOrder))
 }
 
 /// True when nothing in an effect's values and shape speaks against it.

@@ -5,7 +5,7 @@
 
 use helixlock_plant::{CATALOGUE, Parameter, Search, Term};
 
-use super::acceptance::{refusal, worth};
+use super::acceptance::{is_of_whole_waves, refusal, worth};
 use super::judging::tried;
 use crate::hypotheses::chance_in_noise;
 use crate::model::{Columns, Component, Judged, Problem, State};
@@ -197,10 +197,8 @@ fn bends(term: &Term) -> bool {
     term.parameters.iter().any(free)
 }
 
-/// True for two of one name that imitate a spell of anything, such as a slip there and one back; whole waves of a
-/// turn and those of listed gears are few to choose from.
+/// True for two of one name that imitate a spell of anything, such as a slip there and one back.
 fn imitate(one: &Judged, other: &Judged) -> bool {
-    let listed = |what: &Parameter| matches!(what.search, Search::Whole | Search::GearOrder);
     let (one, other) = (&one.component.term, &other.component.term);
-    one.name == other.name && !one.parameters.iter().any(listed)
+    one.name == other.name && !is_of_whole_waves(one)
 }
