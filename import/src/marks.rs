@@ -9,7 +9,7 @@ use crate::decide::Decisions;
 use crate::error::quoted;
 use crate::grid::Grid;
 use crate::header::Header;
-use crate::number::number;
+use crate::number::{is_overload, number};
 use crate::outline::Outline;
 use crate::question::Answer;
 use crate::recipe::Value as Word;
@@ -49,6 +49,34 @@ pub(crate) fn without_parentheses(
         let inside = inside(cell).filter(|_| rows.binary_search(&row).is_ok())?;
         Some(if missing { String::new() } else { format!("-{inside}") })
     }))
+}
+
+/// Says how many cells hold the overload of an instrument, which is read as no value.
+pub(crate) fn note_overloads(
+    grid: &Grid,
+    outline: &Outline,
+    (samples, decimal): (&[Samples], char),
+    decisions: &mut Decisions<'_>,
+) {
+    let rows = rows(outline);
+    let without_value = |(at, samples): (usize, &Samples)| {
+        let nothing = rows.iter().zip(&samples.values).filter(|(_, value)| value.is_nan());
+        nothing.map(|(row, _)| (*row, at)).collect::<Vec<_>>()
+    };
+    let mut overloads = samples
+        .iter()
+        .enumerate()
+        .flat_map(without_value)
+        .filter(|(row, at)| is_overload(grid.cell(*row, *at), decimal));
+    let Some((row, at)) = overloads.next() else { return };
+    let (cell, place) = (quoted(grid.cell(row, at)), grid.place(row, Some(at)));
+    let count = match overloads.count() {
+        0 => "1 cell holds".to_owned(),
+        more => format!("{} cells hold", more + 1),
+    };
+    decisions.note(format!(
+        "{count} the overload of an instrument, first {cell} at {place}: read as missing"
+    ));
 }
 
 /// Asks about every such number.

@@ -16,23 +16,44 @@ pub(crate) enum Reading {
 pub(crate) const MISSING: [&str; 14] =
     ["nan", "-nan", "na", "n/a", "n.a.", "#n/a", "null", "none", "-", "--", "---", "…", "无", "—"];
 
+/// Overload and its sign, and not a number (SCPI-1999, volume 1, 7.2.1); some logs have 1e38 for the former.
+const OVERLOADS: [f64; 3] = [9.9e37, 9.91e37, 1e38];
+/// How near to one of them a number is that was kept with single precision.
+const SINGLE: f64 = 1e-6;
+
 /// Reads a cell with the decimal sign of the file.
 pub(crate) fn read(cell: &str, decimal: char, missing: &[String]) -> Reading {
     let cell = cell.trim();
     if cell.is_empty() || missing.iter().any(|word| word.eq_ignore_ascii_case(cell)) {
         return Reading::Missing;
     }
-    number(cell, decimal).map_or(Reading::Words, Reading::Number)
+    match number(cell, decimal) {
+        Some(value) => Reading::Number(value),
+        None if is_overload(cell, decimal) => Reading::Missing,
+        None => Reading::Words,
+    }
 }
 
 /// A finite number in range; `+`, a real minus sign, groups of three and a blank before the exponent are
 /// taken, units and words are not.
 pub(crate) fn number(cell: &str, decimal: char) -> Option<f64> {
+    of_any_size(cell, decimal).filter(|value| in_range(*value))
+}
+
+/// True for what an instrument writes in place of a reading that it has not; no quantity is as large.
+pub(crate) fn is_overload(cell: &str, decimal: char) -> bool {
+    let is_near = |value: f64| {
+        let mut known = OVERLOADS.iter();
+        known.any(|overload| (value.abs() - overload).abs() < SINGLE * overload)
+    };
+    of_any_size(cell, decimal).is_some_and(is_near)
+}
+
+fn of_any_size(cell: &str, decimal: char) -> Option<f64> {
     let plain = |cell: &str| {
         let digits = cell.bytes().any(|byte| byte.is_ascii_digit());
         let allowed = |byte: u8| byte.is_ascii_digit() || b"+-.eE".contains(&byte);
-        let value: f64 = cell.parse().ok().filter(|_| digits && cell.bytes().all(allowed))?;
-        in_range(value).then_some(value)
+        cell.parse::<f64>().ok().filter(|_| digits && cell.bytes().all(allowed))
     };
     if decimal == '.' {
         // Almost every cell of almost every file.

@@ -197,6 +197,7 @@ pub(crate) fn understand(
     let headers = header::headers(grid, &outline)?;
     decisions.headers.extend(headers.iter().map(|header| header.name.clone()));
     let samples = samples(grid, &outline, decimal, &missing);
+    marks::note_overloads(grid, &outline, (&samples, decimal), decisions);
     if !told {
         marks::ask(grid, &outline, (&headers, &samples), (decimal, &missing), decisions);
     }

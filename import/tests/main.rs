@@ -4,6 +4,7 @@ mod broken;
 mod fringes;
 mod guesses;
 mod misread;
+mod overload;
 mod properties;
 mod samples;
 mod stage;
