@@ -267,6 +267,7 @@ impl Understood<'_> {
                 "angle" if data::unit(unit, "count").is_some() => {
                     "one of 4096 counts a turn is `unit = \"1/4096 rev\"`"
                 }
+                "length" => "a multiple of one is a unit, too: `unit = \"2.5 um\"`",
                 _ => "",
             };
             return Err(error.hinted(hint));

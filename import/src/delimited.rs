@@ -108,18 +108,19 @@ pub(crate) fn decide_decimal<'a>(
     let (mut points, mut commas, mut marked) = (0_usize, 0_usize, None);
     for cell in cells.filter(|cell| cell.contains(['.', ','])) {
         let (point, comma) = (number(cell, '.').is_some(), number(cell, ',').is_some());
-        points += usize::from(point);
-        commas += usize::from(comma);
+        // What reads either way, as `1.125`, tells nothing.
+        points += usize::from(point && !comma);
+        commas += usize::from(comma && !point);
         if point && comma && marked.is_none() {
             marked = Some(cell.to_owned());
         }
     }
     let (sign, reason) = match points.cmp(&commas) {
         std::cmp::Ordering::Greater => {
-            (".", format!("{points} numbers read with a point, {commas} with a comma"))
+            (".", format!("{points} numbers read only with a point, {commas} only with a comma"))
         }
         std::cmp::Ordering::Less => {
-            (",", format!("{commas} numbers read with a comma, {points} with a point"))
+            (",", format!("{commas} numbers read only with a comma, {points} only with a point"))
         }
         std::cmp::Ordering::Equal if marked.is_some() && is_open => {
             (ask_decimal(&marked.unwrap_or_default(), decisions), "not sure".to_owned())

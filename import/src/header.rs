@@ -140,7 +140,7 @@ pub(crate) fn meaning(bare: &str) -> Option<Word> {
 }
 
 /// Lower case, with blanks for everything that parts words.
-fn spaced(text: &str) -> String {
+pub(crate) fn spaced(text: &str) -> String {
     let mut parted = String::with_capacity(text.len());
     let mut before = ' ';
     for c in text.chars() {

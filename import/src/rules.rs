@@ -1,6 +1,7 @@
 //! What becomes of each column: from its name, its unit and what it holds.
 
 mod runs;
+mod set_point;
 mod sign;
 mod slip;
 mod units;
@@ -74,6 +75,7 @@ pub(crate) fn propose(
         .zip(samples)
         .map(|(header, samples)| candidate(header, samples, decisions))
         .collect();
+    set_point::of_temperatures(&mut candidates);
     candidates.iter_mut().for_each(by_content);
     counters(&mut candidates);
     let runs = run_columns(&mut candidates, decisions);
@@ -433,6 +435,18 @@ pub(crate) fn by_column(name: &str) -> Option<Target> {
     data::target(name).filter(|target| target.column == name)
 }
 
+/// True for what may be named as the error or the position: a time is neither.
+fn is_free(candidate: &Candidate<'_>) -> bool {
+    candidate.samples.holds == Holds::Numbers
+        && candidate.rule.to.as_deref().is_none_or(|to| by_column(to).is_none())
+        && candidate.meaning() != "time"
+}
+
+/// True for what may be a time: it rises from row to row.
+fn rises(candidate: &Candidate<'_>) -> bool {
+    candidate.samples.values.windows(2).all(|pair| pair[0] < pair[1])
+}
+
 /// Asks for what a measurement cannot do without.
 fn observed(candidates: &[Candidate<'_>], decisions: &mut Decisions<'_>) {
     let has = |names: &[&str]| {
@@ -440,8 +454,7 @@ fn observed(candidates: &[Candidate<'_>], decisions: &mut Decisions<'_>) {
     };
     let free: Vec<String> = candidates
         .iter()
-        .filter(|candidate| candidate.samples.holds == Holds::Numbers)
-        .filter(|candidate| candidate.rule.to.as_deref().is_none_or(|to| by_column(to).is_none()))
+        .filter(|candidate| is_free(candidate))
         .map(|candidate| candidate.header.name.clone())
         .take(12)
         .collect();
@@ -463,6 +476,12 @@ fn observed(candidates: &[Candidate<'_>], decisions: &mut Decisions<'_>) {
         // The one column there is holds what was measured.
         let free = if free.len() == 1 && !has(&OBSERVED) { &[] } else { free.as_slice() };
         let mut ways = answers(free, "position_mm");
+        let rising: Vec<String> = candidates
+            .iter()
+            .filter(|candidate| free.contains(&candidate.header.name) && rises(candidate))
+            .map(|candidate| candidate.header.name.clone())
+            .collect();
+        ways.extend(answers(&rising, "time_s"));
         ways.push(Answer {
             label: "a row comes every so many seconds".to_owned(),
             recipe: "[table]\nperiod_s = 0.001".to_owned(),

@@ -62,6 +62,78 @@ fn a_fraction_without_a_whole_part_tells_the_decimal_sign() {
     }
 }
 
+/// What reads with either mark is no evidence for one of them.
+#[test]
+fn numbers_that_read_either_way_count_for_neither_mark() {
+    let text = file("Position [mm];Error [um]", |row| format!("{row}.125;0.{row}"));
+    let recipe = proposed(&text, "").recipe.to_string();
+    let decided = "decimal = \".\" # 41 numbers read only with a point, 0 only with a comma";
+    assert!(recipe.contains(decided), "{recipe}");
+}
+
+/// A set point of a temperature is no position, unless its name has a unit of length.
+#[test]
+fn a_target_beside_a_temperature_of_its_name_is_no_position() {
+    let row = |row: u32| format!("{row},0.{row},100.5,100.0");
+    for name in ["he_t", "he temp", "he [°C]"] {
+        let text = file(&format!("Time [s],Error [um],{name},he_target"), row);
+        let proposal = proposed(&text, "");
+        assert!(proposal.questions.is_empty(), "{name}: {:?}", proposal.questions);
+        assert!(proposal.table.column("he_target").is_some(), "{name}");
+    }
+    for (name, target) in [("he_t", "he_target_mm"), ("xy_t", "he_target [mm]")] {
+        let text = file(&format!("Time [s],Error [um],{name},{target}"), row);
+        assert!(proposed(&text, "").table.column("position_mm").is_some(), "{target}");
+    }
+}
+
+/// A second column of times is kept, and never offered as the error or the position.
+#[test]
+fn a_time_is_not_offered_as_the_error() {
+    let text = file("time (min),time (hr),x [px]", |row| format!("{row},0.{row},1.{row}"));
+    let proposal = proposed(&text, "");
+    let labels = |at: usize| {
+        let answers = proposal.questions[at].answers.iter();
+        answers.map(|answer| answer.label.as_str()).collect::<Vec<_>>()
+    };
+    assert_eq!(labels(0), ["`time (min)` is `time_s`", "`time (hr)` is `time_s`"]);
+    assert_eq!(labels(1), ["`x [px]` is `error_um`"]);
+}
+
+/// Units of time as people write them.
+#[test]
+fn a_time_may_have_its_unit_in_many_spellings() {
+    for (spellings, scale) in [
+        ("h hr hrs hour hours", 3600.0),
+        ("min mins minute minutes", 60.0),
+        ("s sec secs second seconds", 1.0),
+        ("ms msec msecs millisec millisecs millisecond milliseconds", 1e-3),
+        ("us µs usec usecs µsec microsec microsecs microsecond microseconds", 1e-6),
+    ] {
+        for unit in spellings.split(' ') {
+            let text = file(&format!("time ({unit}),Error [um]"), |row| format!("{row}.5,0.{row}"));
+            let times = column(&proposed(&text, ""), "time_s");
+            assert!((times[1] - 1.5 * scale).abs() < 1e-9 * scale, "{unit}: {}", times[1]);
+        }
+    }
+}
+
+/// Steps of a motor have no unit of their own; a multiple of one is offered, and told where one is wrong.
+#[test]
+fn a_multiple_of_a_unit_is_offered_for_counts() {
+    let text = file("Position,Error [um]", |row| format!("{row},0.{row}"));
+    let proposal = proposed(&text, "");
+    let offered = "[[column]]\nfrom = \"Position\"\nunit = \"2.5 um\"";
+    assert!(proposal.questions[0].answers.iter().any(|answer| answer.recipe == offered));
+    let position = column(&proposed(&text, offered), "position_mm");
+    assert_eq!(position[2].to_bits(), 0.005_f64.to_bits());
+    let message = refused(&text, &offered.replace("2.5 um", "steps"));
+    assert!(message.contains("`unit = \"2.5 um\"`"), "{message}");
+    let broken = text.replace(",0", ".5,0");
+    let labels = proposed(&broken, "").questions.remove(0).answers;
+    assert!(labels.iter().all(|answer| !answer.label.contains("counts")));
+}
+
 /// Rows below a table that sum it up are no data, and are told of; units know no case.
 #[test]
 fn what_sums_a_table_up_is_left_out() {

@@ -93,11 +93,23 @@ fn all_below_one(values: &[f64]) -> bool {
     finite().all(|value| (0.0..=1.0).contains(value)) && finite().any(|value| 0.0 < *value)
 }
 
+/// True for whole numbers, which may be counts.
+fn is_whole(candidate: &Candidate<'_>) -> bool {
+    let mut values = candidate.samples.values.iter().filter(|value| value.is_finite());
+    values.all(|value| value.fract().abs() <= 0.0)
+}
+
+/// Steps of a motor, or what a scale or a comparator resolves.
+fn length_of_a_count(candidate: &Candidate<'_>) -> Option<Answer> {
+    let answer = unit_answers(&[&candidate.header.name], &["2.5 um"]).pop()?;
+    let label = "counts, 2.5 um each".to_owned();
+    is_whole(candidate).then_some(Answer { label, ..answer })
+}
+
 /// What moves may turn; whole numbers may be counts of an encoder.
 fn angle_answers(candidate: &Candidate<'_>, target: Target) -> Vec<Answer> {
     let to = if target.column == "position_mm" { "angle_rev" } else { "error_arcsec" };
-    let mut values = candidate.samples.values.iter().filter(|value| value.is_finite());
-    let counts = values.all(|value| value.fract().abs() <= 0.0);
+    let counts = is_whole(candidate);
     let units = [
         ("deg", "deg: an angle"),
         ("rad", "rad: an angle"),
@@ -193,6 +205,9 @@ fn ask_unit(columns: &mut [&mut Candidate<'_>], target: Target, decisions: &mut 
     };
     let mut answers = unit_answers(&names, units);
     let first = &*columns[0];
+    if let ("length", [_]) = (target.kind, &names[..]) {
+        answers.extend(length_of_a_count(first));
+    }
     if target.kind == "length" && ["target", "actual", "position"].contains(&first.meaning()) {
         answers.extend(angle_answers(first, target));
     }
