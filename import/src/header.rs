@@ -7,6 +7,9 @@ use crate::outline::Outline;
 use crate::place::Place;
 use crate::runs::{self, Run};
 
+/// Words that stand before a unit.
+const UNIT: [&str; 4] = ["unit", "units", "einheit", "单位"];
+
 /// What the header says of a column.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Header {
@@ -30,23 +33,10 @@ pub(crate) fn headers(grid: &Grid, outline: &Outline) -> Result<Vec<Header>, Imp
     let data = outline.blocks.first().and_then(|block| block.rows.first());
     let top = names.last().or(data).copied().unwrap_or(0);
     for column in 0..outline.width {
-        let mut name = String::new();
-        for row in &names {
-            let cell = spanned(grid, *row, column, names.len() > 1 && Some(row) != names.last());
-            if !cell.is_empty() && !name.ends_with(cell) {
-                name = format!("{name} {cell}");
-            }
-        }
-        let mut units = units.iter().map(|row| stripped(grid.cell(*row, column)).to_owned());
-        let mut header = read_name(name.trim());
-        header.unit = units
-            .rfind(|unit| {
-                1 < unit.len()
-                    || unit.chars().any(char::is_alphanumeric)
-                    || unit == "%"
-                    || unit == "\""
-            })
-            .or(header.unit);
+        let (name, below) = name_of(grid, &names, column);
+        let units = units.iter().map(|row| stripped(grid.cell(*row, column)));
+        let mut header = read_name(&name);
+        header.unit = units.chain(below).rfind(is_told).map(ToOwned::to_owned).or(header.unit);
         if header.name.is_empty() {
             header.name = format!("column {}", column + 1);
         }
@@ -65,6 +55,33 @@ pub(crate) fn headers(grid: &Grid, outline: &Outline) -> Result<Vec<Header>, Imp
     Ok(headers)
 }
 
+/// The name of a column through all rows of names, and the unit that stands below it among other names.
+fn name_of<'a>(grid: &'a Grid, rows: &[usize], column: usize) -> (String, Option<&'a str>) {
+    let (mut name, mut unit) = (String::new(), None);
+    for row in rows {
+        let cell = spanned(grid, *row, column, rows.len() > 1 && Some(row) != rows.last());
+        if is_unit_of(&name, cell) {
+            unit = Some(stripped(cell));
+        } else if !cell.is_empty() && !name.ends_with(cell) {
+            name = format!("{name} {cell}");
+        }
+    }
+    (name.trim().to_owned(), unit)
+}
+
+/// True for `ms` below `Time`: a unit of what the name says.
+pub(crate) fn is_unit_of(name: &str, cell: &str) -> bool {
+    let word = meaning(&read_name(name.trim()).bare);
+    let kind = word.and_then(|word| data::target(word.meaning)).map_or("", |target| target.kind);
+    !kind.is_empty() && data::unit(stripped(cell), kind).is_some()
+}
+
+/// True for a cell of a row of units that tells one.
+fn is_told(cell: &&str) -> bool {
+    let marked = 1 < cell.len() || cell.chars().any(char::is_alphanumeric);
+    !is_word_for_unit(cell) && (marked || ["%", "\""].contains(cell))
+}
+
 /// A cell of a header; one that spans several columns counts for all of them.
 fn spanned(grid: &Grid, row: usize, column: usize, spans: bool) -> &str {
     let cell = grid.cell(row, column);
@@ -76,9 +93,18 @@ fn spanned(grid: &Grid, row: usize, column: usize, spans: bool) -> &str {
     if runs::run_of(nearest).is_some() { nearest } else { "" }
 }
 
-fn is_units(grid: &Grid, row: usize) -> bool {
-    let mut cells = grid.cells_of(row).filter(|cell| !cell.is_empty());
-    cells.all(|cell| cell == "-" || data::unit(stripped(cell), "").is_some())
+/// True for a row of units, which may have their word before them.
+pub(crate) fn is_units(grid: &Grid, row: usize) -> bool {
+    let mut cells = grid.cells_of(row).filter(|cell| !cell.is_empty() && !is_word_for_unit(cell));
+    cells.next().is_some_and(is_unit) && cells.all(is_unit)
+}
+
+fn is_unit(cell: &str) -> bool {
+    cell == "-" || data::unit(stripped(cell), "").is_some()
+}
+
+fn is_word_for_unit(cell: &str) -> bool {
+    UNIT.iter().any(|word| word.eq_ignore_ascii_case(cell))
 }
 
 fn stripped(cell: &str) -> &str {

@@ -5,13 +5,14 @@ mod summary;
 
 use std::ops::Range;
 
-use crate::data;
 use crate::decide::Decisions;
 use crate::error::{ImportError, quoted};
 use crate::grid::Grid;
+use crate::header;
 use crate::instant::is_instant;
 use crate::number::{MISSING, Reading, read};
 use crate::place::Place;
+use crate::recipe::Value;
 use crate::runs;
 
 /// Rows of names and units, and stretches of rows of data.
@@ -55,8 +56,11 @@ pub(crate) fn outline(
         let place = Place::file(decisions.file());
         return Err(ImportError::found(place, "no rows of numbers", "a table of measured data"));
     };
-    let preamble =
-        decisions.whole("table", "preamble", || (found.first, looks.preamble_reason(found.first)));
+    let first = match decisions.given("table", "header") {
+        Some(Value::Whole(told)) if found.header == 0 => looks.told_header(&found, *told),
+        _ => found.first,
+    };
+    let preamble = decisions.whole("table", "preamble", || (first, looks.preamble_reason(first)));
     let header = decisions.whole("table", "header", || {
         let reason = match found.header {
             0 => "no row of words stands above the numbers",
@@ -77,7 +81,7 @@ pub(crate) fn outline(
     }
     looks.check_above(preamble, body..end, decisions)?;
     looks.check_names(&filled, body..end, decisions)?;
-    let blocks = looks.blocks(body..end, found.width, &filled)?;
+    let blocks = looks.blocks(body..end, &found, &filled)?;
     Ok(Outline { header: filled, blocks, preamble: (0..preamble).collect(), width: found.width })
 }
 
@@ -91,6 +95,8 @@ struct Found {
     first: usize,
     header: usize,
     width: usize,
+    /// Cells of a row, with the empty ones behind the last column.
+    cells: usize,
 }
 
 impl Looks<'_> {
@@ -121,19 +127,23 @@ impl Looks<'_> {
         for row in &data {
             *widths.entry(self.grid.width(*row)).or_default() += 1;
         }
-        let width = *widths.iter().max_by_key(|(width, rows)| (**rows, **width))?.0;
+        let cells = *widths.iter().max_by_key(|(width, rows)| (**rows, **width))?.0;
         let wide: Vec<usize> =
-            data.into_iter().filter(|row| self.grid.width(*row) == width).collect();
-        let kinds = self.kinds(&wide, width);
+            data.into_iter().filter(|row| self.grid.width(*row) == cells).collect();
+        // Behind a separator at the end of every row stands no column, unless it has a name.
+        let last = wide.iter().map(|row| self.grid.used_width(*row)).max()?;
+        let kinds = self.kinds(&wide, last);
         let fits = |row: usize| {
-            (0..width).all(|at| {
+            (0..last).all(|at| {
                 kinds[at] != Look::Number || self.look(self.grid.cell(row, at)) != Look::Words
             })
         };
         let first = wide.iter().copied().find(|row| fits(*row))?;
-        let header = self.header_above(first, (width, self.filled(&wide)), &kinds);
+        let header = self.header_above(first, (last, self.filled(&wide)), &kinds);
         let top = header.first().copied().unwrap_or_else(|| wide[0].min(first));
-        Some(Found { first: top, header: header.len(), width })
+        let named = header.iter().any(|row| last < self.grid.used_width(*row));
+        let width = if named { cells } else { last };
+        Some(Found { first: top, header: header.len(), width, cells })
     }
 
     /// Cells up to the last that is filled, in most rows: spreadsheets write empty ones behind them.
@@ -181,12 +191,26 @@ impl Looks<'_> {
                 break;
             }
             header.insert(0, row);
-            let units = self.is_units(row);
-            if !units && !self.group_above(row, widths.0) {
+            let units = header::is_units(self.grid, row);
+            if !units
+                && !self.group_above(row, widths.0)
+                && !self.is_below_names(row, widths, kinds)
+            {
                 break;
             }
         }
         header
+    }
+
+    /// Where a header begins that only a recipe knows for one: so many rows of words, right above the data.
+    fn told_header(&self, found: &Found, rows: i64) -> usize {
+        let is_wide = |row: &usize| {
+            let used = self.grid.used_width(*row);
+            found.width <= 2 * used && used <= 2 * self.count(*row, Look::Words)
+        };
+        let filled = (0..found.first).rev().filter(|row| !self.grid.is_blank(*row));
+        let above = filled.take(usize::try_from(rows).unwrap_or(0)).take_while(is_wide);
+        above.last().unwrap_or(found.first)
     }
 
     fn has_digit(&self, row: usize) -> bool {
@@ -215,11 +239,11 @@ impl Looks<'_> {
         wide && 0 < words && differs && counting && counted
     }
 
-    fn is_units(&self, row: usize) -> bool {
-        let mut cells = self.grid.cells_of(row).filter(|cell| !cell.is_empty()).peekable();
-        let bare = |cell: &str| cell.trim_matches(['[', ']', '(', ')']).trim().to_owned();
-        cells.peek().is_some()
-            && cells.all(|cell| cell == "-" || data::unit(&bare(cell), "").is_some())
+    /// True when a cell of the row is a unit of the name above it, as `ms` below `Time`, while others are names.
+    fn is_below_names(&self, row: usize, widths: (usize, usize), kinds: &[Look]) -> bool {
+        let Some(above) = row.checked_sub(1) else { return false };
+        let is_unit = |at| header::is_unit_of(self.grid.cell(above, at), self.grid.cell(row, at));
+        self.is_names(above, widths, kinds) && (0..widths.0).any(is_unit)
     }
 
     /// True when the row above groups columns, such as `Run 1` over two directions.
@@ -250,7 +274,7 @@ impl Looks<'_> {
     fn blocks(
         &self,
         body: Range<usize>,
-        width: usize,
+        found: &Found,
         header: &[usize],
     ) -> Result<Vec<Block>, ImportError> {
         let mut blocks = vec![Block { heading: self.heading_above(header), rows: Vec::new() }];
@@ -277,7 +301,7 @@ impl Looks<'_> {
                 Some(heading) => blocks.push(Block { heading, rows: Vec::new() }),
                 None => {}
             }
-            self.check_width(row, width)?;
+            self.check_width(row, found)?;
             blocks.last_mut().expect("one is there from the start").rows.push(row);
         }
         blocks.retain(|block| !block.rows.is_empty());
@@ -304,18 +328,24 @@ impl Looks<'_> {
                 && runs::run_of(&text()).is_some()
     }
 
-    fn check_width(&self, row: usize, width: usize) -> Result<(), ImportError> {
+    fn check_width(&self, row: usize, table: &Found) -> Result<(), ImportError> {
         let (found, used) = (self.grid.width(row), self.grid.used_width(row));
+        let fits = table.cells <= found && used <= table.width;
+        // The separator behind the last cell may fail; another one would move cells to other columns.
+        let unended = found == table.width && used == table.width;
         // A sheet drops empty cells at the end of a row, and may have notes beside its table.
-        if self.grid.is_sheet() || found == width || width < found && used <= width {
+        if self.grid.is_sheet() || fits || unended {
             return Ok(());
         }
         let cells =
             |count: usize| if count == 1 { "1 cell".into() } else { format!("{count} cells") };
-        let column = found.checked_sub(1).map(|last| last.min(width));
+        let column = found.checked_sub(1).map(|last| last.min(table.cells));
         let place = self.grid.place(row, column);
-        let error =
-            ImportError::found(place, cells(found), format!("{width} as in the other rows"));
+        let error = ImportError::found(
+            place,
+            cells(found),
+            format!("{} as in the other rows", table.cells),
+        );
         Err(if row + 1 == self.grid.rows() {
             error.hinted("the last line is cut off: was the recording stopped?")
         } else {

@@ -5,6 +5,7 @@ mod set_point;
 mod sign;
 mod slip;
 mod units;
+mod unused;
 
 use std::collections::BTreeMap;
 
@@ -76,6 +77,7 @@ pub(crate) fn propose(
         .map(|(header, samples)| candidate(header, samples, decisions))
         .collect();
     set_point::of_temperatures(&mut candidates);
+    unused::left_out(&mut candidates, decisions);
     candidates.iter_mut().for_each(by_content);
     counters(&mut candidates);
     let runs = run_columns(&mut candidates, decisions);
@@ -435,11 +437,12 @@ pub(crate) fn by_column(name: &str) -> Option<Target> {
     data::target(name).filter(|target| target.column == name)
 }
 
-/// True for what may be named as the error or the position: a time is neither.
+/// True for what may be named as the error or the position: a time and a channel that is not used are neither.
 fn is_free(candidate: &Candidate<'_>) -> bool {
     candidate.samples.holds == Holds::Numbers
         && candidate.rule.to.as_deref().is_none_or(|to| by_column(to).is_none())
         && candidate.meaning() != "time"
+        && !unused::is_unused(candidate)
 }
 
 /// True for what may be a time: it rises from row to row.

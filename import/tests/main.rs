@@ -3,6 +3,7 @@
 mod broken;
 mod fringes;
 mod guesses;
+mod headers;
 mod misread;
 mod overload;
 mod properties;
