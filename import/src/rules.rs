@@ -445,9 +445,11 @@ fn is_free(candidate: &Candidate<'_>) -> bool {
         && !unused::is_unused(candidate)
 }
 
-/// True for what may be a time: it rises from row to row.
-fn rises(candidate: &Candidate<'_>) -> bool {
-    candidate.samples.values.windows(2).all(|pair| pair[0] < pair[1])
+/// True for what may be a time: it rises from row to row, and is in no other unit.
+fn may_be_time(candidate: &Candidate<'_>) -> bool {
+    let unit = candidate.header.unit.as_deref();
+    unit.is_none_or(|unit| data::unit(unit, "time").is_some())
+        && candidate.samples.values.windows(2).all(|pair| pair[0] < pair[1])
 }
 
 /// Asks for what a measurement cannot do without.
@@ -455,9 +457,11 @@ fn observed(candidates: &[Candidate<'_>], decisions: &mut Decisions<'_>) {
     let has = |names: &[&str]| {
         candidates.iter().any(|candidate| names.iter().any(|name| candidate.is(name)))
     };
+    let timed = has(&["time_s"]);
     let free: Vec<String> = candidates
         .iter()
-        .filter(|candidate| is_free(candidate))
+        // An axis that should stand still is logged by the clock: where it is, is its error.
+        .filter(|candidate| is_free(candidate) || timed && candidate.is("position_mm"))
         .map(|candidate| candidate.header.name.clone())
         .take(12)
         .collect();
@@ -481,7 +485,7 @@ fn observed(candidates: &[Candidate<'_>], decisions: &mut Decisions<'_>) {
         let mut ways = answers(free, "position_mm");
         let rising: Vec<String> = candidates
             .iter()
-            .filter(|candidate| free.contains(&candidate.header.name) && rises(candidate))
+            .filter(|candidate| free.contains(&candidate.header.name) && may_be_time(candidate))
             .map(|candidate| candidate.header.name.clone())
             .collect();
         ways.extend(answers(&rising, "time_s"));

@@ -81,6 +81,9 @@ fn a_target_beside_a_temperature_of_its_name_is_no_position() {
         assert!(proposal.questions.is_empty(), "{name}: {:?}", proposal.questions);
         assert!(proposal.table.column("he_target").is_some(), "{name}");
     }
+    let drift = file("Time [s],mcu_pos_z,he_t,he_target", |row| format!("{row},-{row},100.5,100"));
+    let labels = proposed(&drift, "").questions.into_iter().flat_map(|question| question.answers);
+    assert!(labels.into_iter().any(|answer| answer.label == "`mcu_pos_z` is `error_um`"));
     for (name, target) in [("he_t", "he_target_mm"), ("xy_t", "he_target [mm]")] {
         let text = file(&format!("Time [s],Error [um],{name},{target}"), row);
         assert!(proposed(&text, "").table.column("position_mm").is_some(), "{target}");
