@@ -17,6 +17,7 @@ mod state;
 mod targets;
 mod uncertainty;
 mod unsure;
+mod waves;
 
 pub(crate) use columns::Columns;
 pub(crate) use component::Component;

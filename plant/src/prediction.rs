@@ -139,6 +139,30 @@ pub fn observe(
     settle(machine, record, sensor, scaled)
 }
 
+/// The same through effects that delay the error which the deltas make, as a recorder's lag does.
+#[must_use]
+pub fn observe_late(
+    machine: &Machine,
+    record: &Record,
+    (entry, deltas_um): (Entry, &[f64]),
+    sensor: Sensor,
+    lags: &[(Entry, Sum)],
+) -> Vec<f64> {
+    let factor = gain(machine, entry, Sensor::Recorder);
+    if sensor != Sensor::Recorder || machine.loop_closed || factor == 0.0 || lags.is_empty() {
+        return observe(machine, record, entry, sensor, deltas_um);
+    }
+    let error_um = zeroed(record, deltas_um.iter().map(|delta| factor * delta).collect());
+    let seen = Record { error_um: error_um.clone().into(), ..record.clone() };
+    let mut shown = error_um;
+    for (entry, lag) in lags {
+        let factor = gain(machine, *entry, sensor);
+        let deltas = lag.deltas_um(&seen);
+        shown.iter_mut().zip(&deltas).for_each(|(sum, delta)| *sum += factor * delta);
+    }
+    settle(machine, record, sensor, shown)
+}
+
 /// Error at the meter without the effects that depend on it, each pass from its own zero, µm.
 ///
 /// Put it into [`Record::error_um`] before a feedback effect is worked out on a record.

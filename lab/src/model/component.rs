@@ -32,9 +32,10 @@ impl Columns {
     ///
     /// [`EffectError`] when a column of data or a section of the machine file is missing.
     pub(crate) fn of(problem: &Problem, components: &[Component]) -> Result<Self, EffectError> {
+        let terms: Vec<&Term> = components.iter().map(|component| &component.term).collect();
         let mut all = Self::default();
         for component in components {
-            let (design, priors) = component.design(problem)?;
+            let (design, priors) = component.design_beside(problem, &terms)?;
             all.raw.extend(design.columns);
             all.priors.extend(priors);
             all.take_off(design.fixed);
@@ -53,6 +54,19 @@ impl Columns {
     ) -> Result<Self, EffectError> {
         Ok(Self::of(problem, components)?.and(&problem.free))
     }
+}
+
+/// Some effects at coefficients of their columns in use, row by row in µm (arcsec); `None` when one
+/// cannot be worked out.
+#[must_use]
+pub(crate) fn shown_um(
+    problem: &Problem,
+    components: &[Component],
+    used: &[f64],
+) -> Option<Vec<f64>> {
+    let columns = Columns::of(problem, components).ok()?;
+    let missing = columns.left(&vec![0.0; problem.samples.len()], used);
+    Some(missing.into_iter().map(|value| -value).collect())
 }
 
 impl Component {
@@ -133,7 +147,20 @@ impl Component {
     ///
     /// [`EffectError`] when a column or a section of the machine file is missing.
     pub(crate) fn design(&self, problem: &Problem) -> Result<(Design, Priors), EffectError> {
-        let Design { columns, fixed } = problem.design(&self.term)?;
+        self.design_beside(problem, &[])
+    }
+
+    /// The same through those of some effects that delay.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::design`].
+    pub(crate) fn design_beside(
+        &self,
+        problem: &Problem,
+        others: &[&Term],
+    ) -> Result<(Design, Priors), EffectError> {
+        let Design { columns, fixed } = problem.design_beside(&self.term, others)?;
         let held = self.term.priors().into_iter().zip(&self.whole);
         let priors = held.map(|(prior, whole)| whole.map(|w| (w, WHOLE_STDERR)).or(prior));
         let pairs = columns.into_iter().zip(priors).zip(&self.kept);
@@ -168,9 +195,7 @@ impl Component {
     /// when it cannot be worked out.
     #[must_use]
     pub(crate) fn shown_um(&self, problem: &Problem, used: &[f64]) -> Option<Vec<f64>> {
-        let columns = Columns::of(problem, std::slice::from_ref(self)).ok()?;
-        let missing = columns.left(&vec![0.0; problem.samples.len()], used);
-        Some(missing.into_iter().map(|value| -value).collect())
+        shown_um(problem, std::slice::from_ref(self), used)
     }
 
     /// True when a column of it goes in steps.

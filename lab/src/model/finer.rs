@@ -2,11 +2,12 @@
 
 use std::ops::Range;
 
-use helixlock_plant::{Machine, Part, Record};
+use helixlock_plant::{Model, Part, Record};
 
+use super::waves::Waves;
 use crate::measurement::means;
 use crate::numerics::median;
-use crate::policy::extent::BETWEEN_A_TURN;
+use crate::policy::extent::{BETWEEN_A_TURN, BETWEEN_A_WAVE, MOST_COMPARISONS};
 
 /// A record, those of its samples that were measured, and the groups of these that were averaged,
 /// or chosen as groups of one.
@@ -49,13 +50,20 @@ impl Finer {
         Self { groups, ..self.clone() }
     }
 
-    /// A record with samples in between at every comparison, or as close where there are none;
-    /// `None` if it has them, or none are to be had.
+    /// A record with samples in between at every comparison, or as close where there are none, and as
+    /// many a wave as the quickest of the machine file asks for; `None` if it has them, or none are
+    /// to be had.
     #[must_use]
-    pub(crate) fn between(machine: &Machine, record: &Record) -> Option<Self> {
-        let compares = !machine.rotary && machine.has(Part::Dividers);
-        let turns = if compares { machine.turns_a_comparison() } else { 1.0 / BETWEEN_A_TURN };
-        let (record, measured) = record.refined(turns)?;
+    pub(crate) fn between(model: &Model, record: &Record) -> Option<Self> {
+        let waves = Waves::of(model, record);
+        let compares = !model.rotary && model.has(Part::Dividers);
+        let turns = if compares { model.turns_a_comparison() } else { 1.0 / BETWEEN_A_TURN };
+        let asked = |row: usize| {
+            let elapsed_s = record.time_s[row] - record.time_s[row - 1];
+            let comparisons = elapsed_s * record.speed_rpm[row] / 60.0 / turns;
+            comparisons.min(MOST_COMPARISONS).max(BETWEEN_A_WAVE * waves.between(record, row))
+        };
+        let (record, measured) = record.refined(asked)?;
         let groups = (0..measured.len()).map(|row| row..row + 1).collect();
         Some(Self { measured: Some(measured), ..Self::of(record, groups) })
     }

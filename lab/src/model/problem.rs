@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
-use helixlock_plant::prediction::{Sensor, gain, meter_um, observe, shown};
+use helixlock_plant::prediction::{Sensor, gain, meter_um, observe, observe_late, shown};
 use helixlock_plant::{Column, Effect, EffectError, Entry, Model, Part, Record, Sum, Term};
 
 use super::columns::Columns;
@@ -229,15 +229,23 @@ impl Problem {
         self.stacked(|sensor| observe(&self.model, &self.record, entry, sensor, deltas))
     }
 
-    /// Design column of an effect, through the recorder's filter at every comparison.
-    fn column_of(&self, entry: Entry, unit: &dyn Effect) -> Vec<f64> {
-        let between = self.finer.as_ref().filter(|finer| finer.measured.is_some());
-        let Some(finer) = between.filter(|_| self.model.filter_cutoff_hz.is_some()) else {
+    /// Design column of an effect, through the recorder's filter and lags at every comparison.
+    fn column_of(&self, entry: Entry, unit: &dyn Effect, lags: &[(Entry, Sum)]) -> Vec<f64> {
+        let late = if unit.feeds_back() { &[] } else { lags };
+        let remembers =
+            |finer: &Finer| finer.measured.is_some() && self.model.filter_cutoff_hz.is_some();
+        let finer = self.finer.as_deref().filter(|finer| !late.is_empty() || remembers(finer));
+        if late.is_empty() && finer.is_none() {
             return self.column(entry, &self.deltas_um(unit));
-        };
-        let deltas = unit.deltas_um(&finer.record);
+        }
+        let record = finer.map_or(&self.record, |finer| &finer.record);
+        let deltas = unit.deltas_um(record);
         self.stacked(|sensor| {
-            finer.means(&observe(&self.model, &finer.record, entry, sensor, &deltas))
+            let shown = observe_late(&self.model, record, (entry, &deltas), sensor, late);
+            match finer {
+                Some(finer) => finer.means(&shown),
+                None => shown,
+            }
         })
     }
 
@@ -281,18 +289,42 @@ impl Problem {
     ///
     /// [`EffectError`] when a column or a section of the machine file is missing.
     pub(crate) fn design(&self, term: &Term) -> Result<Design, EffectError> {
-        let mut design = self.design_alone(term)?;
+        self.design_beside(term, &[])
+    }
+
+    /// The same beside other effects of a model, through those of them that delay.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::design`].
+    pub(crate) fn design_beside(
+        &self,
+        term: &Term,
+        others: &[&Term],
+    ) -> Result<Design, EffectError> {
+        let lags = self.lags_beside(others)?;
+        let mut design = self.design_alone(term, &lags)?;
         if let Some(before) = term.instead_of.and_then(|place| self.model.effects.get(place)) {
-            let said = self.said(before)?;
+            let said = self.said(before, &lags)?;
             let fixed = design.fixed.get_or_insert_with(|| vec![0.0; said.len()].into());
             fixed.iter_mut().zip(&said).for_each(|(fixed, said)| *fixed -= said);
         }
         Ok(design)
     }
 
+    /// The effects that delay what is shown: those of some terms, and of the machine file's those in
+    /// whose place none of them stands.
+    fn lags_beside(&self, terms: &[&Term]) -> Result<Vec<(Entry, Sum)>, EffectError> {
+        let stands = |place: usize| terms.iter().all(|term| term.instead_of != Some(place));
+        let own = self.model.effects.iter().enumerate().filter(|(place, _)| stands(*place));
+        let all = own.map(|(_, term)| term).chain(terms.iter().copied());
+        let lags = all.filter(|term| term.nature().delays);
+        lags.map(|term| Ok((term.entry, term.effect(&self.model, &self.record.columns)?))).collect()
+    }
+
     /// What the machine file says that an effect of it shows, row by row.
-    fn said(&self, term: &Term) -> Result<Vec<f64>, EffectError> {
-        let Design { columns, fixed } = self.design_alone(term)?;
+    fn said(&self, term: &Term, lags: &[(Entry, Sum)]) -> Result<Vec<f64>, EffectError> {
+        let Design { columns, fixed } = self.design_alone(term, lags)?;
         let mut said = fixed.map_or_else(|| vec![0.0; self.samples.len()], |fixed| fixed.to_vec());
         for (column, size) in columns.iter().zip(term.coefficients()) {
             said.iter_mut().zip(column.iter()).for_each(|(sum, value)| *sum += size * value);
@@ -301,11 +333,11 @@ impl Problem {
     }
 
     /// The same of a term that takes no other's place.
-    fn design_alone(&self, term: &Term) -> Result<Design, EffectError> {
+    fn design_alone(&self, term: &Term, lags: &[(Entry, Sum)]) -> Result<Design, EffectError> {
         let context =
             helixlock_plant::Context { machine: &self.model, columns: &self.record.columns };
         let basis = term.basis(&context)?;
-        let column = |unit: &dyn Effect| Column::from(self.column_of(term.entry, unit));
+        let column = |unit: &dyn Effect| Column::from(self.column_of(term.entry, unit, lags));
         let columns = basis.columns.iter().map(|unit| column(unit.as_ref())).collect();
         Ok(Design { columns, fixed: basis.fixed.map(|unit| column(unit.as_ref())) })
     }

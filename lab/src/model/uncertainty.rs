@@ -4,7 +4,7 @@ use helixlock_plant::Column;
 use nalgebra::DMatrix;
 
 use super::columns::Columns;
-use super::component::Component;
+use super::component::{Component, shown_um};
 use super::problem::Problem;
 use super::state::State;
 use super::unsure::widening;
@@ -161,9 +161,25 @@ fn slope(
     let value = component.term.nonlinear()[place];
     let range = parameter.range.end() - parameter.range.start();
     let step = 1e-4 * if value == 0.0 { range.abs() } else { value.abs() };
-    let (coefficients, _) = state.coefficients(index);
-    let at = |value| component.with_value(place, value).shown_um(problem, coefficients);
+    let at = |value| shown_with(problem, state, index, component.with_value(place, value));
     let (up, down) = (at(value + step)?, at(value - step)?);
     let slope: Vec<f64> = up.iter().zip(&down).map(|(a, b)| (a - b) / (2.0 * step)).collect();
     slope.iter().any(|value| *value != 0.0).then_some(slope)
+}
+
+/// What a component shows at its fitted sizes and other values; with what it makes of the others if
+/// it delays them.
+fn shown_with(
+    problem: &Problem,
+    state: &State,
+    index: usize,
+    changed: Component,
+) -> Option<Vec<f64>> {
+    if !changed.term.nature().delays {
+        return changed.shown_um(problem, state.coefficients(index).0);
+    }
+    let mut all = state.components.clone();
+    all[index] = changed;
+    let width = all.iter().map(Component::width).sum();
+    shown_um(problem, &all, &state.fit.linear.coefficients[..width])
 }

@@ -100,6 +100,18 @@ pub(crate) const MOST_BETWEEN: usize = 1 << 16;
 /// twice the time.
 pub(crate) const BETWEEN_A_TURN: f64 = 128.0;
 
+/// Most comparisons between two samples that are worked out for themselves.
+///
+/// Chosen, by time: what lies further back is forgotten, or too slow to ask for more. Doubled: steps of the error
+/// are where they are to a thirty-second of the interval.
+pub(crate) const MOST_COMPARISONS: f64 = 16.0;
+
+/// Samples a wave of the machine file, with those in between, for what a lag makes of it.
+///
+/// Derived: straight lines between n samples take (2π/n)²/12 off it, 0.3 %: at fifty times the
+/// noise, a square of 0.03 a row. Doubled: 0.002, at twice the time.
+pub(crate) const BETWEEN_A_WAVE: f64 = 32.0;
+
 /// Share of a turn that a record must have for what comes with every turn to be named.
 ///
 /// Chosen: that the circle closes is taken on trust for a tenth of it. Doubled: a table that was measured over

@@ -2,28 +2,23 @@
 
 use crate::{Column, Record};
 
-/// Most parts of the way from one sample to the next: what lies further back is forgotten, or too
-/// slow to ask for more.
-const MOST_PARTS: f64 = 16.0;
-
 /// Most samples of a refined record.
 const MOST_SAMPLES: usize = 1 << 20;
 
 impl Record {
-    /// The record with samples in between, about `turns` of the spindle apart, and where its own
-    /// samples have gone; `None` when they are no farther apart themselves.
+    /// The record with samples in between, and where its own have gone; `None` when none are asked
+    /// for, or there are too many rows for any.
     ///
-    /// Everything runs straight from neighbour to neighbour, as the machine does, so that an effect
-    /// of it may bend in between. Nothing is put between passes, or where the table turns.
+    /// `asked` says in how many parts the way to a sample from the one before it should go; where
+    /// all of them together ask for more than can be held, each gets its share. Everything runs
+    /// straight from neighbour to neighbour, as the machine does, so that an effect of it may bend in
+    /// between. Nothing is put between passes, or where the table turns.
     #[must_use]
-    pub fn refined(&self, turns: f64) -> Option<(Self, Vec<usize>)> {
-        let parts: Vec<u32> = (0..self.len()).map(|row| self.parts(row, turns)).collect();
-        let all: usize = parts.iter().map(|parts| *parts as usize).sum();
-        if all <= self.len() || MOST_SAMPLES < all {
-            return None;
-        }
+    pub fn refined(&self, asked: impl Fn(usize) -> f64) -> Option<(Self, Vec<usize>)> {
+        let asked: Vec<f64> = (0..self.len()).map(|row| self.between_rows(row, &asked)).collect();
+        let parts = held(&asked)?;
         let mut own = Vec::with_capacity(self.len());
-        let mut places = Vec::with_capacity(all);
+        let mut places = Vec::with_capacity(parts.iter().map(|parts| *parts as usize).sum());
         for (row, parts) in parts.into_iter().enumerate() {
             let shares = (1..parts).map(|part| f64::from(part) / f64::from(parts));
             places.extend(shares.map(|share| (row, share)));
@@ -33,19 +28,12 @@ impl Record {
         Some((self.between(&places), own))
     }
 
-    /// Parts of the way to a sample from the one before it.
-    fn parts(&self, row: usize, turns: f64) -> u32 {
-        if row == 0 || self.pass[row] != self.pass[row - 1] {
-            return 1;
+    /// Parts that are asked for on the way to a sample, 1 where there is no way that is known.
+    fn between_rows(&self, row: usize, asked: impl Fn(usize) -> f64) -> f64 {
+        if row == 0 || self.pass[row] != self.pass[row - 1] || self.turned(row) {
+            return 1.0;
         }
-        let elapsed_s = self.time_s[row] - self.time_s[row - 1];
-        let parts = (elapsed_s * self.speed_rpm[row] / 60.0 / turns).round();
-        if self.turned(row) || !parts.is_finite() {
-            return 1;
-        }
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to 16")]
-        let parts = parts.clamp(1.0, MOST_PARTS) as u32;
-        parts
+        Some(asked(row)).filter(|parts| parts.is_finite()).map_or(1.0, |parts| parts.max(1.0))
     }
 
     /// What lies at each share of the way to a row from the one before it.
@@ -88,7 +76,40 @@ impl Record {
     }
 }
 
+/// As many parts as asked for, or fewer alike if they are too many to be held.
+fn held(asked: &[f64]) -> Option<Vec<u32>> {
+    let more: f64 = asked.iter().map(|parts| parts.round() - 1.0).sum();
+    #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
+    let room = MOST_SAMPLES.saturating_sub(asked.len()) as f64;
+    // Another copy of a long record is not worth a few samples more.
+    if more <= 0.0 || (more > room && MOST_SAMPLES < 2 * asked.len()) {
+        return None;
+    }
+    let share = (room / more).min(1.0);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "1 to MOST_SAMPLES"
+    )]
+    let parts = |asked: &f64| 1 + (share * (asked.round() - 1.0)) as u32;
+    Some(asked.iter().map(parts).collect())
+}
+
 /// Straight from one value to another; the very value at its end, and where both are the same.
 fn between(from: f64, to: f64, share: f64) -> f64 {
     if 1.0 <= share || from.to_bits() == to.to_bits() { to } else { from + share * (to - from) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_parts_than_can_be_held_are_shared() {
+        assert_eq!(held(&[1.0, 3.0, 8.4]), Some(vec![1, 3, 8]));
+        assert_eq!(held(&[1.0, 1.2]), None);
+        let parts = held(&vec![101.0; 100_000]).expect("room for some");
+        assert_eq!((parts[0], parts.len()), (10, 100_000));
+        assert_eq!(held(&vec![3.0; 1_000_000]), None);
+    }
 }
