@@ -7,7 +7,9 @@ use helixlock_plant::{Model, Part, Record};
 use super::waves::Waves;
 use crate::measurement::means;
 use crate::numerics::median;
-use crate::policy::extent::{BETWEEN_A_TURN, BETWEEN_A_WAVE, MOST_COMPARISONS};
+use crate::policy::extent::{
+    BETWEEN_A_TURN, BETWEEN_A_WAVE, MOST_BETWEEN, MOST_COMPARISONS, MOST_REMEMBERED,
+};
 
 /// A record, those of its samples that were measured, and the groups of these that were averaged,
 /// or chosen as groups of one.
@@ -56,6 +58,7 @@ impl Finer {
     #[must_use]
     pub(crate) fn between(model: &Model, record: &Record) -> Option<Self> {
         let waves = Waves::of(model, record);
+        let most = if waves.are_remembered() { MOST_REMEMBERED } else { MOST_BETWEEN };
         let compares = !model.rotary && model.has(Part::Dividers);
         let turns = if compares { model.turns_a_comparison() } else { 1.0 / BETWEEN_A_TURN };
         let asked = |row: usize| {
@@ -63,7 +66,7 @@ impl Finer {
             let comparisons = elapsed_s * record.speed_rpm[row] / 60.0 / turns;
             comparisons.min(MOST_COMPARISONS).max(BETWEEN_A_WAVE * waves.between(record, row))
         };
-        let (record, measured) = record.refined(asked)?;
+        let (record, measured) = record.refined(most, asked)?;
         let groups = (0..measured.len()).map(|row| row..row + 1).collect();
         Some(Self { measured: Some(measured), ..Self::of(record, groups) })
     }

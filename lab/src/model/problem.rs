@@ -232,9 +232,12 @@ impl Problem {
     /// Design column of an effect, through the recorder's filter and lags at every comparison.
     fn column_of(&self, entry: Entry, unit: &dyn Effect, lags: &[(Entry, Sum)]) -> Vec<f64> {
         let late = if unit.feeds_back() { &[] } else { lags };
-        let remembers =
-            |finer: &Finer| finer.measured.is_some() && self.model.filter_cutoff_hz.is_some();
-        let finer = self.finer.as_deref().filter(|finer| !late.is_empty() || remembers(finer));
+        let filters = self.model.filter_cutoff_hz.is_some();
+        let is_asked = |finer: &Finer| match late {
+            [] => finer.measured.is_some() && filters,
+            _ => finer.is_between() || finer.record.len() <= MOST_BETWEEN,
+        };
+        let finer = self.finer.as_deref().filter(|finer| is_asked(finer));
         if late.is_empty() && finer.is_none() {
             return self.column(entry, &self.deltas_um(unit));
         }

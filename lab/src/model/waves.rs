@@ -10,6 +10,8 @@ pub(crate) struct Waves {
     units: Vec<Box<dyn Effect>>,
     /// That of the quickest wheel it lists, whose error may still be missing.
     order: f64,
+    /// True where the recorder has a filter, or an effect is one of the error.
+    remembered: bool,
 }
 
 impl Waves {
@@ -18,8 +20,15 @@ impl Waves {
         let context = Context { machine: model, columns: &record.columns };
         let bases = model.effects.iter().filter_map(|term| term.basis(&context).ok());
         let units = bases.flat_map(|basis| basis.columns.into_iter().chain(basis.fixed));
+        let (feeding, units): (Vec<_>, Vec<_>) = units.partition(|unit| unit.feeds_back());
         let order = model.gears.iter().map(|gear| gear.order.abs()).fold(0.0, f64::max);
-        Self { units: units.filter(|unit| !unit.feeds_back()).collect(), order }
+        let remembered = model.filter_cutoff_hz.is_some() || !feeding.is_empty();
+        Self { units, order, remembered }
+    }
+
+    /// True where the file itself has something that depends on what was shown before.
+    pub(crate) fn are_remembered(&self) -> bool {
+        self.remembered
     }
 
     /// Waves of the quickest on the way to a sample from the one before it.

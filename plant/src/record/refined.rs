@@ -2,21 +2,18 @@
 
 use crate::{Column, Record};
 
-/// Most samples of a refined record.
-const MOST_SAMPLES: usize = 1 << 20;
-
 impl Record {
     /// The record with samples in between, and where its own have gone; `None` when none are asked
     /// for, or there are too many rows for any.
     ///
     /// `asked` says in how many parts the way to a sample from the one before it should go; where
-    /// all of them together ask for more than can be held, each gets its share. Everything runs
+    /// that makes more than `most` samples, each gets its share. Everything runs
     /// straight from neighbour to neighbour, as the machine does, so that an effect of it may bend in
     /// between. Nothing is put between passes, or where the table turns.
     #[must_use]
-    pub fn refined(&self, asked: impl Fn(usize) -> f64) -> Option<(Self, Vec<usize>)> {
+    pub fn refined(&self, most: usize, asked: impl Fn(usize) -> f64) -> Option<(Self, Vec<usize>)> {
         let asked: Vec<f64> = (0..self.len()).map(|row| self.between_rows(row, &asked)).collect();
-        let parts = held(&asked)?;
+        let parts = held(most, &asked)?;
         let mut own = Vec::with_capacity(self.len());
         let mut places = Vec::with_capacity(parts.iter().map(|parts| *parts as usize).sum());
         for (row, parts) in parts.into_iter().enumerate() {
@@ -77,20 +74,16 @@ impl Record {
 }
 
 /// As many parts as asked for, or fewer alike if they are too many to be held.
-fn held(asked: &[f64]) -> Option<Vec<u32>> {
+fn held(most: usize, asked: &[f64]) -> Option<Vec<u32>> {
     let more: f64 = asked.iter().map(|parts| parts.round() - 1.0).sum();
     #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
-    let room = MOST_SAMPLES.saturating_sub(asked.len()) as f64;
+    let room = most.saturating_sub(asked.len()) as f64;
     // Another copy of a long record is not worth a few samples more.
-    if more <= 0.0 || (more > room && MOST_SAMPLES < 2 * asked.len()) {
+    if more <= 0.0 || (more > room && most < 2 * asked.len()) {
         return None;
     }
     let share = (room / more).min(1.0);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "1 to MOST_SAMPLES"
-    )]
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to most")]
     let parts = |asked: &f64| 1 + (share * (asked.round() - 1.0)) as u32;
     Some(asked.iter().map(parts).collect())
 }
@@ -106,10 +99,9 @@ mod tests {
 
     #[test]
     fn more_parts_than_can_be_held_are_shared() {
-        assert_eq!(held(&[1.0, 3.0, 8.4]), Some(vec![1, 3, 8]));
-        assert_eq!(held(&[1.0, 1.2]), None);
-        let parts = held(&vec![101.0; 100_000]).expect("room for some");
-        assert_eq!((parts[0], parts.len()), (10, 100_000));
-        assert_eq!(held(&vec![3.0; 1_000_000]), None);
+        assert_eq!(held(100, &[1.0, 3.0, 8.4]), Some(vec![1, 3, 8]));
+        assert_eq!(held(100, &[1.0, 1.2]), None);
+        assert_eq!(held(30, &[11.0; 10]), Some(vec![3; 10]));
+        assert_eq!(held(19, &[11.0; 10]), None);
     }
 }
