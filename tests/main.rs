@@ -104,6 +104,7 @@ mod uncertainty;
 mod uneven_noise;
 mod verdict_properties;
 mod waveform_readers;
+mod waves_and_ways;
 mod what_is_left;
 mod what_is_named;
 mod workbench;

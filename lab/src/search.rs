@@ -9,6 +9,7 @@ mod court;
 mod judging;
 mod known_together;
 mod likeness;
+mod orders;
 mod own_errors;
 mod polish;
 mod pruning;
@@ -21,7 +22,7 @@ mod together;
 mod uneven;
 
 pub(crate) use analysis::{Step, search, take_for_a_shape, tried_beside};
-pub(crate) use beside_the_rest::not_told;
+pub(crate) use beside_the_rest::{not_told, untold};
 pub(crate) use court::{Claim, claims, hear, nobodys};
 pub(crate) use judging::plain_noises;
 pub(crate) use own_errors::{in_place_of, own_errors, paid, paid_by_formula};

@@ -270,6 +270,12 @@ impl Parameter {
         self.role == Role::Nonlinear
     }
 
+    /// True for a time or a way that an effect takes only where the data ask for one.
+    #[must_use]
+    pub fn may_be_none(&self) -> bool {
+        self.search == Search::Logarithmic && self.default == Some(0.0)
+    }
+
     /// True for a frequency in time, which a spectrum finds better than a grid.
     #[must_use]
     pub fn is_frequency(&self) -> bool {

@@ -20,7 +20,7 @@ use crate::policy::chance::{AT_AN_END, STANDARD_ERRORS};
 use crate::policy::extent::{COARSER, COMPARED_ROWS, FEWEST_COARSE, SEARCHED_ROWS};
 use crate::search::{
     Dropped, Refusal, Rivals, Step, hear, nobodys, not_told, pruned, rivals, suspected,
-    tried_beside,
+    tried_beside, untold,
 };
 
 /// What can be said about a model and a measurement.
@@ -266,6 +266,8 @@ fn answered(searched: Searched, suspects: &[Suspect], rows: usize) -> Diagnosis 
         residual.push(winner.shown);
     }
     let not_told = not_told(&small, &steps, &residual);
+    let last = &steps[steps.len() - 1].state;
+    residual.extend(not_told.iter().filter_map(|&index| untold(&small, last, index)));
     found = take_out(problems, (&mut steps, &mut states), (&not_told, NOT_TOLD), found);
     let last = &steps[steps.len() - 1].state;
     let experiments = experiment::advice(&small, last, &found);
@@ -481,7 +483,8 @@ fn fitted(
     for (place, &parameter) in component.term.nonlinear_indices().iter().enumerate() {
         let what = &component.term.parameters[parameter];
         let value = component.term.values[parameter];
-        let unused = term.nature().is_setting() && value == 0.0;
+        // A setting that is as it should be, and a way that takes nothing up.
+        let unused = what.search == Search::Fixed && what.default == Some(0.0) && value == 0.0;
         if unused || !component.depends_on(problem, used, place) {
             continue;
         }

@@ -15,6 +15,12 @@ use crate::noise::{Layout, Noise};
 use crate::numerics::{chi_squared_tail, count};
 use crate::policy::chance::{BEYOND_DOUBT, DRAWS, MOST_DRAWS, STANDARD_ERRORS};
 
+/// Draws of which the largest is one of the tail.
+const TAIL: usize = 20;
+
+/// Columns whose gains fall as fast as an exponential: χ² of more degrees takes longer to.
+const NARROW: usize = 2;
+
 /// Chance of a gain of some free columns in noise like that of a fit, drawn for until it is clear on
 /// which side of a limit it lies.
 ///
@@ -39,8 +45,13 @@ pub(crate) fn chance(
         gains.par_extend(seeds.map(|seed| drawn_gain(problem, model, fit, raw, seed)));
         let law = Law::of(&gains, width);
         let ends = [1.0 / law.within, law.within].map(|by| law.chance(by * gain) < limit);
-        if ends[0] == ends[1] || MOST_DRAWS <= drawn + DRAWS {
+        if ends[0] == ends[1] {
             return law.chance(gain).max(plain);
+        }
+        if MOST_DRAWS <= drawn + DRAWS {
+            let narrow = raw.len() <= NARROW;
+            let chance = if narrow { chance_by_tail(&mut gains, gain) } else { law.chance(gain) };
+            return chance.max(plain);
         }
     }
 }
@@ -72,6 +83,21 @@ impl Law {
     fn chance(&self, gain: f64) -> f64 {
         chi_squared_tail(gain / self.scale, self.freedom)
     }
+}
+
+/// Chance of a gain by the largest twentieth of drawn ones, beyond which twice a likelihood ratio falls as the
+/// exponential of its half: by Markov's inequality no ratio K of likelihoods is beaten more often than in one of K.
+///
+/// The scaled χ² that has the variance of so many goes by the one largest of them.
+fn chance_by_tail(gains: &mut [f64], gain: f64) -> f64 {
+    gains.sort_by(f64::total_cmp);
+    let tail = (gains.len() / TAIL).max(1);
+    let from = gains[gains.len() - tail];
+    let share = count(tail) / count(gains.len());
+    if gain <= from {
+        return count(gains.iter().filter(|one| gain <= **one).count()) / count(gains.len());
+    }
+    share * libm::exp(-0.5 * (gain - from))
 }
 
 /// Gain of the columns on noise drawn from a fit, whose noise keeps the parts that it was found to
@@ -114,6 +140,8 @@ pub(super) fn draw(layout: &Layout, noises: &[Noise], chance: &mut ChaCha8Rng) -
 
 #[cfg(test)]
 mod tests {
+    use statrs::distribution::{ChiSquared, ContinuousCDF};
+
     use super::*;
     use crate::noise::{Block, SlowPart};
 
@@ -133,5 +161,19 @@ mod tests {
         // K(0) = 2.5, K(4) = 2·exp(−1); standard errors by Bartlett are about 0.06.
         assert!((product(0) - 2.5).abs() < 0.25, "{}", product(0));
         assert!((product(4) - 2.0 * libm::exp(-1.0)).abs() < 0.25, "{}", product(4));
+    }
+
+    /// Quantiles of χ² with one degree, and one draw that stands out: beyond the others' tail a gain of 16 is as rare
+    /// as e⁻⁶ of a twentieth, which the variance of all hides.
+    #[test]
+    fn one_draw_that_stands_out_makes_no_chance() {
+        let quantile = |of: u32| {
+            let share = (f64::from(of) + 0.5) / 256.0;
+            ChiSquared::new(1.0).map_or(0.0, |law| law.inverse_cdf(share))
+        };
+        let mut gains: Vec<f64> = (0..255).map(quantile).chain([60.0]).collect();
+        assert!(2e-3 < Law::of(&gains, 1.0).chance(16.0));
+        let by_tail = chance_by_tail(&mut gains, 16.0);
+        assert!((1e-4..2e-4).contains(&by_tail), "{by_tail}");
     }
 }

@@ -81,7 +81,11 @@ fn candidates_of(
         .filter(|term| is_wanted(term) && logged(problem, term))
         .filter_map(|term| candidate(stage, term))
         .map(|candidate| with_overtones(candidate, stage.problem, found))
-        .flat_map(|candidate| [freed(&candidate), doubled(stage, &candidate), Some(candidate)])
+        .flat_map(|candidate| {
+            let others =
+                [freed(&candidate), doubled(stage, &candidate), at_once(stage, &candidate)];
+            others.into_iter().chain([Some(candidate)])
+        })
         .flatten()
         .collect()
 }
@@ -137,6 +141,16 @@ fn freed(candidate: &Candidate) -> Option<Candidate> {
     what.range = ANOTHER_MATERIAL;
     let looks = candidate.looks.clone().times(libm::exp(0.5 * MARGIN));
     Some(Candidate { term, looks, ..candidate.clone() })
+}
+
+/// An effect that takes no time or way unless the data ask for one.
+fn at_once(stage: &Stage<'_>, candidate: &Candidate) -> Option<Candidate> {
+    let mut term = candidate.term.clone();
+    let what = term.parameters.iter_mut().find(|what| what.may_be_none())?;
+    what.search = Search::Fixed;
+    let nonlinear = term.parameters.iter().filter(|what| what.is_nonlinear());
+    let axes = nonlinear.map(|what| axis(stage, what)).collect();
+    on_axes(stage, term, axes)
 }
 
 /// An effect with its grid; `None` when there is no place to look for it.
@@ -298,6 +312,11 @@ fn logarithmic(problem: &Problem, parameter: &Parameter) -> Vec<f64> {
         "mm" => {
             let travel_mm = spread(&problem.record.position_mm);
             Some((travel_mm / NARROWEST, travel_mm))
+        }
+        "deg" => {
+            let ways = problem.record.since_reversal_mm.iter().filter(|way| way.is_finite());
+            let longest = ways.copied().fold(0.0, f64::max);
+            Some((longest / NARROWEST, longest))
         }
         _ => None,
     };

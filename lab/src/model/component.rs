@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use helixlock_plant::{Context, EffectError, Estimate, Role, Smoothness, Term};
+use helixlock_plant::{Column, Context, EffectError, Estimate, Role, Smoothness, Term};
 
 use super::columns::Columns;
 use super::problem::{Design, Problem};
@@ -163,9 +163,22 @@ impl Component {
         let Design { columns, fixed } = problem.design_beside(&self.term, others)?;
         let held = self.term.priors().into_iter().zip(&self.whole);
         let priors = held.map(|(prior, whole)| whole.map(|w| (w, WHOLE_STDERR)).or(prior));
+        let rests = columns.iter().zip(self.unused()).zip(&self.kept);
+        let rests = rests.filter(|((_, size), kept)| !**kept && *size != 0.0);
+        let fixed =
+            rests.fold(fixed, |fixed, ((column, size), _)| Some(with_more(fixed, column, size)));
         let pairs = columns.into_iter().zip(priors).zip(&self.kept);
         let (columns, priors) = pairs.filter(|(_, kept)| **kept).map(|(pair, _)| pair).unzip();
         Ok((Design { columns, fixed }, priors))
+    }
+
+    /// Per column of the basis its coefficient where it is not in use: what the machine file says of an effect
+    /// that it has, else 0.
+    fn unused(&self) -> Vec<f64> {
+        match self.term.instead_of {
+            Some(_) => self.term.coefficients(),
+            None => vec![0.0; self.kept.len()],
+        }
     }
 
     /// The effect with its first numbers alone, fewer by one and more, where each scales a shape of its own.
@@ -183,12 +196,13 @@ impl Component {
         })
     }
 
-    /// Coefficients of the whole basis from those in use; the others are 0.
+    /// Coefficients of the whole basis from those in use.
     #[must_use]
     pub(crate) fn spread(&self, used: &[f64]) -> Vec<f64> {
-        let mut used = used.iter();
-        let value = |kept: &bool| if *kept { used.next().copied().unwrap_or(0.0) } else { 0.0 };
-        self.kept.iter().map(value).collect()
+        let mut all = self.unused();
+        let in_use = all.iter_mut().zip(&self.kept).filter(|(_, kept)| **kept);
+        in_use.zip(used).for_each(|((value, _), found)| *value = *found);
+        all
     }
 
     /// The effect at some coefficients of the columns in use, row by row in µm (arcsec); `None`
@@ -289,5 +303,14 @@ impl Component {
             column += width;
         }
         false
+    }
+}
+
+/// A part that does not scale, and so much of a column beside it.
+fn with_more(fixed: Option<Column>, column: &Column, size: f64) -> Column {
+    let more = column.iter().map(|value| size * value);
+    match fixed {
+        Some(fixed) => fixed.iter().zip(more).map(|(fixed, more)| fixed + more).collect(),
+        None => more.collect(),
     }
 }

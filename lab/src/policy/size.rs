@@ -133,13 +133,6 @@ pub(crate) const ONE_SPEED: f64 = 0.2;
 /// that is late. Doubled: that one is not asked.
 pub(crate) const SAMPLES_OFF: f64 = 0.1;
 
-/// Of so many moving samples, one slower or faster than the others has no say in how many speeds
-/// there are.
-///
-/// Chosen: of an axis that goes and stands, fewer are on the way to its speed. Doubled: one pass of
-/// forty at another speed is a second one.
-pub(crate) const ON_THE_WAY: usize = 20;
-
 /// Share of a record that a pause must have to count as a dwell.
 ///
 /// Chosen: a drift with the record's own time constant goes on by four tenths of its rest in it.

@@ -1,12 +1,11 @@
 //! Whether the best effect of a round may be taken into a model.
 
-use helixlock_plant::{Parameter, Role, Search, Term};
+use helixlock_plant::{Role, Search, Term};
 
+use super::orders::{not_told_by_targets, out_of_step, turns_as_well};
 use super::refusal::Refusal;
 use super::{likeness, uneven};
-use crate::hypotheses::{
-    chance_in_noise, chance_with_tails, gain_at, least_above_hunting, turn_scan,
-};
+use crate::hypotheses::{chance_in_noise, chance_with_tails, gain_at, least_above_hunting};
 use crate::model::{
     Columns, Component, Fit, Judged, Problem, Stage, State, helps_unseen, holdout_rms_where,
 };
@@ -16,7 +15,7 @@ use crate::numerics::{chi_squared_tail, count};
 use crate::policy::chance::{
     FEW_SAMPLES, NAMED, NAMED_IN_OTHER_NOISE, NO_ALL_CLEAR, STANDARD_ERRORS,
 };
-use crate::policy::evidence::{MARGIN, MOST_OF_A_NAME, MOST_WHOLE_WAVES, TIME_LOCK};
+use crate::policy::evidence::{MOST_OF_A_NAME, MOST_WHOLE_WAVES};
 use crate::policy::size::{SHARE_OF_NOISE, TRUE_TO};
 
 /// Step from the end of a range to a value inside, against the range.
@@ -46,6 +45,7 @@ pub(crate) fn refusal(problem: &Problem, now: &State, judged: &Judged) -> Option
         .or_else(|| at_an_end(problem, now, judged))
         .or_else(|| (!repeats(judged, now)).then_some(Refusal::Again))
         .or_else(|| turns_as_well(problem, now, judged))
+        .or_else(|| out_of_step(problem, now, judged))
         .or_else(|| rests_on_one_sample(problem, now, judged))
         .or_else(|| follows_slow_noise(problem, now, judged))
         .or_else(|| follows_uneven_noise(problem, now, judged))
@@ -84,39 +84,6 @@ fn no_better_unseen(problem: &Problem, now: &State, judged: &Judged) -> Option<R
         with_um: judged.holdout_rms_um,
         without_um: holdout_rms_where(problem, &columns, without),
     })
-}
-
-/// Refused when a frequency in time was found that an order of the spindle explains as well.
-///
-/// At one speed the two are one: such a line is nobody's until the speed is changed.
-fn turns_as_well(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
-    if !judged.component.term.parameters.iter().any(Parameter::is_frequency) {
-        return None;
-    }
-    let (order, ahead) = ahead_of_orders(problem, now, judged)?;
-    (ahead <= TIME_LOCK).then_some(Refusal::Angle { order, ahead })
-}
-
-/// Refused when a wave at few targets is explained as well by a longer one, though uneven targets tell
-/// it from all others if it is large enough.
-fn not_told_by_targets(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
-    if likeness::resolved(problem, &judged.component) {
-        return None;
-    }
-    let is_told = ahead_of_orders(problem, now, judged).is_some_and(|(_, ahead)| MARGIN < ahead);
-    (!is_told).then_some(Refusal::Targets)
-}
-
-/// The order of the spindle, of those that the samples resolve, that explains most in the place of an
-/// effect, and by how much the effect is ahead of it.
-fn ahead_of_orders(problem: &Problem, now: &State, judged: &Judged) -> Option<(f64, f64)> {
-    let stage = Stage::new(problem, &now.columns, &judged.fit.noises);
-    let own = gain_at(&stage, &judged.component).map_or(0.0, |gain| gain.gain);
-    let turns: Vec<f64> = problem.record.turns().collect();
-    let of_row: Vec<f64> = problem.samples.iter().map(|&sample| turns[sample]).collect();
-    let scan = turn_scan(&stage, &of_row);
-    let line = scan.strongest_anywhere(&stage.target[..of_row.len()])?;
-    Some((line.frequency, own - line.gain))
 }
 
 /// Refused when one sample alone speaks for an effect, which the tails of the noise explain too.

@@ -6,7 +6,7 @@
 //! or counts no whole number, is not told from it, unless what is left is hardly anything beside it. Nor is
 //! one that is smaller than such a structure and has for most part its shape: what made the larger may have
 //! made it all. A line is no such structure: beside an effect of the same frequency it is that effect's own
-//! swelling.
+//! swelling. Nor is a shape beside a wave that is larger: it is the others of its harmonics.
 
 use std::collections::BTreeSet;
 
@@ -19,6 +19,7 @@ use super::span::{Span, shown};
 use crate::hypotheses::Structure;
 use crate::model::{Columns, Problem, State};
 use crate::noise::rms;
+use crate::numerics::{chi_squared_tail, count};
 use crate::policy::evidence::OWN_SHAPE;
 use crate::policy::size::SHARE_OF_AN_EFFECT;
 
@@ -34,15 +35,32 @@ pub(crate) fn not_told(problem: &Problem, steps: &[Step], left: &[Structure]) ->
     let prices: Vec<f64> =
         (0..state.components.len()).map(|index| paid(problem, state, steps, index)).collect();
     let size = |index| shown(problem, state, index).map_or(0.0, |all| rms(&problem.layout, &all));
-    let sizes: Vec<f64> = (0..state.components.len()).map(size).collect();
+    let share = |index: usize| {
+        if state.components[index].term.is_wave() { 1.0 } else { SHARE_OF_AN_EFFECT }
+    };
+    let least_um: Vec<f64> =
+        (0..state.components.len()).map(|index| share(index) * size(index)).collect();
     let beside = |rest: &&Structure| {
         let columns = Columns::free(rest.drawn_by.iter().cloned());
         let mut places = not_told_beside(&problem.beside(&columns), state, &prices);
-        places.retain(|index| SHARE_OF_AN_EFFECT * sizes[*index] < rest.rms_um);
+        places.retain(|index| least_um[*index] < rest.rms_um);
         places.extend(parts(problem, state, rest));
         places
     };
     rests.par_iter().flat_map_iter(beside).collect::<BTreeSet<usize>>().into_iter().collect()
+}
+
+/// What an effect shows that is not told from what is left, beyond chance in what it is taken out of.
+#[must_use]
+pub(crate) fn untold(problem: &Problem, state: &State, index: usize) -> Option<Structure> {
+    let component = &state.components[index];
+    let fewer = State::of(problem, state.without(&[index]), &state.fit.noises)?;
+    let gain = 2.0 * (state.fit.log_likelihood - fewer.fit.log_likelihood);
+    let size_um = component.size_um(problem, state.coefficients(index).0);
+    let shape =
+        format!("a curve like that of {}, not told from what else is left", component.term.name);
+    let chance = chi_squared_tail(gain, count(component.width().max(1)));
+    Some(Structure::without_place("travel and time", &shape, size_um, chance))
 }
 
 /// Places of the effects that are not worth their price on a problem that more is free on, or count

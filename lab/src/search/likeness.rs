@@ -8,13 +8,12 @@ use helixlock_plant::{CATALOGUE, Entry, Role, Search, Term};
 use crate::model::{Component, Problem, State, pattern};
 use crate::noise::{Block, Whitener, about_means};
 use crate::numerics::least_squares::dot;
-use crate::numerics::{count, least_squares, mean, median, one_in, resolves, spread};
+use crate::numerics::{count, least_squares, mean, median, resolves, spread};
 use crate::policy::evidence::{
     HIGH_HARMONIC_PRICE, OF_THE_FILE_PRICE, OTHER_TARGETS, SHAPE, WAVE, WAVES_A_PASS,
 };
 use crate::policy::extent::{FEWEST_TARGETS, MOST_OF_A_TURN, ROWS_A_COLUMN, RUN_IN};
 use crate::policy::reading::REVERSAL_REACH;
-use crate::policy::size::{ANOTHER_SPEED, ON_THE_WAY};
 
 /// True for a high harmonic, such as one of the machine's screw, of which the lower ones are not in
 /// the model; a shaft that the machine file lists runs out once a turn.
@@ -231,8 +230,8 @@ fn beyond_a_parabola(problem: &Problem, values: &[f64], rows: Range<usize>) -> f
     least_squares::fit(&views, values).residual_square
 }
 
-/// True unless a frequency in time was found where no clock tells it from an order: times that were
-/// not measured, one speed without a rest, or less than three waves in every pass.
+/// True unless a frequency in time was found where no clock tells of it: times that were not measured, or less
+/// than three waves in every pass.
 #[must_use]
 pub(crate) fn by_the_clock(problem: &Problem, component: &Component) -> bool {
     let term = &component.term;
@@ -243,27 +242,7 @@ pub(crate) fn by_the_clock(problem: &Problem, component: &Component) -> bool {
     let record = &problem.record;
     let seconds = record.passes().into_iter().map(|rows| spread(&record.time_s[rows]));
     let longest_s = seconds.fold(0.0, f64::max);
-    problem.measurement.timed
-        && (has_two_speeds(&record.speed_rpm) || goes_and_stands(&record.speed_rpm))
-        && WAVES_A_PASS <= longest_s * term.values[hertz]
-}
-
-/// True when enough samples that move go at another speed than the others.
-fn has_two_speeds(speed_rpm: &[f64]) -> bool {
-    let fastest = speed_rpm.iter().copied().fold(0.0, f64::max);
-    let moves = |speed: &f64| ANOTHER_SPEED * fastest < *speed;
-    let mut moving: Vec<f64> = speed_rpm.iter().copied().filter(moves).collect();
-    let fast = one_in(&mut moving, ON_THE_WAY);
-    let mut slower: Vec<f64> = moving.iter().map(|speed| -speed).collect();
-    let slow = -one_in(&mut slower, ON_THE_WAY);
-    ANOTHER_SPEED * fastest < fast - slow
-}
-
-/// True when enough samples move and enough do not: at rest a clock runs on and an angle does not.
-fn goes_and_stands(speed_rpm: &[f64]) -> bool {
-    let fastest = speed_rpm.iter().copied().fold(0.0, f64::max);
-    let moving = speed_rpm.iter().filter(|speed| ANOTHER_SPEED * fastest < **speed).count();
-    speed_rpm.len() < ON_THE_WAY * moving.min(speed_rpm.len() - moving)
+    problem.measurement.timed && WAVES_A_PASS <= longest_s * term.values[hertz]
 }
 
 /// True unless an effect runs by the clock where nobody measured it and the axis stands at targets:

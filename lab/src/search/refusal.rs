@@ -31,7 +31,7 @@ pub(crate) enum Refusal {
     Piece,
     /// A moment so near the start or end of a pass that a machine which runs in does as much.
     Edge,
-    /// A frequency in time, without a clock, a second speed, or enough waves in a pass.
+    /// A frequency in time, without a clock or enough waves in a pass.
     Clock,
     /// A time, at targets that nobody measured the time of.
     Untimed,
@@ -45,6 +45,8 @@ pub(crate) enum Refusal {
     Again,
     /// A line over the angle of the spindle explains as much as one in time.
     Angle { order: f64, ahead: f64 },
+    /// The same wave at an order that is not listed explains more.
+    OutOfStep { order: f64, ahead: f64 },
     /// One sample alone speaks for it, and the tails of the noise reach as far.
     OneSample { chance: f64 },
     /// Another effect explains more; by so much evidence.
@@ -75,6 +77,7 @@ impl Refusal {
                 | Self::OneTarget
                 | Self::Play
                 | Self::Again
+                | Self::OutOfStep { .. }
         )
     }
 
@@ -84,6 +87,25 @@ impl Refusal {
             Self::Chance { p_value } => Some(*p_value),
             Self::OneSample { chance } => Some(*chance),
             _ => None,
+        }
+    }
+}
+
+impl Refusal {
+    /// What is said of a clause that has no figures.
+    fn words(&self) -> &'static str {
+        match self {
+            Self::Flank => "only one flank of the bump lies inside the travel",
+            Self::Turn => "whole waves a turn need nine tenths of a turn",
+            Self::Piece => "so small a piece of a wave that any drift follows it",
+            Self::Edge => "so near the start or the end that a machine runs in or out there",
+            Self::Clock => "a frequency in time needs a clock and three waves in a pass",
+            Self::Untimed => "the axis stands at targets, and no time was measured",
+            Self::Targets => "not told by the targets from a longer wave",
+            Self::OneTarget => "it shows at one target alone, where it has no shape",
+            Self::Play => "a play wider than every move of the motor",
+            Self::Again => "it is in the model already",
+            _ => "not as it should be",
         }
     }
 }
@@ -117,25 +139,14 @@ impl fmt::Display for Refusal {
             Self::End { parameter, value } => {
                 write!(f, "at the end of its range: {parameter} {value:.4}")
             }
-            Self::Flank => f.write_str("only one flank of the bump lies inside the travel"),
-            Self::Turn => f.write_str("whole waves a turn need nine tenths of a turn"),
-            Self::Piece => f.write_str("so small a piece of a wave that any drift follows it"),
-            Self::Edge => {
-                f.write_str("so near the start or the end that a machine runs in or out there")
-            }
-            Self::Clock => f.write_str(
-                "a frequency in time needs a clock, two speeds and three waves in a pass",
-            ),
-            Self::Untimed => f.write_str("the axis stands at targets, and no time was measured"),
-            Self::Targets => f.write_str("not told by the targets from a longer wave"),
-            Self::OneTarget => f.write_str("it shows at one target alone, where it has no shape"),
-            Self::Play => f.write_str("a play wider than every move of the motor"),
-            Self::Again => f.write_str("it is in the model already"),
             Self::Angle { order, ahead } => {
                 write!(
                     f,
                     "order {order:.4} of the spindle explains as much: evidence {ahead:.1} ahead only"
                 )
+            }
+            Self::OutOfStep { order, ahead } => {
+                write!(f, "waves of order {order:.4}, not of its own: evidence {ahead:.1} ahead")
             }
             Self::OneSample { chance } => {
                 write!(
@@ -149,6 +160,7 @@ impl fmt::Display for Refusal {
             Self::Victor { name, by } => {
                 write!(f, "explains less than {name}: evidence {by:.1} behind")
             }
+            _ => f.write_str(self.words()),
         }
     }
 }

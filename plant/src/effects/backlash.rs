@@ -1,32 +1,53 @@
 //! The drive has lost motion, which the table takes up at a reversal.
 //!
 //! ```text
-//! δ = b·d/2
+//! δ = b·d/2                      s₀ ≤ s, and before any reversal
+//! δ = b·d·(s/s₀ − 1/2)           s < s₀
 //!
-//! δ, b width in µm    d direction, +1 or −1
+//! δ, b width in µm    d direction, +1 or −1    s way since the reversal, s₀ way to take it up, in mm
 //! ```
 //!
-//! A pass in one direction hides it in its zero; a reversal inside the pass shows all of b.
+//! On a rotary chain δ is in seconds of arc, and s and s₀ are in degrees of the output.
+//!
+//! A pass in one direction hides it in its zero; a reversal inside the pass shows all of b. Rigid parts
+//! take it up over b itself, so that a drive of little play jumps, and a joint of degrees does not.
 
-use super::shape::polynomial;
-use crate::units::UM;
-use crate::{Basis, Card, Entry, Nature, Parameter};
+use super::shape::banded;
+use crate::units::{MM, UM};
+use crate::{Basis, Card, Entry, Nature, Parameter, Search, Smoothness};
 
 pub(super) const CARD: Card = Card {
     kind: "backlash",
     entry: Entry::Motion,
     summary: "the drive has lost motion, which shows at a reversal",
-    formula: "b·d/2",
+    formula: "b·d·(min(s/s₀, 1) − 1/2), s way since the reversal (degrees on a rotary chain)",
     example: "b = 4 µm: +2 µm forward, −2 µm in reverse",
-    parameters: &[Parameter::linear("width", UM, "lost motion").within(-200.0..=200.0)],
+    parameters: &[
+        Parameter::linear("width", UM, "lost motion").within(-200.0..=200.0),
+        Parameter::nonlinear("way", MM, Search::Logarithmic, "way to take it up, 0 at once")
+            .within(0.0..=1000.0)
+            .or(0.0)
+            .of_way(),
+    ],
     parts: &[],
     needs: &[],
-    signature: "a jump at each reversal inside a pass",
+    signature: "a jump, or a ramp, behind each reversal inside a pass",
     confused_with: &["wind-up"],
     separated_by: "reverse inside one pass; vary the load: backlash does not care",
     source: "kinematics; the sign is that of the entry: forward is ahead",
     random: false,
     candidate: true,
     nature: Nature { at_reversal: true, ..Nature::PLAIN },
-    basis: |_, _| Ok(Basis::one(polynomial(|now| now.direction / 2.0))),
+    basis: |_, nonlinear| {
+        let way_mm = nonlinear[0];
+        let taken_up = banded(
+            move |now| {
+                let gone_mm = now.since_reversal_mm;
+                let share = if gone_mm < way_mm { gone_mm / way_mm } else { 1.0 };
+                now.direction * (share - 0.5)
+            },
+            move |_, _| if 0.0 < way_mm { Smoothness::Rough } else { Smoothness::Polynomial },
+        );
+        Ok(Basis::one(taken_up))
+    },
 };

@@ -1,0 +1,137 @@
+//! Waves by their order or their frequency, and play by the way that takes it up.
+
+use std::f64::consts::TAU;
+
+use helixlock_lab::{Diagnosis, FittedEffect, Verdict};
+
+use crate::support::diagnosed::{diagnosed_on, names};
+use crate::support::passes::{MACHINE, white};
+use crate::support::seeds::seeds;
+
+const TABLE: &str = "output.rotary = true\nspindle.speed = \"0.6 rpm\"\n\
+                     gear = [{ name = \"worm\", order = 20 }]\n";
+
+/// One turn of a table in 100 s, 300 rows; the error is of the turn, 0 to 1.
+fn one_turn(seed: u64, noise: f64, error_arcsec: &dyn Fn(f64) -> f64) -> Diagnosis {
+    let mut noise = white(seed, noise);
+    let turn = |row: u16| f64::from(row) / 300.0;
+    let columns = vec![
+        ("time_s", (0..300).map(|row| 100.0 * turn(row)).collect()),
+        ("angle_rev", (0..300).map(turn).collect()),
+        ("error_arcsec", (0..300).map(|row| error_arcsec(turn(row)) + noise()).collect()),
+    ];
+    diagnosed_on(TABLE, columns)
+}
+
+/// Effects of the last round.
+fn last(found: &Diagnosis) -> &[FittedEffect] {
+    found.rounds.last().map_or(&[], |round| &round.effects)
+}
+
+/// A wave that gains a third of itself on the worm's in one turn is somebody else's.
+#[test]
+fn a_wave_beside_a_listed_order_is_not_that_wheels() {
+    for seed in seeds(1, 5) {
+        let wave = |order: f64| {
+            let found = one_turn(seed, 1.0, &|turn| 1.5 * libm::sin(TAU * order * turn + 0.4));
+            names(&found).into_iter().map(str::to_owned).collect::<Vec<String>>()
+        };
+        assert_eq!(wave(20.35), Vec::<String>::new(), "{seed}");
+        assert_eq!(wave(20.02), ["gear-error"], "{seed}");
+    }
+}
+
+/// A shaft that nobody listed repeats each turn too, and so does all of it together.
+#[test]
+fn a_wave_keeps_its_name_beside_a_smaller_shape_of_each_turn() {
+    const MOTOR: &str = "output.rotary = true\nspindle.speed = \"60 rpm\"\n\
+                         gear = [{ name = \"pole pair\", order = 4 }]\n";
+    let mut noise = white(1, 5.0);
+    let turn = |row: u16| f64::from(row) / 100.0;
+    let wave = |order: f64, phase: f64| move |turn: f64| libm::sin(TAU * order * turn + phase);
+    let (listed, slower, third) = (wave(4.0, 1.0), wave(2.0, 2.0), wave(12.0, 0.0));
+    let error = |turn| 220.0 * listed(turn) + 40.0 * slower(turn) + 49.0 * third(turn);
+    let columns = vec![
+        ("time_s", (0..2000).map(turn).collect()),
+        ("error_arcsec", (0..2000).map(|row| error(turn(row)) + noise()).collect()),
+    ];
+    let found = diagnosed_on(MOTOR, columns);
+    let order = |effect: &FittedEffect| effect.term.nonlinear()[0];
+    assert!(last(&found).iter().any(|one| (order(one) - 4.0).abs() < 1e-9), "{:?}", names(&found));
+    assert_eq!(found.verdict, Verdict::Unexplained);
+}
+
+/// Three times there and back over 100 mm at one speed, a row each millimetre; the error, µm, is of time, s, of the
+/// direction, and of the way since the axis turned, mm.
+fn there_and_back(seed: u64, error_um: &dyn Fn(f64, f64, f64) -> f64) -> Diagnosis {
+    let mut noise = white(seed, 0.3);
+    let mut columns = [const { Vec::new() }; 5];
+    for (nth, pass) in (0_u16..3).zip([1.0, 2.0, 3.0]) {
+        for row in 0..200_u16 {
+            let gone = f64::from(row) + 0.5;
+            let (way, mm, since_mm) = if row < 100 {
+                (1.0, gone, f64::INFINITY)
+            } else {
+                (-1.0, 200.0 - gone, gone - 100.0)
+            };
+            let time_s = 0.25 * (f64::from(row) + 217.0 * f64::from(nth));
+            let cells = [time_s, mm, pass, way, error_um(time_s, way, since_mm) + noise()];
+            columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+        }
+    }
+    let titles = ["time_s", "position_mm", "pass", "direction", "error_um"];
+    diagnosed_on(MACHINE, titles.into_iter().zip(columns).collect())
+}
+
+/// Play that is taken up over 20 mm, and play that is taken up at once.
+#[test]
+fn play_has_the_way_that_takes_it_up() {
+    for seed in seeds(1, 3) {
+        let found = there_and_back(seed, &|_, way, since_mm| {
+            -4.0 * way * ((since_mm / 20.0).min(1.0) - 0.5)
+        });
+        assert_eq!(found.verdict, Verdict::Explained, "{seed}");
+        let [play] = last(&found) else { panic!("{:?}", names(&found)) };
+        let [width, way] = [&play.parameters[0], &play.parameters[1]];
+        assert!((width.value - 4.0).abs() < 0.3 && (way.value - 20.0).abs() < 4.0, "{play:?}");
+        let found = there_and_back(seed, &|_, way, _| 2.0 * way);
+        assert_eq!(names(&found), ["backlash"], "{seed}");
+        assert!(last(&found)[0].term.nonlinear()[0].abs() < 1e-9, "{seed}");
+    }
+}
+
+/// At one speed an axis that turns back tells a frequency from an order, and one that does not tells none.
+#[test]
+fn a_vibration_is_told_where_the_axis_turns_back() {
+    for seed in seeds(1, 3) {
+        let shaken = |time_s: f64| 0.5 * libm::sin(TAU * 0.413 * time_s + 1.0);
+        let found = there_and_back(seed, &|time_s, _, _| shaken(time_s));
+        assert_eq!(names(&found), ["vibration"], "{seed}");
+        let found = one_turn(seed, 0.3, &|turn| shaken(100.0 * turn));
+        assert_eq!(names(&found), Vec::<&str>::new(), "{seed}");
+        assert_eq!(found.verdict, Verdict::Unexplained);
+    }
+}
+
+/// The square of a screw grew; its slope, too small for this noise to tell, is what the file says, and not gone.
+#[test]
+fn a_changed_value_leaves_the_others_to_the_file() {
+    let machine = format!(
+        "{MACHINE}[[effect]]\nkind = \"screw-progressive\"\nlinear = \"0.9 um/m\"\nquadratic = \"20 um/m^2\"\n"
+    );
+    let mut noise = white(3, 0.3);
+    let metre = |row: u16| f64::from(row) / 300.0;
+    let error_um = |metre: f64| 0.9 * metre + 30.0 * metre * metre;
+    let columns = vec![
+        ("time_s", (0..300).map(|row| 100.0 * metre(row)).collect()),
+        ("position_mm", (0..300).map(|row| 1000.0 * metre(row)).collect()),
+        ("error_um", (0..300).map(|row| error_um(metre(row)) + noise()).collect()),
+    ];
+    let found = diagnosed_on(&machine, columns);
+    let [screw] = last(&found) else { panic!("{:?}", names(&found)) };
+    let told: Vec<&str> = screw.parameters.iter().map(|one| one.key.as_str()).collect();
+    assert!(
+        told.contains(&"linear_um_per_m") || (screw.term.values[0] - 0.9).abs() < 1e-9,
+        "{screw:?}"
+    );
+}
