@@ -13,10 +13,11 @@ use rand_chacha::ChaCha8Rng;
 use super::drawn::{OwnNoise, clearest, surest};
 use super::repeatability::from_turn_to_turn;
 use crate::model::{Fit, Problem};
-use crate::noise::rms;
+use crate::noise::{rms, without_outliers};
 use crate::numerics::least_squares::dot;
 use crate::numerics::{count, mean, spread};
 use crate::policy::extent::{CELLS_OF_A_CURVE, FEWEST_WAYS, ROWS_A_PART, WHOLE_WAY};
+use crate::policy::reading::FAR_OUT;
 
 /// Root mean square of what passes have in common, µm (arcsec), and the chance of as much in noise;
 /// `None` where they are few, or short, or go over different parts of the travel, and for what rounding
@@ -25,7 +26,10 @@ use crate::policy::extent::{CELLS_OF_A_CURVE, FEWEST_WAYS, ROWS_A_PART, WHOLE_WA
 pub(super) fn common_curve(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
     let of_sensor = |sensor: usize| {
         let (own, rows) = OwnNoise::of(problem, fit, sensor);
-        let left = &fit.left[rows.clone()];
+        // Two ways with a wild reading in the same cell are alike, whatever else they show.
+        let passes = own.passes(&fit.left[rows.clone()]);
+        let left: &[f64] =
+            &passes.flat_map(|pass| without_outliers(pass, FAR_OUT)).collect::<Vec<_>>();
         let courses = courses(problem, sensor, rows.start);
         let alike: Vec<Alike> = courses.iter().map(|course| Alike::of(course, left)).collect();
         let found: Vec<f64> = alike.iter().map(|one| one.share_of(left)).collect();

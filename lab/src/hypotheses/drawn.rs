@@ -8,7 +8,7 @@ use statrs::distribution::{ContinuousCDF, Gamma};
 
 use super::calibration::draw;
 use crate::model::{Fit, Problem};
-use crate::noise::{Layout, Noise, rms};
+use crate::noise::{Layout, Noise};
 use crate::numerics::count;
 use crate::policy::chance::{DRAWS, MOST_DRAWS, WORTH_DRAWING};
 
@@ -43,11 +43,11 @@ pub(super) fn surest<T: Copy>(found: &[(T, f64)]) -> Option<(T, f64)> {
     Some((one, (count(found.len()) * chance).min(1.0)))
 }
 
-/// Root mean square, µm (arcsec), of the surest share of the square that a sensor shows, and its chance; `None`
-/// where the file says how sure each reading is, so that neighbours need not be alike.
+/// Root mean square of the surest share that a sensor shows of the square of some, and its chance; `None` where the
+/// file says how sure each reading is, so that neighbours need not be alike.
 pub(super) fn surest_share(
     problem: &Problem,
-    fit: &Fit,
+    rms_um: f64,
     of_sensor: impl Fn(usize) -> Option<(f64, f64)>,
 ) -> Option<(f64, f64)> {
     if problem.measurement.deviations.is_some() {
@@ -55,7 +55,7 @@ pub(super) fn surest_share(
     }
     let found: Vec<(f64, f64)> = (0..problem.sensors.len()).filter_map(of_sensor).collect();
     let (share, chance) = surest(&found)?;
-    Some((rms(&problem.layout, &fit.left) * share.max(0.0).sqrt(), chance))
+    Some((rms_um * share.max(0.0).sqrt(), chance))
 }
 
 /// Which figure stands out most, and the chance that any does so in noise, of which `drawn` gives the

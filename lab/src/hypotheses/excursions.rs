@@ -17,7 +17,7 @@ use rand_distr::{Distribution, StandardNormal};
 
 use super::drawn::{OwnNoise, clearest, surest};
 use crate::model::{Fit, Problem};
-use crate::noise::{departures, rms};
+use crate::noise::{weighed_rms, without_outliers};
 use crate::numerics::{count, deviation, median};
 use crate::policy::chance::FEWEST_CHANGES;
 use crate::policy::extent::{LONGEST_STRETCH, LOUDNESS_ROWS, SHORTEST_STRETCH};
@@ -60,7 +60,7 @@ pub(super) fn excursions(problem: &Problem, fit: &Fit) -> Option<Excursions> {
     };
     let found: Vec<(Standing, f64)> = sensors.filter_map(of_sensor).collect();
     let (standing, p_value) = surest(&found)?;
-    let rms_um = rms(&problem.layout, &fit.left) * standing.share.sqrt();
+    let rms_um = weighed_rms(&problem.layout, &fit.left) * standing.share.sqrt();
     Some(Excursions { rms_um, p_value })
 }
 
@@ -116,15 +116,6 @@ pub(super) fn are_readings(values: &[f64], rounding: f64) -> bool {
             MOST_OF_ROUNDING * rounding < *small || HARDLY_CHANGES * large < *small
         })
     })
-}
-
-/// Values of a pass, none farther from its neighbours than so many of their usual distances.
-pub(super) fn without_outliers(values: &[f64], deviations: f64) -> Vec<f64> {
-    let departures = departures(values);
-    let mut sizes: Vec<f64> = departures.iter().map(|value| value.abs()).collect();
-    let most = deviations * deviation(&mut sizes);
-    let kept = values.iter().zip(departures);
-    kept.map(|(value, off)| value - off + off.clamp(-most, most)).collect()
 }
 
 /// Per value the usual change from one to the next in its neighbourhood, and no less than a share of that

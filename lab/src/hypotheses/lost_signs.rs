@@ -12,7 +12,7 @@ use statrs::distribution::{Continuous, StudentsT};
 
 use super::drawn::surest_share;
 use crate::model::{Fit, Problem};
-use crate::noise::departures;
+use crate::noise::{departures, rms};
 use crate::numerics::{chi_squared_tail, deviation, median};
 use crate::policy::chance::SIGNIFICANCE;
 use crate::policy::reading::{BEYOND_NOISE, SIGNS_LOST};
@@ -21,7 +21,7 @@ use crate::policy::reading::{BEYOND_NOISE, SIGNS_LOST};
 /// says how sure each reading is.
 #[must_use]
 pub(super) fn lost_signs(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
-    surest_share(problem, fit, |sensor| {
+    surest_share(problem, rms(&problem.layout, &fit.left), |sensor| {
         let of_sensor = problem.layout.blocks.iter().filter(|block| block.sensor == sensor);
         let passes = of_sensor.map(|block| block.rows.clone());
         share(passes, &fit.left, &problem.observed, problem.least_variance[sensor].sqrt())

@@ -13,11 +13,11 @@ use statrs::distribution::{Binomial, DiscreteCDF, Poisson};
 use super::drawn::surest;
 use super::excursions::are_readings;
 use crate::model::{Fit, Problem};
-use crate::noise::departures;
+use crate::noise::{departures, is_far};
 use crate::numerics::{count, deviation, fourier, median, spread};
 use crate::policy::chance::{FEWEST_OUTLIERS, SIGNIFICANCE};
-use crate::policy::extent::{IN_COMPANY, LOUDNESS_ROWS};
-use crate::policy::reading::{FAR_IN_TAILS, FAR_OUT, MOST_LOUD};
+use crate::policy::extent::IN_COMPANY;
+use crate::policy::reading::{FAR_IN_TAILS, FAR_OUT};
 
 /// What outliers have in common.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -106,16 +106,6 @@ impl Pass {
     fn share(&self) -> f64 {
         count(self.far.len()) / count(self.rows.len().max(1))
     }
-}
-
-/// Far beyond what is usual in the pass, and in the neighbourhood where that is louder.
-fn is_far(sizes: &[f64], row: usize, usual: f64) -> bool {
-    if sizes[row] <= FAR_OUT * usual {
-        return false;
-    }
-    let near = row.saturating_sub(LOUDNESS_ROWS)..(row + LOUDNESS_ROWS + 1).min(sizes.len());
-    let here = deviation(&mut sizes[near].to_vec()).clamp(usual, MOST_LOUD * usual);
-    FAR_OUT * here < sizes[row]
 }
 
 /// Chance that so many of all rows are bad, in noise of the longest tails: far from their neighbours, and

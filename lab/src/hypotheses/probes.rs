@@ -282,7 +282,7 @@ fn smooth_in_passes(problem: &Problem, model: &Columns, fit: &Fit) -> Option<Str
 /// Anything at all that comes back at the same place in another pass.
 fn repeats(problem: &Problem, fit: &Fit) -> Option<Structure> {
     let (share, chance) = repeatability(problem, fit)?;
-    let rms_um = rms(&problem.layout, &fit.left) * share.max(0.0).sqrt();
+    let rms_um = weighed_rms(&problem.layout, &fit.left) * share.max(0.0).sqrt();
     let p_value = of_all(problem, chance);
     Some(Structure::without_place("position", "repeats from pass to pass", rms_um, p_value))
 }

@@ -13,7 +13,7 @@ use crate::measurement::{Measurement, spacing};
 use crate::noise::{Block, Layout, outlier_inflation};
 use crate::numerics::{count, highest_frequency, median};
 use crate::policy::extent::{MOST_BETWEEN, SEARCHED_ROWS};
-use crate::policy::reading::{MOST_TOLD, WRITTEN_INTERVAL};
+use crate::policy::reading::{FAR_OUT, MOST_TOLD, OUTLIER_DEVIATIONS, WRITTEN_INTERVAL};
 use crate::policy::size::{FINEST_SENSOR_UM, ONE_SPEED, SAMPLES_OFF, SWINGS};
 
 /// All sensors of a measurement stacked, with what the model predicts taken off.
@@ -148,8 +148,7 @@ impl Problem {
             free: Columns::default(),
         };
         problem.stack_rows();
-        problem.least_variance =
-            (0..problem.sensors.len()).map(|sensor| problem.finest(sensor)).collect();
+        problem.least_variance = problem.finest(&[]);
         let (mut record, mut finer) = (problem.record.clone(), problem.finer.clone());
         problem.predicted = problem.predicted(&mut record, &mut finer)?.into();
         (problem.record, problem.finer) = (record, finer);
@@ -158,6 +157,9 @@ impl Problem {
         }
         let residual = problem.residual();
         problem.mark_outliers(&residual);
+        if problem.is_coarser_without_far_rows() {
+            problem.mark_outliers(&residual);
+        }
         problem.hunting_um = hunting_um(&problem, &residual);
         Ok(problem)
     }
@@ -175,6 +177,24 @@ impl Problem {
             left.iter().zip(&told).map(|(left, variance)| left / variance.sqrt()).collect();
         let outliers = outlier_inflation(&self.layout, &scaled, &self.least_variance);
         self.layout.inflation = outliers.iter().zip(&told).map(|(own, told)| own * told).collect();
+    }
+
+    /// Rows that lie far beyond what noise does, and weigh little.
+    pub(crate) fn far_rows(&self) -> Vec<usize> {
+        let told = self.told_variances();
+        let far = (FAR_OUT / OUTLIER_DEVIATIONS) * (FAR_OUT / OUTLIER_DEVIATIONS);
+        (0..told.len()).filter(|&row| far * told[row] < self.layout.inflation[row]).collect()
+    }
+
+    /// Takes the steps that the sensors read in from the other rows alone; true where they are then coarser: one
+    /// wild reading off the lattice, as a mean over a gap is, hides it.
+    fn is_coarser_without_far_rows(&mut self) -> bool {
+        let far = self.far_rows();
+        let before = self.least_variance.clone();
+        if !far.is_empty() {
+            self.least_variance = self.finest(&far);
+        }
+        self.least_variance != before
     }
 
     /// Variance of every row against the usual one, as the file tells it, in powers of two: most
@@ -400,12 +420,17 @@ impl Problem {
         self.layout.blocks.iter().flat_map(of_block).collect()
     }
 
-    /// Variance that the steps of a sensor's readings leave: a reading on a lattice of spacing q is
-    /// off by q/√12, however still the digits stand.
-    fn finest(&self, sensor: usize) -> f64 {
-        let (_, rows) = self.layout.of_sensor(sensor);
-        let step = spacing(&self.observed[rows]).unwrap_or(0.0);
-        (FINEST_SENSOR_UM * FINEST_SENSOR_UM).max(step * step / 12.0)
+    /// Variance that the steps of each sensor's readings leave, but for some rows in order: a reading on a lattice
+    /// of spacing q is off by q/√12, however still the digits stand.
+    fn finest(&self, but: &[usize]) -> Vec<f64> {
+        let of_sensor = |sensor: usize| {
+            let rows = self.layout.of_sensor(sensor).1;
+            let rows = rows.filter(|row| but.binary_search(row).is_err());
+            let read: Vec<f64> = rows.map(|row| self.observed[row]).collect();
+            let step = spacing(&read).unwrap_or(0.0);
+            (FINEST_SENSOR_UM * FINEST_SENSOR_UM).max(step * step / 12.0)
+        };
+        (0..self.sensors.len()).map(of_sensor).collect()
     }
 
     /// Where the compensator began to count is not in the file: at the first sample of each pass,

@@ -11,8 +11,10 @@ use super::layout::{Block, Layout};
 use super::sweep::squares_and_log_determinants;
 use crate::numerics::quasi_newton::{Descent, minimise};
 use crate::numerics::{count, deviation, median, one_in};
+use crate::policy::extent::{IN_COMPANY, LOUDNESS_ROWS};
 use crate::policy::reading::{
-    BEYOND_ARE_OUTLIERS, BEYOND_DEVIATIONS, NO_LAW, OUTLIER_DEVIATIONS, OUTLIER_NEIGHBOURS,
+    BEYOND_ARE_OUTLIERS, BEYOND_DEVIATIONS, FAR_OUT, MOST_LOUD, NO_LAW, OUTLIER_DEVIATIONS,
+    OUTLIER_NEIGHBOURS,
 };
 
 /// A fitted noise model with its log likelihood.
@@ -184,6 +186,11 @@ pub(super) fn longest_block(layout: &Layout) -> f64 {
 /// one. No deviation is taken to be less than `least_variance` says of its sensor. Where four fifths of the
 /// samples say far more than half of them, as no law of noise does, those are believed: half may lie where
 /// a wave turns slowly.
+///
+/// A wild reading weighs the less beside an outlier the farther it lies, and none in the end, as in the
+/// third part of Hampel's law (Hampel 1974, *The influence curve and its role in robust estimation*, JASA
+/// 69:383): at three deviations it would still have nine of twice the log likelihood to give to whatever
+/// meets that one row.
 #[must_use]
 pub(crate) fn outlier_inflation(
     layout: &Layout,
@@ -196,21 +203,66 @@ pub(crate) fn outlier_inflation(
         let departures: Vec<f64> =
             blocks().flat_map(|block| departures(&residual[block.rows.clone()])).collect();
         let mut sizes: Vec<f64> = departures.iter().map(|value| value.abs()).collect();
-        if deviation(&mut sizes) <= 0.0 {
-            sizes.retain(|size| 0.0 < *size);
-        }
-        let told = deviation(&mut sizes);
+        let told = usual(&mut sizes);
         if 0.0 < told {
             let most = one_in(&mut sizes, BEYOND_ARE_OUTLIERS) / BEYOND_DEVIATIONS;
             let told = if NO_LAW * told < most { most } else { told };
-            let outlying = OUTLIER_DEVIATIONS * told.max(least.sqrt());
-            for (row, value) in blocks().flat_map(|block| block.rows.clone()).zip(departures) {
-                let size = value.abs() / outlying;
-                inflation[row] = (size * size).max(1.0);
+            let usual = told.max(least.sqrt());
+            let mut departures = departures.into_iter();
+            for rows in blocks().map(|block| block.rows.clone()) {
+                let own: Vec<f64> = departures.by_ref().take(rows.len()).map(f64::abs).collect();
+                for (row, (size, wild)) in rows.zip(own.iter().zip(wild(&own, usual))) {
+                    let beyond = if wild { size / (FAR_OUT * usual) } else { 1.0 };
+                    let size = size / (OUTLIER_DEVIATIONS * usual) * beyond;
+                    inflation[row] = (size * size).max(1.0);
+                }
             }
         }
     }
     inflation
+}
+
+/// The deviation that most sizes of departures tell; where most are none, those that are some.
+fn usual(sizes: &mut Vec<f64>) -> f64 {
+    if deviation(sizes) <= 0.0 {
+        sizes.retain(|size| 0.0 < *size);
+    }
+    deviation(sizes)
+}
+
+/// Values of a pass, none farther from its neighbours than so many of their usual distances, and wild ones where
+/// their neighbours are: cut off, each would still be a blow.
+#[must_use]
+pub(crate) fn without_outliers(values: &[f64], deviations: f64) -> Vec<f64> {
+    let departures = departures(values);
+    let sizes: Vec<f64> = departures.iter().map(|off| off.abs()).collect();
+    let usual = usual(&mut sizes.clone());
+    let (most, wild) = (deviations * usual, wild(&sizes, usual));
+    let left = |off: f64, wild| if wild { 0.0 } else { off.clamp(-most, most) };
+    let kept = values.iter().zip(departures).zip(wild);
+    kept.map(|((value, off), wild)| value - off + left(off, wild)).collect()
+}
+
+/// Which values of a pass are wild by the sizes of their [`departures`]: far out, and without another such within a
+/// few rows. What stands in several rows has a cause, be it a knock.
+fn wild(sizes: &[f64], usual: f64) -> Vec<bool> {
+    let far: Vec<bool> = (0..sizes.len()).map(|row| is_far(sizes, row, usual)).collect();
+    let alone = |row: usize| {
+        let near = row.saturating_sub(IN_COMPANY)..(row + IN_COMPANY + 1).min(far.len());
+        far[near].iter().filter(|far| **far).count() == 1
+    };
+    (0..far.len()).map(|row| far[row] && alone(row)).collect()
+}
+
+/// Far beyond what is usual in the pass, and in the neighbourhood where that is louder.
+#[must_use]
+pub(crate) fn is_far(sizes: &[f64], row: usize, usual: f64) -> bool {
+    if sizes[row] <= FAR_OUT * usual {
+        return false;
+    }
+    let near = row.saturating_sub(LOUDNESS_ROWS)..(row + LOUDNESS_ROWS + 1).min(sizes.len());
+    let here = deviation(&mut sizes[near].to_vec()).clamp(usual, MOST_LOUD * usual);
+    FAR_OUT * here < sizes[row]
 }
 
 /// What each value of a pass differs by from the median of itself and its neighbours.

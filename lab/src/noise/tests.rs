@@ -178,3 +178,31 @@ fn wild_readings_of_a_coarse_display_are_outliers() {
     let usual = weighed.iter().filter(|by| **by < 1.5).count();
     assert_eq!((wild, usual), (8, 392), "{weighed:?}");
 }
+
+/// Twelve deviations off, alone and in a knock of three rows: what stands in several rows weighs as much as an outlier
+/// of three deviations does.
+#[test]
+fn a_wild_reading_weighs_less_than_a_knock() {
+    let layout = even();
+    let off = |row: usize| if row == 100 || (250..253).contains(&row) { 30.0 } else { 0.0 };
+    let residual: Vec<f64> = (0..400).map(|row| off(row) + libm::sin(7.0 * count(row))).collect();
+    let weighed = outlier_inflation(&layout, &residual, &[0.0]);
+    let sizes = [100, 250, 251, 252].map(|row| residual[row] / weighed[row].sqrt());
+    assert!(sizes[1..].iter().all(|size| 1.8 * sizes[0] < *size), "{sizes:?}");
+}
+
+/// Half of the rows of a coarse display are what their neighbours are: it is no smoother for that, and a wild
+/// reading in it is where its neighbours are.
+#[test]
+fn a_coarse_display_without_its_outliers_is_what_it_was() {
+    let digits = |row: usize| f64::from(u8::from(row % 3 == 1)) - f64::from(u8::from(row % 7 == 3));
+    let shown: Vec<f64> = (0..60).map(digits).collect();
+    let mut wild = shown.clone();
+    wild[31] = 40.0;
+    let kept = without_outliers(&wild, 6.0);
+    assert!(
+        (0..60).all(|row| row == 31 || kept[row].to_bits() == shown[row].to_bits()),
+        "{kept:?}"
+    );
+    assert!(kept[31].abs() <= 1.0, "{}", kept[31]);
+}

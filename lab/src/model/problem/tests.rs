@@ -107,3 +107,17 @@ fn a_wave_through_the_recorder_is_known_from_samples_far_apart() {
         assert!((fitted - now).abs() < 1e-9, "row {row}: {fitted} µm of the column, not {now}");
     }
 }
+
+/// A display of half a micrometre, and one reading off it that is wild.
+#[test]
+fn a_wild_reading_off_the_lattice_hides_no_steps() {
+    let machine = machine("");
+    let time_s: Vec<f64> = (0..120).map(f64::from).collect();
+    let wave = |time: &f64| 0.5 * (2.0 * libm::sin(7.0 * time)).round();
+    let mut error_um: Vec<f64> = time_s.iter().map(wave).collect();
+    error_um[60] = 38.0438;
+    let problem = problem(&machine, &[("time_s", time_s), ("error_um", error_um)]);
+    let step_um = (12.0 * problem.least_variance[0]).sqrt();
+    assert!((step_um - 0.5).abs() < 1e-9, "{step_um}");
+    assert_eq!(problem.far_rows(), [60]);
+}
