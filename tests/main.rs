@@ -107,4 +107,5 @@ mod waveform_readers;
 mod waves_and_ways;
 mod what_is_left;
 mod what_is_named;
+mod wild_readings;
 mod workbench;

@@ -6,6 +6,7 @@ use helixlock_lab::{
 };
 
 use crate::shared::diagnosis_json::{DoubtJson, StructureJson};
+use crate::shared::far_readings::{FarReadingsJson, notes};
 use crate::shared::keys::keys;
 
 keys! {
@@ -20,7 +21,9 @@ keys! {
         along: Vec<StructureJson<'a>> = found.along.iter().map(StructureJson::new).collect(),
         lines: Vec<LineJson<'a>> =
             found.lines.iter().map(|one| LineJson::new(one, found, measurement.rotary)).collect(),
-        notes: &'a [String] = &measurement.notes,
+        far_readings: Option<FarReadingsJson> =
+            found.far_readings.as_ref().map(|far| FarReadingsJson::new(far, measurement)),
+        notes: Vec<String> = notes(measurement, found.far_readings.as_ref()),
     }
 
     SensorJson(one: &SensorResidual, rotary: bool) {

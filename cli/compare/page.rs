@@ -3,6 +3,7 @@
 use helixlock_lab::{Comparison, Problem, SensorResidual, sensor_column};
 use helixlock_report::{Colour, Page, Part, Series, Style, Table};
 
+use crate::shared::far_readings::notes;
 use crate::shared::page_pieces::{panel, picture};
 use crate::shared::residual_picture::{points, x_axis};
 use crate::shared::spectrum;
@@ -49,7 +50,8 @@ pub(crate) fn page(problem: &Problem, comparison: &Comparison) -> Page {
     parts.push(Part::Table(along(comparison, unit)));
     parts.push(Part::Heading("Lines".into()));
     parts.push(Part::Table(lines(comparison, unit)));
-    parts.extend(problem.measurement.notes.iter().cloned().map(Part::Text));
+    let notes = notes(&problem.measurement, comparison.far_readings.as_ref());
+    parts.extend(notes.into_iter().map(Part::Text));
     let says = left_over(comparison);
     Page {
         title: format!("{}: model against measurement", problem.model.title),

@@ -2,18 +2,19 @@
 
 use std::collections::BTreeMap;
 
-use helixlock_lab::{Discovery, FormulaParameter, Proposal, RunnerUp};
+use helixlock_lab::{Discovery, FormulaParameter, Measurement, Proposal, RunnerUp};
 
 use crate::shared::diagnosis_json::{
     DoubtJson, EffectJson, ExperimentJson, StructureJson, effects,
 };
+use crate::shared::far_readings::{FarReadingsJson, notes};
 use crate::shared::keys::keys;
 
 keys! {
-    DiscoveryJson<'a>(found: &'a Discovery, unit: &'static str) {
+    DiscoveryJson<'a>(found: &'a Discovery, measurement: &'a Measurement) {
         verdict: &'static str = found.found.word(),
         doubts: Vec<DoubtJson<'a>> = found.doubts.iter().map(DoubtJson::new).collect(),
-        unit: &'static str = unit,
+        unit: &'static str = measurement.unit_word(),
         proposals: Vec<ProposalJson<'a>> = found.proposals.iter().map(ProposalJson::new).collect(),
         effects: Vec<EffectJson<'a>> = effects(&found.effects),
         rms_before_um: f64 = found.rms_um[0],
@@ -24,6 +25,9 @@ keys! {
         residual: Vec<StructureJson<'a>> = found.residual.iter().map(StructureJson::new).collect(),
         experiments: Vec<ExperimentJson<'a>> =
             found.experiments.iter().take(5).map(ExperimentJson::new).collect(),
+        far_readings: Option<FarReadingsJson> =
+            found.far_readings.as_ref().map(|far| FarReadingsJson::new(far, measurement)),
+        notes: Vec<String> = notes(measurement, found.far_readings.as_ref()),
     }
 
     ProposalJson<'a>(one: &'a Proposal) {

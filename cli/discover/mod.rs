@@ -58,10 +58,10 @@ impl Discover {
         }
         let measurement = &problem.measurement;
         if self.json {
-            let unit = measurement.unit_word();
-            print_json(out, &in_unit(&DiscoveryJson::new(&discovery, unit), unit)?)?;
+            let json = DiscoveryJson::new(&discovery, measurement);
+            print_json(out, &in_unit(&json, measurement.unit_word())?)?;
         } else {
-            text::print(out, &discovery, measurement.unit())?;
+            text::print(out, &discovery, measurement)?;
             print_page(out, self.page.as_deref())?;
             if let Some(path) = self.output.as_ref().filter(|_| !written) {
                 writeln!(out, "{}: not written, for nothing is proposed", path.display())?;
@@ -98,8 +98,8 @@ impl Answering for Discover {
     /// With the text `machine`, the proposals and the named effects beside them in it.
     fn answer(&self) -> anyhow::Result<Answer> {
         let (file, problem, discovery) = self.found()?;
-        let unit = problem.measurement.unit_word();
-        let answer = Answer::in_unit(&DiscoveryJson::new(&discovery, unit), unit)?;
+        let json = DiscoveryJson::new(&discovery, &problem.measurement);
+        let answer = Answer::in_unit(&json, problem.measurement.unit_word())?;
         Ok(answer.with_text("machine", with_proposals(&file, &discovery)?.text().clone()))
     }
 }

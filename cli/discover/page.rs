@@ -3,6 +3,7 @@
 use helixlock_lab::{Comparison, Discovery, Problem, Proposal, RunnerUp, sensor_column};
 use helixlock_report::{Colour, Page, Part, Series, Style, Table};
 
+use crate::shared::far_readings::notes;
 use crate::shared::page_pieces::{panel, picture};
 use crate::shared::residual_picture::{points, x_axis};
 use crate::shared::words::{doubted, why_left, with_error, with_p};
@@ -33,6 +34,8 @@ pub(super) fn page(
         parts.push(Part::Heading("What would tell it from the others".into()));
         parts.push(Part::Table(experiments(found)));
     }
+    let notes = notes(&problem.measurement, found.far_readings.as_ref());
+    parts.extend(notes.into_iter().map(Part::Text));
     Page {
         title: format!("{}: a formula where no name fits", problem.model.title),
         summary: summary(found),

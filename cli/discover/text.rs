@@ -2,13 +2,18 @@
 
 use std::io::Write;
 
-use helixlock_lab::{Discovery, Found, Proposal, RunnerUp};
+use helixlock_lab::{Discovery, Found, Measurement, Proposal, RunnerUp};
 
-use crate::shared::diagnosis_text::{print_doubts, print_effect};
+use crate::shared::diagnosis_text::{print_doubts, print_effect, print_notes};
 use crate::shared::words::{why_left, with_error, with_p, worth_of_a_pass};
 
 /// Verdict, formulas with their numbers, what else could stand there, what to do next.
-pub(super) fn print(out: &mut impl Write, found: &Discovery, unit: &str) -> anyhow::Result<()> {
+pub(super) fn print(
+    out: &mut impl Write,
+    found: &Discovery,
+    measurement: &Measurement,
+) -> anyhow::Result<()> {
+    let unit = measurement.unit();
     writeln!(out, "verdict: {}", found.found.word())?;
     print_doubts(out, &found.doubts)?;
     if found.found == Found::DoubtfulInput {
@@ -52,7 +57,7 @@ pub(super) fn print(out: &mut impl Write, found: &Discovery, unit: &str) -> anyh
     if !found.experiments.is_empty() {
         writeln!(out)?;
     }
-    Ok(())
+    print_notes(out, measurement, found.far_readings.as_ref())
 }
 
 /// Where a runner-up stands, and why that is not in front.

@@ -6,6 +6,7 @@ use helixlock_lab::{
 };
 use serde::Serializer;
 
+use super::far_readings::{FarReadingsJson, notes};
 use super::keys::keys;
 
 keys! {
@@ -23,7 +24,9 @@ keys! {
         residual: Vec<StructureJson<'a>> = found.residual.iter().map(StructureJson::new).collect(),
         experiments: Vec<ExperimentJson<'a>> =
             found.experiments.iter().take(5).map(ExperimentJson::new).collect(),
-        notes: &'a [String] = &measurement.notes,
+        far_readings: Option<FarReadingsJson> =
+            found.far_readings.as_ref().map(|far| FarReadingsJson::new(far, measurement)),
+        notes: Vec<String> = notes(measurement, found.far_readings.as_ref()),
     }
 
     /// Something that looks mistaken.

@@ -2,8 +2,9 @@
 
 use std::io::Write;
 
-use helixlock_lab::{Diagnosis, Doubt, FittedEffect, Measurement, Ranked, Round};
+use helixlock_lab::{Diagnosis, Doubt, FarReadings, FittedEffect, Measurement, Ranked, Round};
 
+use crate::shared::far_readings::notes;
 use crate::shared::words::{change, file_says, why_left, with_error, with_p, worth_of_a_pass};
 
 /// Standard errors below this have no digit among three decimals.
@@ -51,12 +52,16 @@ pub(crate) fn print(
             why_left(left)
         )?;
     }
-    print_notes(out, measurement)
+    print_notes(out, measurement, diagnosis.far_readings.as_ref())
 }
 
-/// How the data were read.
-pub(crate) fn print_notes(out: &mut impl Write, measurement: &Measurement) -> anyhow::Result<()> {
-    for note in &measurement.notes {
+/// How the data were read, and which of them weigh little.
+pub(crate) fn print_notes(
+    out: &mut impl Write,
+    measurement: &Measurement,
+    far: Option<&FarReadings>,
+) -> anyhow::Result<()> {
+    for note in notes(measurement, far) {
         writeln!(out, "note: {note}")?;
     }
     Ok(())

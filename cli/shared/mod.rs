@@ -11,6 +11,7 @@ pub(crate) mod diagnosis_json;
 pub(crate) mod diagnosis_page;
 pub(crate) mod diagnosis_text;
 pub(crate) mod effect_file;
+pub(crate) mod far_readings;
 pub(crate) mod hint;
 pub(crate) mod input;
 pub(crate) mod keys;

@@ -5,6 +5,7 @@ mod adding;
 mod compare;
 mod diagnosis;
 mod experiment;
+mod far_readings;
 mod final_check;
 mod learn;
 mod searched;
@@ -15,5 +16,7 @@ pub use diagnosis::{Diagnosis, FittedEffect, FittedParameter, Ranked, Round, Ver
 pub(crate) use diagnosis::{accepted_beyond, effects};
 pub use experiment::Advice;
 pub(crate) use experiment::{apart, carried_out};
+pub(crate) use far_readings::far_readings;
+pub use far_readings::{FarReading, FarReadings};
 pub use final_check::{FinalCheck, SensorCheck, final_check};
 pub use learn::{Ledger, LedgerEntry, Spectra, fingerprint, fnv1a64, ledger, spectra, written};

@@ -29,10 +29,10 @@ mod discover;
 mod challenge;
 
 pub use answer::{
-    Added, Advice, Comparison, Diagnosis, FinalCheck, FittedEffect, FittedParameter, Ledger,
-    LedgerEntry, NoiseSize, PassSize, Ranked, Round, SensorCheck, SensorResidual, SlowSize,
-    Spectra, Verdict, add, compare, diagnose, final_check, fingerprint, fnv1a64, ledger, spectra,
-    written,
+    Added, Advice, Comparison, Diagnosis, FarReading, FarReadings, FinalCheck, FittedEffect,
+    FittedParameter, Ledger, LedgerEntry, NoiseSize, PassSize, Ranked, Round, SensorCheck,
+    SensorResidual, SlowSize, Spectra, Verdict, add, compare, diagnose, final_check, fingerprint,
+    fnv1a64, ledger, spectra, written,
 };
 pub use challenge::{
     Challenge, ChallengeError, Experimented, Figure, Hidden, Outcome, Score, Scored, Share,

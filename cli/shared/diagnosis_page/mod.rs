@@ -9,6 +9,7 @@ use helixlock_report::{Page, Part, Table};
 
 use self::pictures::before_and_after;
 pub(crate) use self::pictures::{Left, falling};
+use crate::shared::far_readings::notes;
 use crate::shared::words::{chance, change, doubted, file_says, why_left};
 
 /// The page, with what else is known of the model behind the pictures of the data.
@@ -40,10 +41,11 @@ pub(crate) fn page(problem: &Problem, diagnosis: &Diagnosis, more: Vec<Part>) ->
     parts.push(Part::Table(parameters(diagnosis).without_empty_columns()));
     parts.push(Part::Heading("What was tried".into()));
     parts.push(Part::Table(tried(diagnosis, unit).without_empty_columns()));
-    if !problem.measurement.notes.is_empty() {
+    let notes = notes(&problem.measurement, diagnosis.far_readings.as_ref());
+    if !notes.is_empty() {
         parts.push(Part::Heading("How the data were read".into()));
     }
-    parts.extend(problem.measurement.notes.iter().cloned().map(Part::Text));
+    parts.extend(notes.into_iter().map(Part::Text));
     let summary = sentence(diagnosis, unit);
     Page { title: format!("{}: what the model lacked", problem.model.title), summary, parts }
 }

@@ -2,6 +2,7 @@
 
 use helixlock_plant::prediction::Sensor;
 
+use super::far_readings::{FarReadings, far_readings};
 use crate::doubts::{Doubt, doubts};
 use crate::hypotheses::{
     Structure, above_flaws, all_structures, no_all_clear, no_larger_than, taken_for_noise,
@@ -76,6 +77,8 @@ pub struct Comparison {
     pub doubts: Vec<Doubt>,
     /// One entry a sensor.
     pub sensors: Vec<SensorResidual>,
+    /// Readings that lie far from the rest and weigh little, if there are any.
+    pub far_readings: Option<FarReadings>,
     /// Everything that was looked along, clearest first; chances count all looks. A smooth curve
     /// that cannot be told from slow noise stands before all.
     pub along: Vec<Structure>,
@@ -128,6 +131,7 @@ fn compared(problem: &Problem) -> Comparison {
     Comparison {
         doubts: Vec::new(),
         sensors,
+        far_readings: far_readings(problem, &residual),
         lines: lines(small, &state.columns, &state.fit),
         noise_only,
         noise_p_value,

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use helixlock_plant::{Role, Search, Term};
 
 use super::experiment::{self, Advice};
+use super::far_readings::{FarReadings, far_readings};
 use super::searched::{Searched, search_on_all_rows, without_dropped};
 use crate::doubts::{Doubt, Suspect, doubts_and_suspects};
 use crate::hypotheses::{
@@ -131,6 +132,8 @@ pub struct Diagnosis {
     pub noise_um: f64,
     /// Independent samples that a pass of that noise is worth: few, and slow causes may be in it.
     pub samples_a_pass: f64,
+    /// Readings that lie far from the rest and weigh little, if there are any.
+    pub far_readings: Option<FarReadings>,
     /// Rounds of the search, the first without any effect.
     pub rounds: Vec<Round>,
     /// Effects tried, those of the final model first.
@@ -232,6 +235,7 @@ fn doubtful(problem: &Problem, doubts: Vec<Doubt>) -> Diagnosis {
         doubts,
         noise_um: rms(&problem.layout, &state.fit.left),
         samples_a_pass: samples_a_pass(problem, &state.fit),
+        far_readings: far_readings(problem, &state.fit.left),
         rounds: rounds(problem, &steps, std::slice::from_ref(&state)),
         candidates: Vec::new(),
         residual: Vec::new(),
@@ -290,6 +294,7 @@ fn answered(searched: Searched, suspects: &[Suspect], rows: usize) -> Diagnosis 
         doubts: Vec::new(),
         noise_um,
         samples_a_pass: samples_a_pass(&problem, &state.fit),
+        far_readings: far_readings(&problem, &state.fit.left),
         rounds: rounds(&problem, &steps, &states),
         candidates,
         residual,

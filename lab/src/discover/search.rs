@@ -4,7 +4,9 @@
 use super::held::{lost_part, takes_its_share};
 use super::orders::is_listed;
 use super::proposal::{Granted, Proposal};
-use crate::answer::{Advice, FittedEffect, accepted_beyond, apart, effects};
+use crate::answer::{
+    Advice, FarReadings, FittedEffect, accepted_beyond, apart, effects, far_readings,
+};
 use crate::doubts::{Doubt, doubts_and_suspects};
 use crate::formulas::{Delta, Shape, formulas};
 use crate::hypotheses::{
@@ -70,6 +72,8 @@ pub struct Discovery {
     pub holdout_rms_um: [f64; 2],
     /// Independent samples that a pass of what is left is worth: few, and slow causes may be in it.
     pub samples_a_pass: f64,
+    /// Readings that lie far from the rest and weigh little, if there are any.
+    pub far_readings: Option<FarReadings>,
     /// What is left that is not noise.
     pub residual: Vec<Structure>,
     /// Experiments that would tell the proposals from their runners-up, best first.
@@ -390,6 +394,7 @@ fn told(problem: &Problem, state: &State) -> Discovery {
         rms_um: [size(&bare), size(state)],
         holdout_rms_um: [unseen(&bare), unseen(state)],
         samples_a_pass: samples_a_pass(problem, &state.fit),
+        far_readings: far_readings(problem, &state.fit.left),
         residual: Vec::new(),
         experiments: Vec::new(),
     }

@@ -1,0 +1,136 @@
+//! Readings that are far off now and then: they hide nothing, show nothing, and are told of.
+
+use std::fmt::Write;
+use std::fs;
+
+use helixlock_lab::{Diagnosis, Verdict, compare};
+use serde_json::Value;
+
+use crate::support::command::{helixlock, put, repository, scratch, word};
+use crate::support::diagnosed::{diagnosed, problem_of};
+use crate::support::passes::{MACHINE, white};
+
+/// Rows of a pass.
+const ROWS: usize = 212;
+
+/// Columns of three passes there, errors by pass and row.
+fn three_passes(mut error_um: impl FnMut(usize, usize) -> f64) -> Vec<(&'static str, Vec<f64>)> {
+    let mut columns = [const { Vec::new() }; 4];
+    for (nth, pass) in (0..3).zip([1.0, 2.0, 3.0]) {
+        for (row, place) in (0..ROWS).zip(0_u16..) {
+            let mm = 1.4 * f64::from(place);
+            let cells = [pass, 400.0 * pass + mm / 1.7, mm, error_um(nth, row)];
+            columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+        }
+    }
+    ["pass", "time_s", "position_mm", "error_um"].into_iter().zip(columns).collect()
+}
+
+/// Noise of 0.15 µm on a display of 0.1 µm, in which half the rows of many a stretch are what their neighbours
+/// are, and six wild readings.
+fn coarse(seed: u64) -> Diagnosis {
+    let mut noise = white(seed, 0.15);
+    let wild = |nth, row| match (nth, row) {
+        (0, 97) => -3.0,
+        (0, 150) | (2, 123) => -8.4,
+        (1, 21) => 4.3,
+        (1, 29) => 3.1,
+        (1, 114) => 6.6,
+        _ => 0.0,
+    };
+    diagnosed(three_passes(|nth, row| (10.0 * (noise() + wild(nth, row))).round() / 10.0))
+}
+
+#[test]
+fn readings_of_a_coarse_display_that_are_wild_are_noise_and_told_of() {
+    for seed in 0..4 {
+        let found = coarse(seed);
+        assert_eq!(found.verdict, Verdict::NothingMissing, "{seed}: {:?}", found.residual);
+        let far = found.far_readings.expect("wild readings");
+        assert_eq!((far.readings, far.of), (6, 3 * ROWS), "{seed}");
+        assert!((far.rest_um - 0.153).abs() < 0.015, "{seed}: {far:?}");
+        assert!((far.first.off_um + 3.0).abs() < 0.5 && far.first.pass < 1.5, "{far:?}");
+    }
+}
+
+/// Noise that forgets within a few rows, and one wild reading of eighteen deviations: beside the noise of that one
+/// row anything that meets it would still be worth nine of twice the log likelihood.
+#[test]
+fn one_wild_reading_in_slow_noise_is_no_knock() {
+    for seed in 0..6 {
+        let (mut noise, mut last) = (white(seed, 0.6), 0.0);
+        let found = diagnosed(three_passes(|nth, row| {
+            last = 0.66 * last + noise();
+            let wild = if (nth, row) == (1, 60) { 14.6 } else { 0.0 };
+            (2.0 * (last + wild)).round() / 2.0
+        }));
+        assert_eq!(found.verdict, Verdict::NothingMissing, "{seed}: {:?}", found.residual);
+    }
+}
+
+/// A pass that wanders among others that do not, and two wild readings: it is no larger for these.
+#[test]
+fn a_shape_is_no_larger_for_readings_that_are_wild() {
+    let size_um = |wild_um: f64| {
+        let (mut noise, mut wandered) = (white(3, 0.2), 0.0);
+        let columns = three_passes(|nth, row| {
+            wandered = 0.95 * wandered + if nth == 1 { 0.9 * noise() } else { 0.0 };
+            wandered + noise() + if row == 70 && nth != 1 { wild_um } else { 0.0 }
+        });
+        let found = compare(&problem_of(MACHINE, columns));
+        let slow = found.along.into_iter().find(|one| one.shape.starts_with("slow in some passes"));
+        slow.expect("it is looked for").rms_um
+    };
+    let [without, with] = [size_um(0.0), size_um(40.0)];
+    assert!((with / without - 1.0).abs() < 0.2, "{without} {with}");
+}
+
+/// Two ways with a wild reading in the same part of the travel: they have nothing in common.
+#[test]
+fn ways_are_not_alike_for_their_wild_readings() {
+    for seed in 0..4 {
+        let mut noise = white(seed, 0.15);
+        let wild =
+            |nth, row| if (nth, row) == (0, 60) || (nth, row) == (2, 63) { 14.0 } else { 0.0 };
+        let columns = three_passes(|nth, row| noise() + wild(nth, row));
+        let found = compare(&problem_of(MACHINE, columns));
+        let alike = found.along.iter().find(|one| one.shape.starts_with("curve that passes have"));
+        let alike = alike.expect("it is looked for");
+        assert!(0.01 < alike.p_value && alike.rms_um < 0.1, "{seed}: {alike:?}");
+    }
+}
+
+/// The example's data with 40 µm more in one row, which is the 101st.
+fn with_a_wild_row() -> String {
+    let own = fs::read_to_string(repository().join("examples/hidden-gear/data.csv"));
+    let mut text = String::new();
+    for (row, line) in own.expect("the example is there").lines().enumerate() {
+        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+        if row == 101 {
+            cells[2] = format!("{}", cells[2].parse::<f64>().expect("an error") + 40.0);
+        }
+        writeln!(text, "{}", cells.join(",")).expect("memory takes it");
+    }
+    text
+}
+
+#[test]
+fn reports_say_which_readings_weigh_little() {
+    let folder = scratch();
+    let (data, data_word) = word(&folder, "data.csv");
+    put(&data, &with_a_wild_row());
+    let machine = "examples/hidden-gear/machine.toml";
+    for command in ["compare", "diagnose", "discover"] {
+        let told = helixlock(&[command, machine, &data_word]).stdout;
+        let note = "note: 1 of 954 readings lies far from the rest and weighs little (pass 1, ";
+        assert!(told.contains(note), "{command}: {told}");
+        let run = helixlock(&[command, machine, &data_word, "--json"]);
+        let answer: Value = serde_json::from_str(&run.stdout).expect("JSON");
+        let far = &answer["far_readings"];
+        let off = far["first"]["off_um"].as_f64().expect("a number");
+        assert!((off - 40.0).abs() < 3.0 && far["readings"] == 1, "{command}: {far}");
+        assert!(answer["notes"].to_string().contains(&note[6..]), "{command}: {answer}");
+        let told = helixlock(&[command, machine, &data_word, "--language", "zh"]).stdout;
+        assert!(told.contains("954 个读数中有 1 个远离其余"), "{command}: {told}");
+    }
+}
