@@ -3,7 +3,6 @@
 use crate::data::{self, Word};
 use crate::error::{ImportError, quoted};
 use crate::grid::Grid;
-use crate::outline::Outline;
 use crate::place::Place;
 use crate::runs::{self, Run};
 
@@ -25,14 +24,18 @@ pub(crate) struct Header {
     pub(crate) place: Place,
 }
 
-/// Headers of all columns, each with a name of its own.
-pub(crate) fn headers(grid: &Grid, outline: &Outline) -> Result<Vec<Header>, ImportError> {
+/// Headers of so many columns, each with a name of its own, from the rows above the first one of data.
+pub(crate) fn headers(
+    grid: &Grid,
+    rows: &[usize],
+    data: Option<usize>,
+    width: usize,
+) -> Result<Vec<Header>, ImportError> {
     let (units, names): (Vec<usize>, Vec<usize>) =
-        outline.header.iter().partition(|row| outline.header.len() > 1 && is_units(grid, **row));
+        rows.iter().partition(|row| rows.len() > 1 && is_units(grid, **row));
     let mut headers: Vec<Header> = Vec::new();
-    let data = outline.blocks.first().and_then(|block| block.rows.first());
-    let top = names.last().or(data).copied().unwrap_or(0);
-    for column in 0..outline.width {
+    let top = names.last().copied().or(data).unwrap_or(0);
+    for column in 0..width {
         let (name, below) = name_of(grid, &names, column);
         let units = units.iter().map(|row| stripped(grid.cell(*row, column)));
         let mut header = read_name(&name);

@@ -194,7 +194,8 @@ pub(crate) fn understand(
     upright::check(grid, &outline)?;
     let told = decisions.given("table", "missing").is_some();
     let missing = delimited::missing_words(grid, decisions);
-    let headers = header::headers(grid, &outline)?;
+    let data = outline.blocks.first().and_then(|block| block.rows.first());
+    let headers = header::headers(grid, &outline.header, data.copied(), outline.width)?;
     decisions.headers.extend(headers.iter().map(|header| header.name.clone()));
     let samples = samples(grid, &outline, decimal, &missing);
     marks::note_overloads(grid, &outline, (&samples, decimal), decisions);
