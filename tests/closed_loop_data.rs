@@ -112,7 +112,7 @@ const HIDDEN: [(&str, &str); 5] = [
 /// With the steps in the file, the loop hides nothing.
 #[test]
 fn what_a_closed_loop_has_corrected_is_named_from_its_trace() {
-    for (kind, values) in cases(3, &HIDDEN) {
+    for (kind, values) in cases(2, &HIDDEN) {
         let table = passes(&format!("[[effect]]\nkind = '{kind}'\n{values}\n"), NOISE_UM);
         let found = diagnosis(&table, &[]);
         assert_eq!(names(&found), [*kind]);

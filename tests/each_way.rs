@@ -81,7 +81,7 @@ fn worm(seed: u64, size_arcsec: f64, phase: impl Fn(f64) -> f64) -> Diagnosis {
 /// A worm that lies against another flank each way has no phase that is that of both.
 #[test]
 fn a_wave_of_another_phase_each_way_is_not_explained_by_its_mean() {
-    for seed in seeds(2, 12) {
+    for seed in seeds(1, 12) {
         let apart = worm(seed, 0.85, |way| 0.7 * way);
         assert_eq!(apart.verdict, Verdict::Unexplained, "{seed}");
         let alike = worm(seed, 0.85, |_| 0.7);

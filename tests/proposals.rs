@@ -63,7 +63,7 @@ fn a_reading_does_not_explain_itself() {
 /// fewest numbers is told, and none of its sizes is lost in its error.
 #[test]
 fn of_laws_alike_the_one_of_fewest_numbers_is_told() {
-    for seed in seeds(3, 8) {
+    for seed in seeds(1, 8) {
         let (time_s, air_c) = air(600);
         let damp_pct: Vec<f64> =
             time_s.iter().map(|t| 40.0 + 5.0 * libm::sin(t / 7000.0 + 2.0)).collect();

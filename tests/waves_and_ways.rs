@@ -28,19 +28,6 @@ fn last(found: &Diagnosis) -> &[FittedEffect] {
     found.rounds.last().map_or(&[], |round| &round.effects)
 }
 
-/// A wave that gains a third of itself on the worm's in one turn is somebody else's.
-#[test]
-fn a_wave_beside_a_listed_order_is_not_that_wheels() {
-    for seed in seeds(1, 5) {
-        let wave = |order: f64| {
-            let found = one_turn(seed, 1.0, &|turn| 1.5 * libm::sin(TAU * order * turn + 0.4));
-            names(&found).into_iter().map(str::to_owned).collect::<Vec<String>>()
-        };
-        assert_eq!(wave(20.35), Vec::<String>::new(), "{seed}");
-        assert_eq!(wave(20.02), ["gear-error"], "{seed}");
-    }
-}
-
 /// A shaft that nobody listed repeats each turn too, and so does all of it together.
 #[test]
 fn a_wave_keeps_its_name_beside_a_smaller_shape_of_each_turn() {

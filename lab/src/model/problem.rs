@@ -425,9 +425,13 @@ impl Problem {
     fn finest(&self, but: &[usize]) -> Vec<f64> {
         let of_sensor = |sensor: usize| {
             let rows = self.layout.of_sensor(sensor).1;
-            let rows = rows.filter(|row| but.binary_search(row).is_err());
-            let read: Vec<f64> = rows.map(|row| self.observed[row]).collect();
-            let step = spacing(&read).unwrap_or(0.0);
+            let step = if but.is_empty() {
+                spacing(&self.observed[rows])
+            } else {
+                let near = rows.filter(|row| but.binary_search(row).is_err());
+                spacing(&near.map(|row| self.observed[row]).collect::<Vec<f64>>())
+            };
+            let step = step.unwrap_or(0.0);
             (FINEST_SENSOR_UM * FINEST_SENSOR_UM).max(step * step / 12.0)
         };
         (0..self.sensors.len()).map(of_sensor).collect()

@@ -200,18 +200,16 @@ pub(crate) fn outlier_inflation(
     let mut inflation = vec![1.0; residual.len()];
     for (sensor, least) in least_variance.iter().enumerate() {
         let blocks = || layout.blocks.iter().filter(|block| block.sensor == sensor);
-        let departures: Vec<f64> =
-            blocks().flat_map(|block| departures(&residual[block.rows.clone()])).collect();
-        let mut sizes: Vec<f64> = departures.iter().map(|value| value.abs()).collect();
-        let told = usual(&mut sizes);
+        let departures = blocks().flat_map(|block| departures(&residual[block.rows.clone()]));
+        let sizes: Vec<f64> = departures.map(f64::abs).collect();
+        let told = told(sizes.clone());
         if 0.0 < told {
-            let most = one_in(&mut sizes, BEYOND_ARE_OUTLIERS) / BEYOND_DEVIATIONS;
-            let told = if NO_LAW * told < most { most } else { told };
             let usual = told.max(least.sqrt());
-            let mut departures = departures.into_iter();
+            let mut before = 0;
             for rows in blocks().map(|block| block.rows.clone()) {
-                let own: Vec<f64> = departures.by_ref().take(rows.len()).map(f64::abs).collect();
-                for (row, (size, wild)) in rows.zip(own.iter().zip(wild(&own, usual))) {
+                let own = &sizes[before..before + rows.len()];
+                before += rows.len();
+                for (row, (size, wild)) in rows.zip(own.iter().zip(wild(own, usual))) {
                     let beyond = if wild { size / (FAR_OUT * usual) } else { 1.0 };
                     let size = size / (OUTLIER_DEVIATIONS * usual) * beyond;
                     inflation[row] = (size * size).max(1.0);
@@ -220,6 +218,16 @@ pub(crate) fn outlier_inflation(
         }
     }
     inflation
+}
+
+/// The deviation that sizes of departures tell, or more where four fifths of them say far more than half.
+fn told(mut sizes: Vec<f64>) -> f64 {
+    let told = usual(&mut sizes);
+    if told <= 0.0 {
+        return told;
+    }
+    let most = one_in(&mut sizes, BEYOND_ARE_OUTLIERS) / BEYOND_DEVIATIONS;
+    if NO_LAW * told < most { most } else { told }
 }
 
 /// The deviation that most sizes of departures tell; where most are none, those that are some.

@@ -77,12 +77,6 @@ pub(crate) const WAVE: f64 = 0.01;
 /// Chosen: what turns less is a drift. Doubled: shaking of less than six waves a pass is not named.
 pub(crate) const WAVES_A_PASS: f64 = 3.0;
 
-/// Share of what a wave between listed orders explains that the listed one's must, to be it.
-///
-/// Derived: a wave that runs ahead by δ of itself over all of a record is seen by `(sin πδ / πδ)²` at the listed
-/// order; δ is a sixth. Doubled: it is no share.
-pub(crate) const IN_STEP: f64 = 0.9;
-
 /// Samples a place, on average, from which on a record is a table of targets.
 ///
 /// Chosen: ISO 230-2 asks for ten. Doubled: three runs there and back are none.

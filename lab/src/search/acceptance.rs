@@ -2,7 +2,7 @@
 
 use helixlock_plant::{Role, Search, Term};
 
-use super::orders::{not_told_by_targets, out_of_step, turns_as_well};
+use super::orders::{not_told_by_targets, turns_as_well};
 use super::refusal::Refusal;
 use super::{likeness, uneven};
 use crate::hypotheses::{chance_in_noise, chance_with_tails, gain_at, least_above_hunting};
@@ -45,7 +45,6 @@ pub(crate) fn refusal(problem: &Problem, now: &State, judged: &Judged) -> Option
         .or_else(|| at_an_end(problem, now, judged))
         .or_else(|| (!repeats(judged, now)).then_some(Refusal::Again))
         .or_else(|| turns_as_well(problem, now, judged))
-        .or_else(|| out_of_step(problem, now, judged))
         .or_else(|| rests_on_one_sample(problem, now, judged))
         .or_else(|| follows_slow_noise(problem, now, judged))
         .or_else(|| follows_uneven_noise(problem, now, judged))

@@ -1,21 +1,22 @@
-//! Waves that an order of the spindle explains as well, or a little beside the listed one better.
+//! Waves that an order of the spindle explains as well.
 
-use helixlock_plant::{Column, Parameter, Search};
+use std::ops::Range;
+
+use helixlock_plant::Parameter;
 
 use super::likeness;
 use super::refusal::Refusal;
 use crate::hypotheses::{gain_at, turn_scan};
-use crate::model::{Columns, Component, Judged, Problem, Stage, State};
-use crate::numerics::{golden_maximum, spread};
-use crate::policy::evidence::{IN_STEP, MARGIN, TIME_LOCK, WAVES_A_PASS};
+use crate::model::{Columns, Judged, Problem, Stage, State};
+use crate::numerics::{count, golden_maximum, least_squares, spread};
+use crate::policy::evidence::{MARGIN, TIME_LOCK};
 use crate::spectrum::wave;
 
 /// Steps to the best order near one.
 const STEPS: usize = 16;
 
-/// Share of a wave, over all of a record, that another order is ahead or behind by at most: beyond it lies another
-/// line.
-const FARTHEST: f64 = 0.5;
+/// Root mean square of a wave by which rows may lie off an even motion: more of it leaves no wave of the angle.
+const OFF_AN_EVEN_MOTION: f64 = 0.17;
 
 /// Refused when a frequency in time was found that an order of the spindle explains as well.
 ///
@@ -41,48 +42,6 @@ pub(super) fn not_told_by_targets(
     (!is_told).then_some(Refusal::Targets)
 }
 
-/// Refused where the same wave at an order between the listed ones explains more, and the listed one's, a part of a
-/// wave off at the ends of the record, does not make most of it. One that is shifted on the way, as of a mount that
-/// is turned over, is the listed one's still.
-pub(super) fn out_of_step(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
-    let component = &judged.component;
-    let term = &component.term;
-    let is_listed = |what: &Parameter| matches!(what.search, Search::Whole | Search::GearOrder);
-    let listed = term.parameters.iter().position(is_listed)?;
-    let order = component.waves_a_turn(problem);
-    let waves = order * spread(&problem.record.turns().collect::<Vec<f64>>());
-    if waves < WAVES_A_PASS {
-        return None;
-    }
-    let stage = Stage::new(problem, &now.columns, &judged.fit.noises);
-    let mut off_by = |share: f64| {
-        let mut term = term.clone();
-        term.values[listed] *= 1.0 + share / waves;
-        gain_at(&stage, &Component { term, ..component.clone() }).map_or(0.0, |gain| gain.gain)
-    };
-    let own = off_by(0.0);
-    let (share, best) = golden_maximum(&mut off_by, (-FARTHEST, FARTHEST), STEPS);
-    let (order, ahead) = (order * (1.0 + share / waves), best - own);
-    let is_off = own < IN_STEP * best && MARGIN < ahead;
-    (is_off && of_two_halves(&stage, component) < best)
-        .then_some(Refusal::OutOfStep { order, ahead })
-}
-
-/// What a wave explains that has a size and a phase of its own in each half of a record.
-fn of_two_halves(stage: &Stage<'_>, component: &Component) -> f64 {
-    let Ok(whole) = Columns::of(stage.problem, std::slice::from_ref(component)) else { return 0.0 };
-    let half = |column: &Column, is_in: &dyn Fn(usize) -> bool| -> Column {
-        let values = column.iter().zip(&stage.problem.samples);
-        values.map(|(value, &sample)| if is_in(sample) { *value } else { 0.0 }).collect()
-    };
-    let middle = stage.problem.record.len() / 2;
-    let halves = whole.raw.iter().flat_map(|column| {
-        [half(column, &|sample| sample < middle), half(column, &|sample| middle <= sample)]
-    });
-    let halves = Columns { fixed: whole.fixed.clone(), ..Columns::free(halves) };
-    stage.gain(&halves).gain
-}
-
 /// The order of the spindle that explains most in the place of an effect, and by how much the effect is ahead of it:
 /// that of the strongest line, or what the frequency of the effect is at the record's own speed.
 fn ahead_of_orders(problem: &Problem, now: &State, judged: &Judged) -> Option<(f64, f64)> {
@@ -92,14 +51,50 @@ fn ahead_of_orders(problem: &Problem, now: &State, judged: &Judged) -> Option<(f
     let of_row: Vec<f64> = problem.samples.iter().map(|&sample| turns[sample]).collect();
     let scan = turn_scan(&stage, &of_row);
     let line = scan.strongest_anywhere(&stage.target[..of_row.len()]).map(|line| line.frequency);
-    let mut explained = |order: f64| stage.gain(&waves(problem, &turns, order)).gain;
-    let orders = line.into_iter().chain(order_of_a_frequency(problem, judged, &turns));
-    let best = orders.map(|order| {
+    let best_near = |order: f64, turns: &[f64]| {
+        let mut explained = |order: f64| stage.gain(&waves(problem, turns, order)).gain;
         let near = (order - scan.resolution(), order + scan.resolution());
         golden_maximum(&mut explained, near, STEPS)
-    });
+    };
+    let of_line = line.map(|order| best_near(order, &turns));
+    let of_frequency =
+        order_of_a_frequency(problem, judged, &turns).into_iter().flat_map(|order| {
+            [best_near(order, &turns), best_near(order, &even_turns(problem, &turns, order))]
+        });
+    let best = of_line.into_iter().chain(of_frequency);
     let (order, gain) = best.max_by(|a, b| a.1.total_cmp(&b.1))?;
     Some((order, own - gain))
+}
+
+/// Turns as an even motion through each pass makes them, as far as rows lie within a part of a wave of it: angles
+/// that are stamped unevenly draw a wave of the spindle worse than the clock does.
+fn even_turns(problem: &Problem, turns: &[f64], order: f64) -> Vec<f64> {
+    let record = &problem.record;
+    let mut even = turns.to_vec();
+    for rows in stretches(problem) {
+        let (time_s, own) = (&record.time_s[rows.clone()], &turns[rows.clone()]);
+        let [ones, time] = [&vec![1.0; own.len()], &time_s.to_vec()];
+        let fit = least_squares::fit(&[ones, time], own);
+        let off = (fit.residual_square / count(own.len())).sqrt();
+        if off * order < OFF_AN_EVEN_MOTION {
+            let left = least_squares::left(&[ones, time], own, &fit.coefficients);
+            even[rows].iter_mut().zip(left).for_each(|(turn, left)| *turn -= left);
+        }
+    }
+    even
+}
+
+/// Rows of each pass that go one way.
+fn stretches(problem: &Problem) -> Vec<Range<usize>> {
+    let direction = &problem.record.direction;
+    let of_pass = |rows: Range<usize>| {
+        let turned =
+            (rows.start + 1..rows.end).filter(|&row| direction[row] * direction[row - 1] < 0.0);
+        let starts: Vec<usize> = std::iter::once(rows.start).chain(turned).collect();
+        let ends = starts.clone().into_iter().skip(1).chain([rows.end]);
+        starts.into_iter().zip(ends).map(|(start, end)| start..end).collect::<Vec<_>>()
+    };
+    problem.record.passes().into_iter().flat_map(of_pass).collect()
 }
 
 /// What a frequency in time is as an order at the record's own speed.

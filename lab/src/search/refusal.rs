@@ -45,8 +45,6 @@ pub(crate) enum Refusal {
     Again,
     /// A line over the angle of the spindle explains as much as one in time.
     Angle { order: f64, ahead: f64 },
-    /// The same wave at an order that is not listed explains more.
-    OutOfStep { order: f64, ahead: f64 },
     /// One sample alone speaks for it, and the tails of the noise reach as far.
     OneSample { chance: f64 },
     /// Another effect explains more; by so much evidence.
@@ -77,7 +75,6 @@ impl Refusal {
                 | Self::OneTarget
                 | Self::Play
                 | Self::Again
-                | Self::OutOfStep { .. }
         )
     }
 
@@ -144,9 +141,6 @@ impl fmt::Display for Refusal {
                     f,
                     "order {order:.4} of the spindle explains as much: evidence {ahead:.1} ahead only"
                 )
-            }
-            Self::OutOfStep { order, ahead } => {
-                write!(f, "waves of order {order:.4}, not of its own: evidence {ahead:.1} ahead")
             }
             Self::OneSample { chance } => {
                 write!(
