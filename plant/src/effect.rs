@@ -332,6 +332,17 @@ pub enum Smoothness {
     Rough,
 }
 
+impl Smoothness {
+    /// How quickly it waves, 1/s; nothing of what has no rate.
+    #[must_use]
+    pub fn rate_per_s(self) -> f64 {
+        match self {
+            Self::Band { rate_per_s, .. } => rate_per_s,
+            Self::Polynomial | Self::Rough => 0.0,
+        }
+    }
+}
+
 /// Unit effects that add up to an effect: δ = Σ coefficient · column + fixed.
 #[derive(Debug, Default)]
 pub struct Basis {

@@ -13,13 +13,7 @@ use rayon::prelude::*;
 use crate::model::{Columns, Fit, Problem, settle};
 use crate::noise::{Layout, Noise};
 use crate::numerics::{chi_squared_tail, count};
-use crate::policy::chance::{BEYOND_DOUBT, DRAWS, MOST_DRAWS, STANDARD_ERRORS};
-
-/// Draws of which the largest is one of the tail.
-const TAIL: usize = 20;
-
-/// Columns whose gains fall as fast as an exponential: χ² of more degrees takes longer to.
-const NARROW: usize = 2;
+use crate::policy::chance::{BEYOND_DOUBT, DRAWS, MOST_DRAWS, NARROW, STANDARD_ERRORS, TAIL};
 
 /// Chance of a gain of some free columns in noise like that of a fit, drawn for until it is clear on
 /// which side of a limit it lies.

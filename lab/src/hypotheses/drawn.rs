@@ -8,7 +8,7 @@ use statrs::distribution::{ContinuousCDF, Gamma};
 
 use super::calibration::draw;
 use crate::model::{Fit, Problem};
-use crate::noise::{Layout, Noise};
+use crate::noise::{Layout, Noise, weighed_rms};
 use crate::numerics::count;
 use crate::policy::chance::{DRAWS, MOST_DRAWS, WORTH_DRAWING};
 
@@ -43,9 +43,18 @@ pub(super) fn surest<T: Copy>(found: &[(T, f64)]) -> Option<(T, f64)> {
     Some((one, (count(found.len()) * chance).min(1.0)))
 }
 
-/// Root mean square of the surest share that a sensor shows of the square of some, and its chance; `None` where the
-/// file says how sure each reading is, so that neighbours need not be alike.
+/// Root mean square, µm (arcsec), of the surest share of the square that a sensor shows, wild readings weighing
+/// little, and its chance; `None` where the file says how sure each reading is, so that neighbours need not be alike.
 pub(super) fn surest_share(
+    problem: &Problem,
+    fit: &Fit,
+    of_sensor: impl Fn(usize) -> Option<(f64, f64)>,
+) -> Option<(f64, f64)> {
+    surest_share_of(problem, weighed_rms(&problem.layout, &fit.left), of_sensor)
+}
+
+/// The same of another root mean square.
+pub(super) fn surest_share_of(
     problem: &Problem,
     rms_um: f64,
     of_sensor: impl Fn(usize) -> Option<(f64, f64)>,

@@ -13,7 +13,7 @@ use rand_chacha::ChaCha8Rng;
 use super::drawn::{OwnNoise, clearest, surest_share};
 use super::excursions::are_readings;
 use crate::model::{Fit, Problem};
-use crate::noise::{weighed_rms, without_outliers};
+use crate::noise::without_outliers;
 use crate::numerics::{count, mean};
 use crate::policy::extent::{FEWEST_CUT_IN_TWO, ROWS_OF_A_LEVEL};
 use crate::policy::reading::FAR_OUT;
@@ -22,9 +22,7 @@ use crate::policy::reading::FAR_OUT;
 /// record is too short to tell, or the file says how sure each reading is.
 #[must_use]
 pub(super) fn levels(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
-    surest_share(problem, weighed_rms(&problem.layout, &fit.left), |sensor| {
-        of_sensor(problem, fit, sensor)
-    })
+    surest_share(problem, fit, |sensor| of_sensor(problem, fit, sensor))
 }
 
 /// Share of the square by which the halves differ, and the chance of as much, of one sensor.

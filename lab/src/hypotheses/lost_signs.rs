@@ -10,7 +10,7 @@ use std::ops::Range;
 
 use statrs::distribution::{Continuous, StudentsT};
 
-use super::drawn::surest_share;
+use super::drawn::surest_share_of;
 use crate::model::{Fit, Problem};
 use crate::noise::{departures, rms};
 use crate::numerics::{chi_squared_tail, deviation, median};
@@ -21,7 +21,7 @@ use crate::policy::reading::{BEYOND_NOISE, SIGNS_LOST};
 /// says how sure each reading is.
 #[must_use]
 pub(super) fn lost_signs(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
-    surest_share(problem, rms(&problem.layout, &fit.left), |sensor| {
+    surest_share_of(problem, rms(&problem.layout, &fit.left), |sensor| {
         let of_sensor = problem.layout.blocks.iter().filter(|block| block.sensor == sensor);
         let passes = of_sensor.map(|block| block.rows.clone());
         share(passes, &fit.left, &problem.observed, problem.least_variance[sensor].sqrt())

@@ -14,7 +14,7 @@ use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 use super::drawn::{OwnNoise, clearest, surest_share};
 use super::excursions::{are_readings, loudness};
 use crate::model::{Fit, Problem};
-use crate::noise::{weighed_rms, without_outliers};
+use crate::noise::without_outliers;
 use crate::numerics::least_squares;
 use crate::numerics::{count, deviation, mean, median};
 use crate::policy::extent::{JUST_BEFORE, LOUDNESS_ROWS, PREDICTED_BY, ROWS_A_LAG};
@@ -24,9 +24,7 @@ use crate::policy::reading::{CLEARLY_LOUDER, FAR_OUT, MOST_DEVIATIONS};
 /// where a record is too short to tell, or the file says how sure each reading is.
 #[must_use]
 pub(super) fn nonlinearity(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
-    surest_share(problem, weighed_rms(&problem.layout, &fit.left), |sensor| {
-        of_sensor(problem, fit, sensor)
-    })
+    surest_share(problem, fit, |sensor| of_sensor(problem, fit, sensor))
 }
 
 /// Share and chance of one sensor. Rows that come unevenly are no linear series, for how far the last

@@ -14,7 +14,7 @@ use statrs::distribution::{ContinuousCDF, Normal};
 use super::drawn::{OwnNoise, clearest, surest_share};
 use super::excursions::are_readings;
 use crate::model::{Fit, Problem};
-use crate::noise::{weighed_rms, without_outliers};
+use crate::noise::without_outliers;
 use crate::numerics::least_squares::dot;
 use crate::numerics::{count, mean};
 use crate::policy::extent::HALF_A_SWING;
@@ -24,9 +24,7 @@ use crate::policy::reading::FAR_OUT;
 /// how sure each reading is.
 #[must_use]
 pub(super) fn swings(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
-    surest_share(problem, weighed_rms(&problem.layout, &fit.left), |sensor| {
-        of_sensor(problem, fit, sensor)
-    })
+    surest_share(problem, fit, |sensor| of_sensor(problem, fit, sensor))
 }
 
 /// Share of the square that is of the other sign later, and the chance of as much, of one sensor.

@@ -13,7 +13,7 @@ use rand_chacha::ChaCha8Rng;
 use super::drawn::{OwnNoise, clearest, surest_share};
 use super::excursions::are_readings;
 use crate::model::{Fit, Problem};
-use crate::noise::{weighed_rms, without_outliers};
+use crate::noise::without_outliers;
 use crate::numerics::least_squares::dot;
 use crate::numerics::{by_factors, chi_squared_tail, count, mean, median};
 use crate::policy::extent::{FEWEST_ROWS_OF_A_STRETCH, STRETCHES_OF_A_PASS};
@@ -30,9 +30,7 @@ const FORGETS: [f64; 2] = [5e-3, 0.7];
 /// where there are no two stretches, or the file says how sure each reading is.
 #[must_use]
 pub(super) fn uneven_slowness(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
-    surest_share(problem, weighed_rms(&problem.layout, &fit.left), |sensor| {
-        of_sensor(problem, fit, sensor)
-    })
+    surest_share(problem, fit, |sensor| of_sensor(problem, fit, sensor))
 }
 
 /// Share of the square that stretches have beyond the usual one, and the chance of one sensor.

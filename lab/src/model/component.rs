@@ -86,11 +86,7 @@ impl Component {
         let rate = |turns_per_s: f64| {
             let moving =
                 basis.iter().map(|wave| wave.smoothness(TAU * turns_per_s, turn_mm * turns_per_s));
-            let rates = moving.map(|smoothness| match smoothness {
-                Smoothness::Band { rate_per_s, .. } => rate_per_s,
-                Smoothness::Polynomial | Smoothness::Rough => 0.0,
-            });
-            rates.fold(0.0, f64::max)
+            moving.map(Smoothness::rate_per_s).fold(0.0, f64::max)
         };
         (rate(1.0) - rate(0.0)) / TAU
     }

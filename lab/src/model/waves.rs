@@ -40,11 +40,9 @@ impl Waves {
         // What the table did, and not the speed that was told: it may have stood.
         let run = |values: &[f64]| (values[row] - values[row - 1]).abs() / elapsed_s;
         let (speed_rad_s, travel_mm_s) = (run(&record.spindle_rad), run(&record.position_mm));
-        let rates = self.units.iter().map(|unit| match unit.smoothness(speed_rad_s, travel_mm_s) {
-            Smoothness::Band { rate_per_s, .. } => rate_per_s,
-            Smoothness::Polynomial | Smoothness::Rough => 0.0,
-        });
-        rates.fold(self.order * speed_rad_s, f64::max) * elapsed_s / TAU
+        let moving = self.units.iter().map(|unit| unit.smoothness(speed_rad_s, travel_mm_s));
+        moving.map(Smoothness::rate_per_s).fold(self.order * speed_rad_s, f64::max) * elapsed_s
+            / TAU
     }
 }
 

@@ -103,6 +103,17 @@ pub(crate) const DRAWS: u64 = 16;
 /// Doubled: to a factor of two.
 pub(crate) const MOST_DRAWS: u64 = 256;
 
+/// Draws of which the largest is one of the tail.
+///
+/// Chosen: a dozen of 256 lie in it. Doubled: six, and a chance is good to a factor of two instead of 1.6.
+pub(crate) const TAIL: usize = 20;
+
+/// Columns up to which gains fall as the exponential of their half.
+///
+/// Derived: χ² with two degrees is that law, with more it takes longer to. Doubled: shapes of four columns are
+/// told with too small a chance.
+pub(crate) const NARROW: usize = 2;
+
 /// Gain a column above which no noise is to blame and none is drawn.
 ///
 /// Derived: χ² with one degree exceeds 40 once in 4·10⁹. Doubled: more draws, the same answers.

@@ -31,6 +31,12 @@ pub(crate) const COINCIDENCE: f64 = 8.0;
 /// Chosen: odds of 400 to 1. Doubled: a vibration needs a larger change of speed to be one.
 pub(crate) const TIME_LOCK: f64 = 12.0;
 
+/// Root mean square, in waves, by which rows may lie off an even motion for their angles to be taken for it.
+///
+/// Chosen: beyond a sixth of a wave two thirds of it are lost, and what the axis did is no even motion. Doubled: steps
+/// of a third of a wave are stamped unevenly.
+pub(crate) const OFF_AN_EVEN_MOTION: f64 = 0.17;
+
 /// Evidence by which a set of effects of known size must beat the best single one.
 ///
 /// Chosen: odds of 150 to 1. Doubled: a warm day's weather must be the larger for all of it to be

@@ -9,14 +9,11 @@ use super::refusal::Refusal;
 use crate::hypotheses::{gain_at, turn_scan};
 use crate::model::{Columns, Judged, Problem, Stage, State};
 use crate::numerics::{count, golden_maximum, least_squares, spread};
-use crate::policy::evidence::{MARGIN, TIME_LOCK};
+use crate::policy::evidence::{MARGIN, OFF_AN_EVEN_MOTION, TIME_LOCK};
 use crate::spectrum::wave;
 
 /// Steps to the best order near one.
 const STEPS: usize = 16;
-
-/// Root mean square of a wave by which rows may lie off an even motion: more of it leaves no wave of the angle.
-const OFF_AN_EVEN_MOTION: f64 = 0.17;
 
 /// Refused when a frequency in time was found that an order of the spindle explains as well.
 ///

@@ -88,25 +88,6 @@ impl Refusal {
     }
 }
 
-impl Refusal {
-    /// What is said of a clause that has no figures.
-    fn words(&self) -> &'static str {
-        match self {
-            Self::Flank => "only one flank of the bump lies inside the travel",
-            Self::Turn => "whole waves a turn need nine tenths of a turn",
-            Self::Piece => "so small a piece of a wave that any drift follows it",
-            Self::Edge => "so near the start or the end that a machine runs in or out there",
-            Self::Clock => "a frequency in time needs a clock and three waves in a pass",
-            Self::Untimed => "the axis stands at targets, and no time was measured",
-            Self::Targets => "not told by the targets from a longer wave",
-            Self::OneTarget => "it shows at one target alone, where it has no shape",
-            Self::Play => "a play wider than every move of the motor",
-            Self::Again => "it is in the model already",
-            _ => "not as it should be",
-        }
-    }
-}
-
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -136,6 +117,20 @@ impl fmt::Display for Refusal {
             Self::End { parameter, value } => {
                 write!(f, "at the end of its range: {parameter} {value:.4}")
             }
+            Self::Flank => f.write_str("only one flank of the bump lies inside the travel"),
+            Self::Turn => f.write_str("whole waves a turn need nine tenths of a turn"),
+            Self::Piece => f.write_str("so small a piece of a wave that any drift follows it"),
+            Self::Edge => {
+                f.write_str("so near the start or the end that a machine runs in or out there")
+            }
+            Self::Clock => {
+                f.write_str("a frequency in time needs a clock and three waves in a pass")
+            }
+            Self::Untimed => f.write_str("the axis stands at targets, and no time was measured"),
+            Self::Targets => f.write_str("not told by the targets from a longer wave"),
+            Self::OneTarget => f.write_str("it shows at one target alone, where it has no shape"),
+            Self::Play => f.write_str("a play wider than every move of the motor"),
+            Self::Again => f.write_str("it is in the model already"),
             Self::Angle { order, ahead } => {
                 write!(
                     f,
@@ -154,7 +149,6 @@ impl fmt::Display for Refusal {
             Self::Victor { name, by } => {
                 write!(f, "explains less than {name}: evidence {by:.1} behind")
             }
-            _ => f.write_str(self.words()),
         }
     }
 }
