@@ -321,7 +321,7 @@ fn a_late_reading_of_an_axis_that_goes_and_stands_is_no_vibration() {
 #[test]
 fn a_moment_is_as_uncertain_as_the_data_have_it() {
     let (mut square, mut told) = (0.0, 0.0);
-    let asked = seeds(3, 8);
+    let asked = seeds(4, 8);
     let half = 0.5 * f64::from(u8::try_from(asked.end).expect("few"));
     for seed in asked {
         let slip = |t: f64, _: f64, _: f64| if t < 701.0 { 0.0 } else { 2.0 * 0.316_410_182_7 };
