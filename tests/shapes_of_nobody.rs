@@ -1,7 +1,7 @@
 //! Shapes that no effect has are nobody's, however narrow they are and wherever they stand.
 #![expect(clippy::cast_precision_loss, reason = "some hundred rows")]
 
-use helixlock_lab::{Diagnosis, Verdict};
+use helixlock_lab::{Diagnosis, Found, Verdict, diagnose, discover};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -190,4 +190,30 @@ fn a_scratch_of_a_worm_is_told_by_its_turns() {
         let told = |along: &str| found.residual.iter().any(|one| one.along == along);
         assert!(told("angle of `worm`"), "{seed}: {:?}", found.residual);
     }
+}
+
+/// Three passes there and back over eight targets, at each of which the axis rests for six readings and its servo
+/// settles: play that a vibration beside it makes fade, or a column pasted two rows too low, follow it.
+#[test]
+fn what_settles_after_each_stop_is_no_play_and_no_slipped_column() {
+    let mut noise = white(1, 0.2);
+    let mut columns = [const { Vec::new() }; 5];
+    for row in 0..288_u16 {
+        let (stop, reading) = (row / 6, f64::from(row % 6));
+        let (run, target) = (stop / 8, stop % 8);
+        let (way, target) = if run % 2 == 0 { (1.0, target) } else { (-1.0, 7 - target) };
+        let settling = -way * libm::exp(-0.7 * reading);
+        let (mm, s) = (80.0 * f64::from(target), 10.0 * f64::from(stop) + 0.5 * reading);
+        let values = [f64::from(run / 2), s, mm, way, settling + 0.003 * mm + noise()];
+        columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
+    }
+    let names = ["pass", "time_s", "position_mm", "direction", "error_um"];
+    let effect = "\n[[effect]]\nkind = \"screw-progressive\"\nlinear = \"3 um/m\"\n";
+    let machine = format!("{}{effect}", diagnosed::MACHINE);
+    let problem = diagnosed::problem_of(&machine, names.into_iter().zip(columns).collect());
+    let found = discover(&problem);
+    assert_eq!(found.found, Found::Formula);
+    assert_eq!(found.proposals[0].shape, "settles after each stop");
+    let search = diagnose(&problem);
+    assert_eq!(search.verdict, Verdict::Unexplained, "{:?}", search.doubts);
 }

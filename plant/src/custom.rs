@@ -25,7 +25,7 @@ pub(crate) const CARD: Card = Card {
     kind: "custom",
     entry: Entry::Motion,
     summary: "an expression of the user over the columns, with named parameters",
-    formula: "as written: + - * / ^, functions, pi, parameters, and columns such as time_s, position_mm, angle_rev, speed_rpm, direction, velocity_rpm, pass, since_reversal_mm (since_reversal_deg on a rotary chain), or any logged one; lag(column, s) and relay(column, middle, width) remember the samples before",
+    formula: "as written: + - * / ^, functions, pi, parameters, and columns such as time_s, position_mm, angle_rev, speed_rpm, direction, velocity_rpm, pass, since_reversal_mm (since_reversal_deg on a rotary chain), since_stop_s, or any logged one; lag(column, s) and relay(column, middle, width) remember the samples before",
     example: "formula = 'a*sin(2*pi*time_s/period)', entry = 'motion', parameters = { a = 1.5, period = 12.0 }",
     parameters: &[],
     parts: &[],
@@ -53,6 +53,7 @@ const ALWAYS_THERE: &[(&str, Reading)] = &[
     ("since_reversal_mm", |now| now.since_reversal_mm),
     ("travelled_deg", |now| now.travelled_mm),
     ("since_reversal_deg", |now| now.since_reversal_mm),
+    ("since_stop_s", |now| now.since_stop_s),
     ("pass", |now| f64::from(u32::try_from(now.pass).unwrap_or(u32::MAX))),
     ("error_um", |now| now.error_um),
 ];
@@ -406,6 +407,7 @@ mod tests {
         pass: 0,
         travelled_mm: 0.0,
         since_reversal_mm: f64::INFINITY,
+        since_stop_s: f64::INFINITY,
         error_um: 0.0,
         covariates: &[],
     };

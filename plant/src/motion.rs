@@ -168,6 +168,8 @@ impl Motion {
             pass: self.number,
             travelled_mm,
             since_reversal_mm: if stretch.reversed { since_mm } else { f64::INFINITY },
+            // A pass of the device goes on from start to end.
+            since_stop_s: f64::INFINITY,
             error_um: 0.0,
             covariates: &self.covariates,
         }

@@ -4,6 +4,7 @@ mod column;
 mod logged;
 mod refined;
 mod samples;
+mod stops;
 
 use std::f64::consts::TAU;
 
@@ -120,6 +121,8 @@ pub struct Instant<'a> {
     pub travelled_mm: f64,
     /// Way since the last reversal inside this pass, mm; infinite before the first; degrees on a rotary chain.
     pub since_reversal_mm: f64,
+    /// Time since the axis came to stand, s; infinite while it moves.
+    pub since_stop_s: f64,
     /// What the meter would show without the effects that depend on it, µm, laser lag positive.
     pub error_um: f64,
     /// Logged quantities, indexed by [`Covariate`], then by [`Columns`]; NaN where missing.
@@ -162,6 +165,8 @@ pub struct Record {
     pub travelled_mm: Column,
     /// Way since the last reversal inside the pass, mm; infinite before the first.
     pub since_reversal_mm: Column,
+    /// Time since the axis came to stand, s, infinite while it moves; empty where it never stands.
+    pub since_stop_s: Column,
     /// Turns over time from the sample before to the one behind, rpm; see [`Self::velocities_rpm`].
     pub(crate) velocity_rpm: Column,
     /// What the meter would show without the effects that depend on it, µm; zeros until set.
@@ -202,6 +207,7 @@ impl Record {
             pass: self.pass[index],
             travelled_mm: self.travelled_mm[index],
             since_reversal_mm: self.since_reversal_mm[index],
+            since_stop_s: self.since_stop_s(index),
             error_um: self.error_um[index],
             covariates: self.logged(index),
         }
@@ -227,6 +233,7 @@ impl Record {
             pass: pass[row],
             travelled_mm: travelled_mm[row],
             since_reversal_mm: since_reversal_mm[row],
+            since_stop_s: self.since_stop_s(row),
             error_um: error_um[row],
             covariates: self.logged(row),
         })
@@ -244,6 +251,10 @@ impl Record {
             if 0.0 < elapsed_s { 60.0 * turns / elapsed_s } else { 0.0 }
         };
         (0..self.len()).map(of).collect()
+    }
+
+    fn since_stop_s(&self, row: usize) -> f64 {
+        self.since_stop_s.get(row).copied().unwrap_or(f64::INFINITY)
     }
 
     /// Logged quantities of one sample.

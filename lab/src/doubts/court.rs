@@ -1,7 +1,9 @@
 //! One judge for all mistakes: evidence against the file as it is, and against its effects at any
 //! size or none.
 
-use helixlock_plant::{CATALOGUE, Model, Parameter, Role, Term};
+use std::cell::OnceCell;
+
+use helixlock_plant::{CATALOGUE, Entry, Model, Parameter, Role, Term};
 
 use super::column::all_physics;
 use super::common::{curve_of, curves, slopes};
@@ -9,6 +11,7 @@ use super::doubt::Suspect;
 use super::hypothesis::{Hypothesis, with_effects};
 use super::view::{View, rough_noises};
 use super::worst_pass::{rows_of, worst_pass};
+use crate::formulas::{Placed, nameless};
 use crate::hypotheses::{candidate, try_candidate};
 use crate::model::{Columns, Component, Fit, Problem, Stage, noises_of, settle, with_noise};
 use crate::numerics::count;
@@ -22,6 +25,8 @@ pub(super) struct Court<'a> {
     common: [Columns; 3],
     /// The problem where nothing at all is predicted, and that of a machine without effects.
     absent: Vec<Problem>,
+    /// Evidence of the best shape without a name, once it was asked for.
+    shape: OnceCell<Option<f64>>,
     /// What the number of mistakes that are tried costs.
     looks: f64,
 }
@@ -42,7 +47,13 @@ impl<'a> Court<'a> {
         let nothing = vec![0.0; problem.samples.len()];
         let absent = std::iter::once(nothing).chain(bare);
         let absent = absent.map(|predicted| saying(problem, predicted)).collect();
-        Self { problem, common: [Columns::default(), lines, curves], absent, looks }
+        Self {
+            shape: OnceCell::new(),
+            problem,
+            common: [Columns::default(), lines, curves],
+            absent,
+            looks,
+        }
     }
 
     /// The mistake that beats every other explanation, and those that only the file's own effects at other
@@ -136,14 +147,16 @@ impl<'a> Court<'a> {
         self.looks + 2.0 * libm::log(one.looks) + numbers - one.usual - one.rescaled
     }
 
-    /// Evidence of a prediction of nothing, everywhere or in the pass that is mended, or of one that a curve of
-    /// that pass puts right: whatever makes a wrong prediction vanish looks like a mend.
+    /// Evidence of a prediction of nothing, everywhere or in the pass that is mended, of one that a curve of
+    /// that pass puts right, or of a shape without a name beside it where rows would stand beside their places:
+    /// whatever makes a wrong prediction vanish looks like a mend.
     fn nothing(&self, best: &Hypothesis) -> f64 {
         let evidence = |problem: &Problem| self.evidence(problem, &Columns::default()).0;
         let absent = self.absent.iter().filter(|_| !best.last_resort()).map(evidence);
         let in_pass = best.pass.map(|pass| evidence(&silent(self.problem, pass)));
         let grown = best.pass.map(|pass| self.grown(pass));
-        absent.chain(in_pass).chain(grown).fold(f64::NEG_INFINITY, f64::max)
+        let shape = best.shifts().then(|| *self.shape.get_or_init(|| self.nameless())).flatten();
+        absent.chain(in_pass).chain(grown).chain(shape).fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// Evidence of the file as it is, with a curve of a pass's own: something may have grown while it went on.
@@ -208,6 +221,23 @@ impl<'a> Court<'a> {
         let terms = cards.map(|card| Term::candidate(card, self.problem.model.rotary));
         let found = terms.filter_map(|term| try_candidate(&stage, &candidate(&stage, term)?));
         found.filter_map(|found| self.evidence_beside(&found.component)).collect()
+    }
+
+    /// That of the shape without a name that shows most beside the file: what settles after each stop is
+    /// followed by a row that stands beside its place.
+    fn nameless(&self) -> Option<f64> {
+        let shapes = nameless(self.problem);
+        let stage = Stage::new(self.problem, &self.common[1], &rough_noises(self.problem));
+        let number = self.problem.price_of_a_number();
+        let placed = shapes.iter().flat_map(|shape| shape.best(&[&stage], Entry::Motion)).flatten();
+        let worth = |placed: &Placed<'_>| {
+            let looks = placed.looks(&stage).for_gain(placed.gain);
+            placed.shape.price(number) + 2.0 * libm::log(looks)
+        };
+        let best = placed
+            .map(|placed| (placed.gain - worth(&placed), placed))
+            .max_by(|a, b| a.0.total_cmp(&b.0));
+        best.map(|(_, placed)| self.evidence(self.problem, &placed.columns).0 - worth(&placed))
     }
 
     /// Evidence of an effect beside the file's, each of its numbers paid for.

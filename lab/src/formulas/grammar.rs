@@ -25,6 +25,7 @@ pub(crate) fn nameless(problem: &Problem) -> Vec<Shape> {
         all.extend(moving::warming(&quantities));
     }
     all.extend(moving::since_a_reversal(&quantities));
+    all.extend(moving::since_a_stop(&quantities));
     all.extend(moving::late(&quantities));
     all.extend(of_shafts(&quantities, problem, false));
     for column in &quantities.columns {

@@ -372,6 +372,22 @@ pub(super) fn since_a_reversal(all: &Quantities) -> Option<Shape> {
     })
 }
 
+/// What dies away each time the axis has come to stand.
+pub(super) fn since_a_stop(all: &Quantities) -> Option<Shape> {
+    let since = all.since_stop.as_ref().filter(|_| all.moves() && all.timed)?;
+    let longest = since.values.iter().copied().filter(|s| s.is_finite()).fold(0.0, f64::max);
+    let gone = || call(Function::Exp, number(-1.0) * of(since) / unknown(0));
+    let settling = shape(
+        "settles after each stop",
+        "time since the stop",
+        "a servo, a slide or a frame that comes to rest after the axis has stopped",
+    )
+    .unknown("constant_s", &since.dimension, by_factors(0.02 * longest, 2.0 * longest, 12))
+    .curve("size", gone());
+    let both_ways = 0.0 < spread(&all.direction.values);
+    Some(if both_ways { settling.curve("each_way", of(&all.direction) * gone()) } else { settling })
+}
+
 /// A step at each turn that grows along the travel, and a start of each pass that dies away, where a
 /// place is met more than once.
 pub(super) fn of_each_pass(all: &Quantities) -> Vec<Shape> {

@@ -30,6 +30,8 @@ pub(crate) struct Quantities {
     /// How fast it turns at every sample, where that was measured and is not always the same.
     pub(crate) velocity: Option<Arc<Quantity>>,
     pub(crate) since_reversal: Arc<Quantity>,
+    /// Time since the axis came to stand, where it stands at times; infinite while it moves.
+    pub(crate) since_stop: Option<Arc<Quantity>>,
     /// Way since the start of the pass.
     pub(crate) travelled: Arc<Quantity>,
     pub(crate) pass: Arc<Quantity>,
@@ -74,6 +76,9 @@ impl Quantities {
                 .velocity_rpm()
                 .map(|values| quantity("velocity_rpm", unit("rpm"), values.clone())),
             since_reversal: quantity(since_reversal, way.clone(), record.since_reversal_mm.clone()),
+            since_stop: Some(&record.since_stop_s)
+                .filter(|since_s| !since_s.is_empty())
+                .map(|since_s| quantity("since_stop_s", unit("s"), since_s.clone())),
             travelled: quantity(travelled, way, record.travelled_mm.clone()),
             pass: quantity(
                 "pass",

@@ -52,11 +52,13 @@ impl Record {
             pass: places.iter().map(|&(row, _)| self.pass[row]).collect(),
             travelled_mm: straight(&self.travelled_mm),
             since_reversal_mm: straight(&self.since_reversal_mm),
+            since_stop_s: Column::default(),
             velocity_rpm: Column::default(),
             error_um: straight(&self.error_um),
             columns: self.columns.clone(),
             covariates: self.covariates_between(places),
         };
+        record.since_stop_s = record.since_stops_s();
         record.velocity_rpm = record.velocities_rpm();
         record
     }

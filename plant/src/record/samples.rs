@@ -102,12 +102,14 @@ impl Record {
             pass: samples.pass.clone(),
             travelled_mm: Column::default(),
             since_reversal_mm: Column::default(),
+            since_stop_s: Column::default(),
             velocity_rpm: Column::default(),
             error_um: vec![0.0; samples.len()].into(),
             columns,
             covariates,
         };
         (record.travelled_mm, record.since_reversal_mm) = ways(&record, machine);
+        record.since_stop_s = record.since_stops_s();
         record.velocity_rpm = record.velocities_rpm();
         record
     }
