@@ -87,6 +87,40 @@ fn play_has_the_way_that_takes_it_up() {
     }
 }
 
+/// A play that the whole way back would not take up is no play that was seen: a slope of the way back does as much.
+#[test]
+fn a_way_beyond_all_that_was_gone_is_no_play() {
+    for seed in seeds(1, 3) {
+        let found = there_and_back(seed, &|_, way, since_mm| {
+            let gone = if since_mm.is_finite() { since_mm } else { 0.0 };
+            if way < 0.0 { 0.02 * gone } else { 0.0 }
+        });
+        assert!(!names(&found).contains(&"backlash"), "{seed}: {:?}", last(&found));
+        assert_ne!(found.verdict, Verdict::NothingMissing, "{seed}");
+    }
+}
+
+/// A wave of the travel that no shaft has, under a clock that goes on while the place is looked at every tenth
+/// reading: the clock draws it better than the places do, and is not what makes it.
+#[test]
+fn a_wave_of_the_travel_is_no_vibration_where_places_are_held() {
+    for seed in seeds(1, 3) {
+        let mut noise = white(seed, 0.3);
+        let mm = |row: u16| 0.12 * f64::from(row);
+        let columns = vec![
+            ("time_s", (0..1500).map(|row| 0.05 * f64::from(row)).collect()),
+            ("position_mm", (0..1500).map(|row| mm(row / 10 * 10)).collect()),
+            (
+                "error_um",
+                (0..1500).map(|row| 0.8 * libm::sin(TAU * mm(row) / 2.0) + noise()).collect(),
+            ),
+        ];
+        let found = diagnosed_on(MACHINE, columns);
+        assert_eq!(found.verdict, Verdict::Unexplained, "{seed}");
+        assert!(!names(&found).contains(&"vibration"), "{seed}: {:?}", last(&found));
+    }
+}
+
 /// At one speed an axis that turns back tells a frequency from an order, and one that does not tells none.
 #[test]
 fn a_vibration_is_told_where_the_axis_turns_back() {

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::fs;
 
-use helixlock_lab::{Diagnosis, Verdict, compare};
+use helixlock_lab::{Diagnosis, Verdict, compare, diagnose};
 use serde_json::Value;
 
 use crate::support::command::{helixlock, put, repository, scratch, word};
@@ -51,6 +51,52 @@ fn readings_of_a_coarse_display_that_are_wild_are_noise_and_told_of() {
         assert!((far.rest_um - 0.153).abs() < 0.015, "{seed}: {far:?}");
         assert!((far.first.off_um + 3.0).abs() < 0.5 && far.first.pass < 1.5, "{far:?}");
     }
+}
+
+/// A tooth that is broken out, a reading wide, once each turn of 5 mm: wild readings come at no such places.
+#[test]
+fn what_is_far_off_at_even_distances_is_not_wild() {
+    let machine = "spindle.speed = \"60 rpm\"\nlead_screw.lead = \"5 mm\"\n";
+    for seed in 0..3 {
+        let mut noise = white(seed, 0.15);
+        let mm = |row: u16| 0.0523 * f64::from(row);
+        let tooth = |mm: f64| {
+            let off = (mm / 5.0).fract() - 0.317;
+            1.8 * libm::exp(-0.5 * (off / 0.004) * (off / 0.004))
+        };
+        let columns = vec![
+            ("time_s", (0..1600).map(|row| mm(row) / 5.0).collect()),
+            ("position_mm", (0..1600).map(mm).collect()),
+            ("error_um", (0..1600).map(|row| tooth(mm(row)) + noise()).collect()),
+        ];
+        let found = diagnose(&problem_of(machine, columns));
+        assert_eq!(found.verdict, Verdict::Unexplained, "{seed}");
+    }
+}
+
+/// Oil that is pumped each 150 mm of the way, whichever way it goes, and seeps off: after each stroke slow noise
+/// follows it.
+#[test]
+fn what_comes_again_with_the_way_is_no_slow_noise() {
+    let mut found = Vec::new();
+    for seed in 0..3 {
+        let mut noise = white(seed, 0.18);
+        let (mut slow, mut columns) = (0.0, [const { Vec::new() }; 4]);
+        for row in 0..160_u16 {
+            let (pass, nth) = (row / 40, f64::from(row % 40));
+            let mm = 16.4 * if pass % 2 == 0 { nth } else { 39.0 - nth };
+            let pumped = (16.4 * f64::from(row) / 262.0 + 0.3).fract();
+            slow = 0.7 * slow + noise();
+            let error_um = 2.6 * libm::exp(-pumped / 0.15) + slow;
+            let cells =
+                [f64::from(pass), 6.2 * f64::from(row) + 40.0 * f64::from(pass), mm, error_um];
+            columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+        }
+        let titles = ["pass", "time_s", "position_mm", "error_um"];
+        let problem = problem_of(MACHINE, titles.into_iter().zip(columns).collect());
+        found.push(diagnose(&problem).verdict);
+    }
+    assert_eq!(found, [Verdict::Unexplained; 3]);
 }
 
 /// Noise that forgets within a few rows, and one wild reading of eighteen deviations: beside the noise of that one

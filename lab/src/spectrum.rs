@@ -4,6 +4,7 @@
 
 mod amplitude_spectrum;
 mod bands;
+mod combs;
 mod lines;
 mod order_spectrum;
 mod thinning;

@@ -148,14 +148,14 @@ impl<'a> Court<'a> {
     }
 
     /// Evidence of a prediction of nothing, everywhere or in the pass that is mended, of one that a curve of
-    /// that pass puts right, or of a shape without a name beside it where rows would stand beside their places:
+    /// that pass puts right, or of a shape without a name beside it where readings would have slipped:
     /// whatever makes a wrong prediction vanish looks like a mend.
     fn nothing(&self, best: &Hypothesis) -> f64 {
         let evidence = |problem: &Problem| self.evidence(problem, &Columns::default()).0;
         let absent = self.absent.iter().filter(|_| !best.last_resort()).map(evidence);
         let in_pass = best.pass.map(|pass| evidence(&silent(self.problem, pass)));
         let grown = best.pass.map(|pass| self.grown(pass));
-        let shape = best.shifts().then(|| *self.shape.get_or_init(|| self.nameless())).flatten();
+        let shape = best.slips.then(|| *self.shape.get_or_init(|| self.nameless())).flatten();
         absent.chain(in_pass).chain(grown).chain(shape).fold(f64::NEG_INFINITY, f64::max)
     }
 

@@ -32,6 +32,8 @@ pub(super) struct Hypothesis {
     pub(super) physics: bool,
     /// True for a factor on what a sensor shows.
     pub(super) scales: bool,
+    /// True for readings that stand beside their rows.
+    pub(super) slips: bool,
     /// How much more usual the readings are when it is put right, as evidence.
     pub(super) usual: f64,
     /// Free numbers, and places they were looked for at.
@@ -53,6 +55,7 @@ impl Hypothesis {
             pass: None,
             physics: false,
             scales: false,
+            slips: false,
             usual: 0.0,
             numbers: 0.0,
             looks: 1.0,

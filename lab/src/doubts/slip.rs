@@ -33,5 +33,6 @@ fn slip(problem: &Problem, sensor: usize, too_low: isize) -> Hypothesis {
     let rows = if rows == 1 { "1 row".to_owned() } else { format!("{rows} rows") };
     let says = format!("`{column}` stands {rows} {below} its place in every pass");
     let mend = format!("move `{column}` {back} by {rows} in every pass");
-    Hypothesis::new(("shift", says, mend), saying(problem, predicted))
+    let slipped = Hypothesis::new(("shift", says, mend), saying(problem, predicted));
+    Hypothesis { slips: true, ..slipped }
 }

@@ -167,6 +167,7 @@ pub(crate) fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> V
     all.extend(local_shapes(problem, fit));
     all.extend(waves::lines(problem, model, fit));
     all.extend(waves::bands(problem, fit));
+    all.extend(waves::combs(problem, model, fit));
     all.extend(chirps(problem, model, fit));
     all.extend(bursts(problem, model, fit));
     all.extend(step(problem, model, fit));
@@ -388,6 +389,7 @@ fn standing_apart(problem: &Problem, fit: &Fit) -> Option<Structure> {
     let (along, how, at) = match found.company {
         Company::Rows => ("time", "several together", None),
         Company::Angle(order) => ("spindle order", "at one angle", Some(order)),
+        Company::Intervals => ("time", "at even intervals", None),
         Company::Place => ("position", "where the last pass has one", None),
         Company::Number => ("time", "more than noise has", None),
     };

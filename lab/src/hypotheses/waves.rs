@@ -1,9 +1,10 @@
 //! Waves that a fit leaves: lines, and bands of frequencies that are none.
 
-use super::probes::{Structure, matters, of_all};
+use super::probes::{Structure, asked, matters, of_all, probes};
 use helixlock_plant::Column;
 
 use crate::model::{Columns, Fit, Problem, settle};
+use crate::numerics::{spread, usual_rate};
 use crate::policy::chance::SIGNIFICANCE;
 use crate::policy::extent::LISTED_LINES;
 use crate::spectrum::{Line, LineSearch, wave};
@@ -71,6 +72,30 @@ pub(super) fn bands(problem: &Problem, fit: &Fit) -> Vec<Structure> {
     found
 }
 
+/// Combs of frequencies over the spindle angle, over time and over the way, sensor by sensor: what all harmonics show
+/// beside the strongest, the noise fitted anew.
+pub(super) fn combs(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
+    let axes: Vec<Cyclic> = cyclic(problem).into_iter().chain(way(problem)).collect();
+    let of = |sensor: usize, axis: &Cyclic| {
+        let Cyclic { frequency, values, highest, .. } = axis;
+        let search = LineSearch { problem, fit, sensor, coordinate: values, highest: *highest };
+        let comb = search.comb()?;
+        let harmonic =
+            |times: &u32| wave(problem, sensor, values, f64::from(*times) * comb.frequency);
+        let with_one = model.and(&harmonic(&comb.strongest));
+        let before = settle(problem, &with_one, &fit.noises);
+        let others: Vec<Column> =
+            comb.others.iter().flat_map(|times| harmonic(times).raw).collect();
+        let looks = (probes(problem) * comb.looks, SIGNIFICANCE);
+        let (rms_um, p_value) = asked(problem, (&with_one, &before), &others, looks);
+        let shape = "comes again evenly, in no smooth shape";
+        let told = Structure::without_place(frequency, shape, rms_um, p_value);
+        Some(Structure { at: Some(comb.frequency), ..told })
+    };
+    let sensors = 0..problem.sensors.len();
+    sensors.flat_map(|sensor| axes.iter().filter_map(move |axis| of(sensor, axis))).collect()
+}
+
 /// A coordinate that waves are looked for in.
 pub(super) struct Cyclic {
     /// What it is, and what a frequency over it is called.
@@ -98,6 +123,23 @@ pub(super) fn cyclic(problem: &Problem) -> Vec<Cyclic> {
         });
     }
     axes
+}
+
+/// The way that the axis has gone since the record began, in turns, where it is not the angle.
+fn way(problem: &Problem) -> Option<Cyclic> {
+    let turns: Vec<f64> = problem.record.turns().collect();
+    let once = problem.record.passes().len() == 1 && spread(&problem.record.direction) <= 0.0;
+    let mut gone = 0.0;
+    let steps = turns.windows(2).map(|two| (two[1] - two[0]).abs());
+    let values: Vec<f64> = std::iter::once(0.0)
+        .chain(steps.map(|step| {
+            gone += step;
+            gone
+        }))
+        .collect();
+    let highest = 0.5 * usual_rate(&values);
+    let frequency = "order of the way";
+    (!once).then(|| Cyclic { along: "way", frequency, values: values.into(), highest })
 }
 
 fn time_is_travel(problem: &Problem) -> bool {

@@ -41,12 +41,32 @@ impl Problem {
         self.record.turns().map(|turn| behind(turn).saturating_sub(1)).collect()
     }
 
-    /// True where time was measured and the axis goes as fast as it is told to: it stops nowhere.
+    /// True where time was measured and the axis goes as fast as it is told to, from row to row, or through whole
+    /// passes where its place is looked at less often than the rest: it stops nowhere.
     fn goes_as_told(&self) -> bool {
         let measurement = &self.measurement;
         let nominal = self.model.spindle.speed_rpm;
-        let share = measurement.over_the_way(|row, rpm| rpm / measurement.told_rpm(row, nominal));
-        measurement.timed && libm::log(share).abs() < PASSING
+        let of_rows = measurement.over_the_way(|row, rpm| rpm / measurement.told_rpm(row, nominal));
+        let is_one = |share: f64| libm::log(share).abs() < PASSING;
+        measurement.timed && (is_one(of_rows) || is_one(self.gone() / self.told_to_go(nominal)))
+    }
+
+    /// Turns that the axis has gone through all passes.
+    fn gone(&self) -> f64 {
+        let turns = &self.measurement.angle_rev;
+        self.moves().map(|row| (turns[row] - turns[row - 1]).abs()).sum()
+    }
+
+    /// Turns that it was told to go in that time.
+    fn told_to_go(&self, nominal_rpm: f64) -> f64 {
+        let time_s = &self.measurement.time_s;
+        let told = |row| self.measurement.told_rpm(row, nominal_rpm) / 60.0;
+        self.moves().map(|row| told(row) * (time_s[row] - time_s[row - 1])).sum()
+    }
+
+    /// Rows that another of their pass stands before.
+    fn moves(&self) -> impl Iterator<Item = usize> {
+        self.record.passes().into_iter().flat_map(|rows| rows.skip(1))
     }
 
     /// What each target shows at every visit, a column a target and sensor; none where there are no

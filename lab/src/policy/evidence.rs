@@ -37,6 +37,12 @@ pub(crate) const TIME_LOCK: f64 = 12.0;
 /// of a third of a wave are stamped unevenly.
 pub(crate) const OFF_AN_EVEN_MOTION: f64 = 0.17;
 
+/// Usual intervals of readings within which angles that are held change.
+///
+/// Chosen: clocks of loggers, and rows that were picked for a coarse look, vary by less than an interval. Doubled: an
+/// axis that moves from place to place within three readings is taken for one that goes evenly.
+pub(crate) const HELD_FOR: f64 = 2.0;
+
 /// Evidence by which a set of effects of known size must beat the best single one.
 ///
 /// Chosen: odds of 150 to 1. Doubled: a warm day's weather must be the larger for all of it to be

@@ -210,13 +210,16 @@ fn implausible(problem: &Problem, judged: &Judged) -> Option<Refusal> {
     })
 }
 
-/// Refused when the fit would go on beyond the range of a nonlinear parameter: what it follows
-/// there is another shape than the one the effect is named for.
+/// Refused when the fit would go on beyond the range of a nonlinear parameter, or a way beyond all that any reversal
+/// was followed by: what it follows there is another shape than the one the effect is named for.
 fn at_an_end(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
     let term = &judged.component.term;
     term.nonlinear_indices().iter().enumerate().find_map(|(place, &index)| {
         let (what, value) = (&term.parameters[index], term.values[index]);
-        let (low, high) = (*what.range.start(), *what.range.end());
+        let low = *what.range.start();
+        let seen =
+            if what.of_way && what.may_be_none() { longest_way(problem) } else { f64::INFINITY };
+        let high = what.range.end().min(seen);
         let inside = low < value && value < high;
         let next = match what.search {
             Search::Logarithmic if value <= low => 2.0 * low,
@@ -228,6 +231,12 @@ fn at_an_end(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal>
         let refused = low < high && !inside && changes(problem, now, judged, (place, next));
         refused.then(|| Refusal::End { parameter: what.key(), value })
     })
+}
+
+/// Longest way that a record shows behind a reversal.
+fn longest_way(problem: &Problem) -> f64 {
+    let ways = problem.record.since_reversal_mm.iter().copied();
+    ways.filter(|way| way.is_finite()).fold(0.0, f64::max)
 }
 
 /// True unless the fit is as good with another value of a nonlinear parameter: a way that is shorter

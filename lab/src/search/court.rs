@@ -26,7 +26,7 @@ use crate::model::{
     Columns, Component, Fit, Judged, Problem, Stage, State, noises_of, settle, with_noise,
 };
 use crate::noise::{Noise, about_means, rms};
-use crate::numerics::{Looks, chi_squared_tail, count};
+use crate::numerics::{Looks, chi_squared_tail, count, spread};
 use crate::policy::chance::{NO_ALL_CLEAR, SIGNIFICANCE};
 use crate::policy::evidence::{MARGIN, SHAPE};
 use crate::policy::size::SHARE_OF_AN_EFFECT;
@@ -120,15 +120,19 @@ pub(crate) fn nobodys(problem: &Problem, steps: &[Step]) -> Vec<Structure> {
     found.filter(|structure| is_left(problem, &last.state.fit, structure)).collect()
 }
 
-/// A wave in time that no clock tells from an order.
+/// A wave in time that no clock tells from an order; without a clock one over the way, which is not the angle where
+/// the axis turns back.
 fn wave_of_nobody(problem: &Problem, judged: &Judged) -> Option<Structure> {
-    problem.measurement.timed.then(|| {
-        let rms_um = judged.component.size_um(problem, judged.coefficients().0);
+    let rms_um = judged.component.size_um(problem, judged.coefficients().0);
+    let told = |along| {
         let shape = "sinusoid, or one over the angle";
-        let along = "frequency in time";
-        let told = Structure::without_place(along, shape, rms_um, judged.p_value);
-        Structure { at: judged.component.term.nonlinear().first().copied(), ..told }
-    })
+        Structure::without_place(along, shape, rms_um, judged.p_value)
+    };
+    if problem.measurement.timed {
+        let at = judged.component.term.nonlinear().first().copied();
+        return Some(Structure { at, ..told("frequency in time") });
+    }
+    (0.0 < spread(&problem.record.direction)).then(|| told("way"))
 }
 
 /// A curve that is beyond chance in any noise, though its values or other data forbid the name.

@@ -8,8 +8,8 @@ use super::likeness;
 use super::refusal::Refusal;
 use crate::hypotheses::{gain_at, turn_scan};
 use crate::model::{Columns, Judged, Problem, Stage, State};
-use crate::numerics::{count, golden_maximum, least_squares, spread};
-use crate::policy::evidence::{MARGIN, OFF_AN_EVEN_MOTION, TIME_LOCK};
+use crate::numerics::{count, golden_maximum, least_squares, median, spread};
+use crate::policy::evidence::{HELD_FOR, MARGIN, OFF_AN_EVEN_MOTION, TIME_LOCK};
 use crate::spectrum::wave;
 
 /// Steps to the best order near one.
@@ -63,8 +63,9 @@ fn ahead_of_orders(problem: &Problem, now: &State, judged: &Judged) -> Option<(f
     Some((order, own - gain))
 }
 
-/// Turns as an even motion through each pass makes them, as far as rows lie within a part of a wave of it: angles
-/// that are stamped unevenly draw a wave of the spindle worse than the clock does.
+/// Turns as an even motion through each pass makes them, as far as rows lie within a part of a wave of it, or within
+/// a step of a column that is held: angles that are stamped unevenly, or seldom, draw a wave of the spindle worse
+/// than the clock does.
 fn even_turns(problem: &Problem, turns: &[f64], order: f64) -> Vec<f64> {
     let record = &problem.record;
     let mut even = turns.to_vec();
@@ -73,12 +74,25 @@ fn even_turns(problem: &Problem, turns: &[f64], order: f64) -> Vec<f64> {
         let [ones, time] = [&vec![1.0; own.len()], &time_s.to_vec()];
         let fit = least_squares::fit(&[ones, time], own);
         let off = (fit.residual_square / count(own.len())).sqrt();
-        if off * order < OFF_AN_EVEN_MOTION {
+        if off * order < OFF_AN_EVEN_MOTION || off < held_step(time_s, own) {
             let left = least_squares::left(&[ones, time], own, &fit.coefficients);
             even[rows].iter_mut().zip(left).for_each(|(turn, left)| *turn -= left);
         }
     }
     even
+}
+
+/// Step of angles that stand for a quarter of the rows or more though readings go on evenly: who reads them looks seldom, or sees whole
+/// steps. An axis that rests moves for longer than a reading; 0 without such steps.
+fn held_step(time_s: &[f64], turns: &[f64]) -> f64 {
+    let steps = turns.windows(2).map(|two| (two[1] - two[0]).abs());
+    let intervals_s: Vec<f64> = time_s.windows(2).map(|two| two[1] - two[0]).collect();
+    let usual_s = median(&mut intervals_s.clone());
+    let (mut moves, taken_s): (Vec<f64>, Vec<f64>) =
+        steps.zip(intervals_s).filter(|(step, _)| 0.0 < *step).unzip();
+    let stands = 4 * moves.len() < 3 * turns.len();
+    let at_once = taken_s.iter().all(|taken_s| *taken_s < HELD_FOR * usual_s);
+    if stands && at_once { median(&mut moves) } else { 0.0 }
 }
 
 /// Rows of each pass that go one way.

@@ -87,7 +87,7 @@ const ALIKE: usize = 16;
 ///
 /// Of noise `s·z` it is `zᵀSPSz` with the projection `P` on the waves; the χ² with its mean and its
 /// variance has `tr(SPS)² / tr((SPS)²)` degrees of freedom.
-fn freedom(waves: &[&[f64]], white: &[f64], fit: &LinearFit) -> f64 {
+pub(super) fn freedom(waves: &[&[f64]], white: &[f64], fit: &LinearFit) -> f64 {
     let left = least_squares::left(waves, white, &fit.coefficients);
     let loud = left.chunks(ALIKE).flat_map(|part| {
         let root = (dot(part, part) / count(part.len())).sqrt();

@@ -4,6 +4,7 @@ use helixlock_plant::Machine;
 use rayon::prelude::*;
 
 use super::bands::{self, Band};
+use super::combs::{self, Comb};
 use super::order_spectrum::{Line, Point, Scan};
 use crate::model::{Columns, Fit, Problem, State, settle};
 use crate::noise::Whitener;
@@ -90,6 +91,12 @@ impl LineSearch<'_> {
     #[must_use]
     pub(crate) fn band(&self) -> Option<Band> {
         self.with_scan(bands::clearest)
+    }
+
+    /// The clearest comb of frequencies.
+    #[must_use]
+    pub(crate) fn comb(&self) -> Option<Comb> {
+        self.with_scan(combs::clearest)
     }
 
     /// Hands a scan and the whitened residual of this sensor to a function.
