@@ -1,4 +1,4 @@
-//! Waves that a fit leaves: lines, and bands of frequencies that are none.
+//! Waves that a fit leaves: lines, bands of frequencies that are none, and combs of them.
 
 use super::probes::{Structure, asked, matters, of_all, probes};
 use helixlock_plant::Column;
