@@ -1,9 +1,12 @@
 //! How much of a structure flaws may make: of the formulas, of rounded logs, of a loop that hunts.
 
+use helixlock_plant::Part;
+
 use super::probes::Structure;
 use crate::model::{Fit, Problem};
 use crate::noise::{about_means, rms};
 use crate::numerics::least_squares::dot;
+use crate::numerics::{count, spread};
 use crate::policy::chance::STANDARD_ERRORS;
 use crate::policy::size::{SHARE_OF_ERROR, SLOW_SHARE_OF_HUNTING};
 
@@ -37,6 +40,19 @@ pub(crate) fn above_flaws(problem: &Problem, fit: &Fit, structure: &Structure) -
 fn of_steps(problem: &Problem) -> f64 {
     let known = problem.measurement.covariates.contains_key("steps");
     if known { 0.5 * problem.model.drive.step_um } else { 0.0 }
+}
+
+/// What stairs of the compensation leave, which come at even distances, µm: one that comes while a reading is made is
+/// in it by any share, half a fringe off on either side.
+pub(super) fn of_stairs(problem: &Problem) -> f64 {
+    let machine = &problem.model;
+    let cycle = machine.dividers.compensation_cycle().filter(|_| machine.has(Part::Dividers));
+    let Some(cycle) = cycle else { return 0.0 };
+    let way_mm = &problem.record.travelled_mm;
+    let gone_mm =
+        problem.record.passes().into_iter().map(|rows| spread(&way_mm[rows])).sum::<f64>();
+    let stairs = 1000.0 * gone_mm / (f64::from(cycle) * machine.fringe_um());
+    0.5 * machine.fringe_um() * (stairs / count(problem.samples.len())).min(1.0).sqrt()
 }
 
 /// What fitted effects show too much or too little because logs were rounded, µm: as much as their

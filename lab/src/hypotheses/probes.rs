@@ -9,7 +9,7 @@ use super::calibration;
 use super::chirps::chirps;
 use super::common_curve::common_curve;
 use super::excursions::excursions;
-use super::flaws::above_flaws;
+use super::flaws::{above_flaws, of_stairs};
 use super::jumps::jumps;
 use super::levels::levels;
 use super::local::{self, Local};
@@ -385,7 +385,7 @@ fn slow_in_some_passes(problem: &Problem, fit: &Fit) -> Option<Structure> {
 
 /// Outliers that do not come by chance.
 fn standing_apart(problem: &Problem, fit: &Fit) -> Option<Structure> {
-    let found = outliers(problem, fit)?;
+    let found = outliers(problem, fit).filter(|one| of_stairs(problem) < one.rms_um)?;
     let (along, how, at) = match found.company {
         Company::Rows => ("time", "several together", None),
         Company::Angle(order) => ("spindle order", "at one angle", Some(order)),
