@@ -22,5 +22,5 @@ pub(crate) use looks::Looks;
 pub(crate) use random_effects::drawn_sizes_gain;
 pub(crate) use sampling::{highest_frequency, may_resolve, resolves, usual_rate};
 pub(crate) use summary::{
-    count, deviation, mean, median, one_in, rms_about_means, spread, weighted_median,
+    count, deviation, longest, mean, median, one_in, rms_about_means, spread, weighted_median,
 };

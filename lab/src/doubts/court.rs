@@ -230,14 +230,11 @@ impl<'a> Court<'a> {
         let stage = Stage::new(self.problem, &self.common[1], &rough_noises(self.problem));
         let number = self.problem.price_of_a_number();
         let placed = shapes.iter().flat_map(|shape| shape.best(&[&stage], Entry::Motion)).flatten();
-        let worth = |placed: &Placed<'_>| {
-            let looks = placed.looks(&stage).for_gain(placed.gain);
-            placed.shape.price(number) + 2.0 * libm::log(looks)
+        let priced = |placed: Placed<'_>| {
+            (placed.price(number, &placed.looks(&stage), placed.gain), placed.gain, placed.columns)
         };
-        let best = placed
-            .map(|placed| (placed.gain - worth(&placed), placed))
-            .max_by(|a, b| a.0.total_cmp(&b.0));
-        best.map(|(_, placed)| self.evidence(self.problem, &placed.columns).0 - worth(&placed))
+        let best = placed.map(priced).max_by(|a, b| (a.1 - a.0).total_cmp(&(b.1 - b.0)));
+        best.map(|(price, _, columns)| self.evidence(self.problem, &columns).0 - price)
     }
 
     /// Evidence of an effect beside the file's, each of its numbers paid for.

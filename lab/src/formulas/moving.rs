@@ -7,7 +7,7 @@ use super::expression::{Expression, Function, Quantity, call, number, turns};
 use super::grammar::{periods, shape, unknown};
 use super::quantities::{Quantities, about_middle, from_start, lowest, of};
 use super::shape::Shape;
-use crate::numerics::{by_factors, count, evenly, spread};
+use crate::numerics::{by_factors, count, evenly, longest, spread};
 use crate::policy::extent::{LONGEST_WAVE, RUN_IN};
 
 /// First width of a knock, against the distance of two; it is refined.
@@ -352,8 +352,7 @@ fn cube(x: &Arc<Quantity>, along: &str) -> Shape {
 
 /// Play that is not taken up at once, where passes turn back inside.
 pub(super) fn since_a_reversal(all: &Quantities) -> Option<Shape> {
-    let ways = all.since_reversal.values.iter().copied().filter(|mm| mm.is_finite());
-    let longest = ways.fold(0.0, f64::max);
+    let longest = longest(&all.since_reversal.values);
     let (of_way, way) = (&all.since_reversal.dimension, &all.direction);
     let gone = number(-1.0) * of(&all.since_reversal) / unknown(0);
     (0.0 < longest).then(|| {
@@ -375,7 +374,7 @@ pub(super) fn since_a_reversal(all: &Quantities) -> Option<Shape> {
 /// What dies away each time the axis has come to stand.
 pub(super) fn since_a_stop(all: &Quantities) -> Option<Shape> {
     let since = all.since_stop.as_ref().filter(|_| all.moves() && all.timed)?;
-    let longest = since.values.iter().copied().filter(|s| s.is_finite()).fold(0.0, f64::max);
+    let longest = longest(&since.values);
     let gone = || call(Function::Exp, number(-1.0) * of(since) / unknown(0));
     let settling = shape(
         "settles after each stop",

@@ -326,6 +326,11 @@ impl Shape {
 }
 
 impl Placed<'_> {
+    /// What it costs as evidence where a size costs so much and a gain was looked for.
+    pub(crate) fn price(&self, of_a_size: f64, looks: &Looks, gain: f64) -> f64 {
+        self.shape.price(of_a_size) + 2.0 * libm::log(looks.for_gain(gain))
+    }
+
     /// Where it was looked for: what its curve turns by along each of its unknowns through the best.
     pub(crate) fn looks(&self, stage: &Stage<'_>) -> Looks {
         let unknowns = self.shape.unknowns.iter().enumerate();

@@ -7,7 +7,7 @@ use helixlock_plant::{CATALOGUE, Card, Entry, Formula, Parameter, Role, Search, 
 use super::corrections::{corrections, is_correctable};
 use super::unfolding::unfolded;
 use crate::model::{Component, Problem, Stage};
-use crate::numerics::{Looks, by_factors, count, evenly, may_resolve, product, spread};
+use crate::numerics::{Looks, by_factors, count, evenly, longest, may_resolve, product, spread};
 use crate::policy::evidence::{ANOTHER_MATERIAL, HIGH_HARMONIC_PRICE, LOOSELY_KNOWN, MARGIN};
 use crate::policy::extent::{FREQUENCIES, LONGEST, NARROWEST, OVERTONES, SHORTEST, SLOWEST_WAVES};
 use crate::spectrum::{Scan, gear_orders, strongest_first};
@@ -314,8 +314,7 @@ fn logarithmic(problem: &Problem, parameter: &Parameter) -> Vec<f64> {
             Some((travel_mm / NARROWEST, travel_mm))
         }
         "deg" => {
-            let ways = problem.record.since_reversal_mm.iter().filter(|way| way.is_finite());
-            let longest = ways.copied().fold(0.0, f64::max);
+            let longest = longest(&problem.record.since_reversal_mm);
             Some((longest / NARROWEST, longest))
         }
         _ => None,

@@ -127,8 +127,11 @@ pub(super) fn cyclic(problem: &Problem) -> Vec<Cyclic> {
 
 /// The way that the axis has gone since the record began, in turns, where it is not the angle.
 fn way(problem: &Problem) -> Option<Cyclic> {
-    let turns: Vec<f64> = problem.record.turns().collect();
     let once = problem.record.passes().len() == 1 && spread(&problem.record.direction) <= 0.0;
+    if once {
+        return None;
+    }
+    let turns: Vec<f64> = problem.record.turns().collect();
     let mut gone = 0.0;
     let steps = turns.windows(2).map(|two| (two[1] - two[0]).abs());
     let values: Vec<f64> = std::iter::once(0.0)
@@ -139,7 +142,7 @@ fn way(problem: &Problem) -> Option<Cyclic> {
         .collect();
     let highest = 0.5 * usual_rate(&values);
     let frequency = "order of the way";
-    (!once).then(|| Cyclic { along: "way", frequency, values: values.into(), highest })
+    Some(Cyclic { along: "way", frequency, values: values.into(), highest })
 }
 
 fn time_is_travel(problem: &Problem) -> bool {

@@ -16,6 +16,12 @@ pub(crate) fn spread(values: &[f64]) -> f64 {
     if low <= high { high - low } else { 0.0 }
 }
 
+/// Longest of ways or times that are infinite where there is none; 0 of none.
+#[must_use]
+pub(crate) fn longest(values: &[f64]) -> f64 {
+    values.iter().copied().filter(|value| value.is_finite()).fold(0.0, f64::max)
+}
+
 /// Mean; 0 of none.
 #[must_use]
 pub(crate) fn mean(values: &[f64]) -> f64 {

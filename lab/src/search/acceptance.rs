@@ -11,7 +11,7 @@ use crate::model::{
 };
 use crate::noise::{effective_samples, rms, swift_rms};
 use crate::numerics::least_squares::covariance_rows;
-use crate::numerics::{chi_squared_tail, count};
+use crate::numerics::{chi_squared_tail, count, longest};
 use crate::policy::chance::{
     FEW_SAMPLES, NAMED, NAMED_IN_OTHER_NOISE, NO_ALL_CLEAR, STANDARD_ERRORS,
 };
@@ -217,9 +217,10 @@ fn at_an_end(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal>
     term.nonlinear_indices().iter().enumerate().find_map(|(place, &index)| {
         let (what, value) = (&term.parameters[index], term.values[index]);
         let low = *what.range.start();
-        let seen =
-            if what.of_way && what.may_be_none() { longest_way(problem) } else { f64::INFINITY };
-        let high = what.range.end().min(seen);
+        let mut high = *what.range.end();
+        if what.of_way && what.may_be_none() {
+            high = high.min(longest(&problem.record.since_reversal_mm));
+        }
         let inside = low < value && value < high;
         let next = match what.search {
             Search::Logarithmic if value <= low => 2.0 * low,
@@ -231,12 +232,6 @@ fn at_an_end(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal>
         let refused = low < high && !inside && changes(problem, now, judged, (place, next));
         refused.then(|| Refusal::End { parameter: what.key(), value })
     })
-}
-
-/// Longest way that a record shows behind a reversal.
-fn longest_way(problem: &Problem) -> f64 {
-    let ways = problem.record.since_reversal_mm.iter().copied();
-    ways.filter(|way| way.is_finite()).fold(0.0, f64::max)
 }
 
 /// True unless the fit is as good with another value of a nonlinear parameter: a way that is shorter

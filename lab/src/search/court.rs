@@ -456,7 +456,7 @@ impl<'a> Court<'a> {
 
     /// What a shape pays for a gain: its sizes, and the places it was looked for at.
     fn price(&self, placed: &Placed<'_>, looks: &Looks, gain: f64) -> f64 {
-        placed.shape.price(self.problem.price_of_a_number()) + 2.0 * libm::log(looks.for_gain(gain))
+        placed.price(self.problem.price_of_a_number(), looks, gain)
     }
 
     /// Log likelihood of some columns under the likelier of two noises: that of the model adjusted, and one of

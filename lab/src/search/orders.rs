@@ -82,8 +82,8 @@ fn even_turns(problem: &Problem, turns: &[f64], order: f64) -> Vec<f64> {
     even
 }
 
-/// Step of angles that stand for a quarter of the rows or more though readings go on evenly: who reads them looks seldom, or sees whole
-/// steps. An axis that rests moves for longer than a reading; 0 without such steps.
+/// Step of angles that stand for a quarter of the rows or more though readings go on evenly: who reads them looks
+/// seldom, or sees whole steps. An axis that rests moves for longer than a reading; 0 without such steps.
 fn held_step(time_s: &[f64], turns: &[f64]) -> f64 {
     let steps = turns.windows(2).map(|two| (two[1] - two[0]).abs());
     let intervals_s: Vec<f64> = time_s.windows(2).map(|two| two[1] - two[0]).collect();

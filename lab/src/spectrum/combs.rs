@@ -37,9 +37,8 @@ pub(crate) fn clearest(scan: &Scan<'_>, white: &[f64]) -> Option<Comb> {
     spectrum.retain(|point| point.frequency <= highest);
     let looks = count(TEETH.len() * spectrum.len()) / POINTS_A_CELL * LOOKS_A_CELL;
     let all = TEETH.into_iter().flat_map(|teeth| likeliest(scan, &spectrum, teeth));
-    let fitted = all.map(|(teeth, frequency)| fitted(scan, white, teeth, frequency));
-    let best = fitted.min_by(|a, b| a.chance.total_cmp(&b.chance))?;
-    Some(Comb { looks, ..best })
+    let fitted = all.map(|comb| fitted(scan, white, comb, looks));
+    fitted.min_by(|a, b| a.chance.total_cmp(&b.chance))
 }
 
 /// Independent places a frequency cell, as for lines.
@@ -72,7 +71,7 @@ fn likeliest(scan: &Scan<'_>, spectrum: &[Point], teeth: u32) -> Vec<(u32, f64)>
 }
 
 /// A comb with what its waves take away together beside the strongest of them, and the chance of that at one place.
-fn fitted(scan: &Scan<'_>, white: &[f64], teeth: u32, frequency: f64) -> Comb {
+fn fitted(scan: &Scan<'_>, white: &[f64], (teeth, frequency): (u32, f64), looks: f64) -> Comb {
     let frequencies = (1..=teeth).map(|tooth| f64::from(tooth) * frequency);
     let waves: Vec<[Vec<f64>; 2]> = frequencies.clone().map(|one| scan.wave(one)).collect();
     let views: Vec<&[f64]> = waves.iter().flatten().map(Vec::as_slice).collect();
@@ -88,5 +87,5 @@ fn fitted(scan: &Scan<'_>, white: &[f64], teeth: u32, frequency: f64) -> Comb {
     let scale = beside / (rank - 2.0).max(1.0);
     let others = (1..=teeth).filter(|tooth| *tooth != strongest).collect();
     let chance = chi_squared_tail((taken - most) * scale, beside);
-    Comb { frequency, strongest, others, looks: 1.0, chance }
+    Comb { frequency, strongest, others, looks, chance }
 }
