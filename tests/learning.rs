@@ -36,14 +36,23 @@ fn ledger(folder: &Path) -> Value {
 fn a_diagnosis_says_how_the_data_were_read_and_why_names_were_not_taken() {
     let folder = scratch();
     let (path, data) = word(&folder, "data.csv");
-    let rows = (0..200_u32).map(|row| format!("{},0.{:02}\n", 700 + row, row * row * 37 % 100));
+    // The first pass of a measurement, as a recorder that knows the time alone would have it.
+    let known = fs::read_to_string(repository().join("examples/hidden-gear/data.csv"));
+    let known = known.expect("an example");
+    let rows = known.lines().filter_map(|line| {
+        let [_, time_s, error_um, "1"] = line.split(',').collect::<Vec<_>>()[..] else {
+            return None;
+        };
+        let time_s = 700.0 + time_s.parse::<f64>().expect("a time");
+        Some(format!("{time_s:.3},{error_um}\n"))
+    });
     put(&path, &("time_s,error_um\n".to_owned() + &rows.collect::<String>()));
     let run = helixlock(&["diagnose", "examples/hidden-gear/machine.toml", &data]);
     let said = [
         "note: angle and travel follow from `time_s` and the spindle speed\n",
-        "note: times of effects count from the first sample, `time_s` 700\n",
-        "    not taken beside screw-periodic, gear-error",
-        "    not taken: explains less than screw-periodic: evidence ",
+        "note: times of effects count from the first sample, `time_s` 701.314\n",
+        "    not taken beside gear-error, screw-periodic",
+        ": explains less than screw-progressive: evidence ",
     ];
     for said in said {
         assert!(run.stdout.contains(said), "{said}: {}", run.stdout);

@@ -45,6 +45,7 @@ mod interruption;
 mod language;
 #[cfg(target_os = "linux")]
 mod large_tables;
+mod late_recorders;
 mod layers;
 mod learning;
 mod licences;

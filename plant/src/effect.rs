@@ -84,6 +84,12 @@ pub enum Role {
     },
     /// Anything else: the columns depend on it.
     Nonlinear,
+    /// What a pass began with, of an effect with a memory: one design column. It is none of the
+    /// machine's numbers, and no file has it.
+    Start {
+        /// The pass, as [`Record::pass`] numbers it.
+        pass: usize,
+    },
 }
 
 /// Where values of a nonlinear parameter are worth trying.
@@ -195,6 +201,13 @@ impl Parameter {
         parameter
     }
 
+    /// What a pass began with, δ there being 0 otherwise.
+    #[must_use]
+    pub const fn start(pass: usize) -> Self {
+        let role = Role::Start { pass };
+        Self::new("start", crate::units::UM, role, "of a pass").or(0.0)
+    }
+
     /// A number of a formula of the user's, near a value; [`crate::Custom`] says how it enters.
     #[must_use]
     pub fn of_formula(name: String, value: f64) -> Self {
@@ -270,6 +283,12 @@ impl Parameter {
         self.role == Role::Nonlinear
     }
 
+    /// True for what a pass began with.
+    #[must_use]
+    pub fn is_start(&self) -> bool {
+        matches!(self.role, Role::Start { .. })
+    }
+
     /// True for a time or a way that an effect takes only where the data ask for one.
     #[must_use]
     pub fn may_be_none(&self) -> bool {
@@ -313,6 +332,12 @@ pub trait Effect: fmt::Debug + Send + Sync {
     /// True when δ depends on [`Instant::error_um`], so that it has to be evaluated last.
     fn feeds_back(&self) -> bool {
         false
+    }
+
+    /// What δ has more in a pass that began with δ = 1; `None` of an effect without a memory, or one
+    /// whose memory the record tells.
+    fn started(&self, _pass: usize) -> Option<Box<dyn Effect>> {
+        None
     }
 }
 

@@ -199,11 +199,44 @@ impl Term {
         if let Some(part) = context.machine.lacks(parts) {
             return Err(EffectError::MissingPart { effect: self.name.clone(), part });
         }
-        match &self.formula {
+        let mut basis = match &self.formula {
             Formula::Card(card) => (card.basis)(context, &nonlinear),
             Formula::Custom(custom) => custom.basis(context.columns, &self.parameters, &nonlinear),
             Formula::Curve(curve) => Ok(curve.basis()),
-        }
+        }?;
+        let remembers = basis.fixed.iter();
+        let started =
+            remembers.flat_map(|fixed| self.starts().filter_map(|pass| fixed.started(pass)));
+        let started: Vec<Box<dyn Effect>> = started.collect();
+        basis.columns.extend(started);
+        Ok(basis)
+    }
+
+    /// Passes of which it is open what an effect with a memory began with.
+    pub fn starts(&self) -> impl Iterator<Item = usize> {
+        self.parameters.iter().filter_map(|what| match what.role {
+            Role::Start { pass } => Some(pass),
+            _ => None,
+        })
+    }
+
+    /// The same effect where it is open what it began with in some passes; for one that
+    /// [`Nature::delays`].
+    #[must_use]
+    pub fn with_starts(&self, passes: impl IntoIterator<Item = usize>) -> Self {
+        let mut term = self.without_starts();
+        term.parameters.extend(passes.into_iter().map(Parameter::start));
+        term.values.resize(term.parameters.len(), 0.0);
+        term
+    }
+
+    /// The same effect as it is on any record.
+    #[must_use]
+    pub fn without_starts(&self) -> Self {
+        let mut term = self.clone();
+        term.parameters.retain(|what| !what.is_start());
+        term.values.truncate(term.parameters.len());
+        term
     }
 
     /// Coefficients of the basis' columns that belong to the present values.
@@ -212,7 +245,7 @@ impl Term {
         let mut coefficients = Vec::new();
         for (index, (parameter, value)) in self.parameters.iter().zip(&self.values).enumerate() {
             match parameter.role {
-                Role::Linear | Role::Known { .. } => coefficients.push(*value),
+                Role::Linear | Role::Known { .. } | Role::Start { .. } => coefficients.push(*value),
                 Role::Squared => coefficients.push(value * value),
                 Role::Amplitude => {
                     let (sine, cosine) = libm::sincos(self.values[index + 1].to_radians());
@@ -233,7 +266,7 @@ impl Term {
                 Role::Known { stderr } => {
                     priors.push(Some((parameter.default.unwrap_or(1.0), stderr)));
                 }
-                Role::Linear | Role::Squared => priors.push(None),
+                Role::Linear | Role::Squared | Role::Start { .. } => priors.push(None),
                 Role::Amplitude => priors.extend([None, None]),
                 Role::Phase | Role::Nonlinear => {}
             }
@@ -256,7 +289,7 @@ impl Term {
                 estimates.push(Estimate { parameter, value, stderr: variance.max(0.0).sqrt() });
             };
             match what.role {
-                Role::Linear | Role::Known { .. } => {
+                Role::Linear | Role::Known { .. } | Role::Start { .. } => {
                     push(parameter, coefficients[column], covariance[column][column]);
                     column += 1;
                 }

@@ -3,12 +3,13 @@
 use helixlock_plant::{EffectError, Formula, Term};
 
 use super::diagnosis::{FittedEffect, effects};
-use crate::hypotheses::{as_it_stands, candidate, try_candidate};
-use crate::model::{Columns, Component, Problem, Stage, State, holdout_rms, noises_of};
+use crate::hypotheses::{Trial, as_it_stands, candidate, in_motion, try_candidate};
+use crate::model::{
+    Columns, Component, Problem, Stage, State, holdout_rms, noises_of, plain_noises,
+};
 use crate::noise::{Noise, rms};
 use crate::numerics::count;
 use crate::policy::extent::SEARCHED_ROWS;
-use crate::search::plain_noises;
 
 /// What a chosen effect does to the error.
 #[derive(Debug, Clone)]
@@ -46,14 +47,17 @@ pub fn add(problem: &Problem, beside: &[Term], term: &Term) -> Result<Option<Add
     let base = State::of(problem, others.clone(), &before.fit.noises).unwrap_or(before);
     let term = &begun(problem, &others, term);
     // Slow noise may follow the effect wherever it lies, and plain noise be taken for it.
-    let noises = [plain_noises(problem, &base.fit), base.fit.noises.clone()];
+    let noises = [plain_noises(problem, &base.fit.left), base.fit.noises.clone()];
     let tried =
         |noises: &[Noise]| joined(problem, &others, found(problem, &columns, noises, term)?);
     let once = noises.iter().filter_map(|noises| tried(noises)).reduce(likelier);
     // The noise that is left tells better where the nonlinear parameters lie.
     let again = once.as_ref().and_then(|once| tried(&once.fit.noises));
     let state = once.into_iter().chain(again).reduce(likelier);
-    let free = count(term.parameters.len()) * problem.price_of_a_number();
+    let numbers = count(term.parameters.len()) * problem.price_of_a_number();
+    let starts = |state: &State| state.components.last().map(|one| one.price_of_starts(problem));
+    let starts = state.as_ref().and_then(starts).unwrap_or_default();
+    let free = numbers + starts;
     Ok(state.map(|state| Added {
         effects: effects(problem, &state),
         rms_um: [rms(&problem.layout, &base.fit.left), rms(&problem.layout, &state.fit.left)],
@@ -94,8 +98,11 @@ fn is_own(term: &Term) -> bool {
 fn found(problem: &Problem, columns: &Columns, noises: &[Noise], term: &Term) -> Option<Component> {
     let stage = Stage::new(problem, columns, noises);
     let term = term.clone();
-    let candidate = if is_own(&term) { as_it_stands(term) } else { candidate(&stage, term)? };
-    try_candidate(&stage, &candidate).map(|trial| trial.component)
+    let resting = if is_own(&term) { as_it_stands(term) } else { candidate(&stage, term)? };
+    let all = [in_motion(&stage, &resting), Some(resting)];
+    let trials = all.iter().flatten().filter_map(|one| try_candidate(&stage, one));
+    let worth = |trial: &Trial| trial.gain - trial.component.price(problem);
+    trials.max_by(|a, b| worth(a).total_cmp(&worth(b))).map(|trial| trial.component)
 }
 
 fn joined(problem: &Problem, others: &[Component], component: Component) -> Option<State> {

@@ -6,7 +6,7 @@
 
 use helixlock_plant::{Samples, Term};
 
-use crate::hypotheses::{as_it_stands, try_candidate};
+use crate::hypotheses::{as_it_stands, in_motion, try_candidate};
 use crate::measurement::Measurement;
 use crate::model::{Columns, Component, Problem, Stage, State};
 use crate::noise::{Noise, rms};
@@ -190,18 +190,17 @@ fn separated(
     (experiment, both): (&Experiment, &Problem),
     (own, rival): (&Term, &Term),
 ) -> Option<Advice> {
-    let shown = |term: &Term| -> Option<Vec<f64>> {
-        let effect = term.effect(&both.model, &both.record.columns).ok()?;
-        Some(both.column(term.entry, &helixlock_plant::Effect::deltas_um(&effect, &both.record)))
-    };
+    let shown = |term: &Term| Component::new(term.clone()).shown_um(both, &term.coefficients());
     let (true_um, other_um) = (shown(own)?, shown(rival)?);
     let apart: Vec<f64> = true_um.iter().zip(&other_um).map(|(a, b)| a - b).collect();
     let mut measured = both.clone();
     measured.observed = true_um.iter().zip(&both.predicted).map(|(a, b)| a + b).collect();
     let stage = Stage::new(&measured, &Columns::default(), noises);
     let all = stage.gain(&Columns::of(&measured, &[Component::new(own.clone())]).ok()?).gain;
-    let refitted = try_candidate(&stage, &as_it_stands(rival.clone()));
-    let followed = refitted.map_or(0.0, |trial| trial.gain);
+    let resting = as_it_stands(rival.clone());
+    let all_starts = [in_motion(&stage, &resting), Some(resting)];
+    let refitted = all_starts.iter().flatten().filter_map(|one| try_candidate(&stage, one));
+    let followed = refitted.map(|trial| trial.gain).fold(0.0, f64::max);
     Some(Advice {
         action: experiment.action.to_owned(),
         between: (own.name.clone(), rival.name.clone()),

@@ -3,11 +3,10 @@
 
 use super::errors::errors;
 use crate::formulas::Shape;
-use crate::model::{Columns, Problem, State, with_noise};
+use crate::model::{Columns, Problem, State, plain_noises, with_noise};
 use crate::noise::weighed_rms;
 use crate::policy::chance::STANDARD_ERRORS;
 use crate::policy::size::LEAST_TAKEN;
-use crate::search::plain_noises;
 
 /// The part of a shape whose size is lost most in its error, as where the samples meet a wave always at the same
 /// two phases; `None` where every size is beyond its own.
@@ -41,7 +40,7 @@ pub(super) fn takes_its_share(problem: &Problem, state: &State, index: usize) ->
     let own = Columns::free(raw.iter().cloned());
     let undone: Vec<f64> = sizes.iter().map(|size| -size).collect();
     let without = own.left(&state.fit.left, &undone);
-    let noises = plain_noises(problem, &state.fit);
+    let noises = plain_noises(problem, &state.fit.left);
     let least = with_noise(&problem.layout, &own, &without, &noises).left;
     let [all, least, left] = [&without, &least, &state.fit.left]
         .map(|left| weighed_rms(&problem.layout, left))

@@ -12,7 +12,7 @@ use super::hypothesis::{Hypothesis, with_effects};
 use super::view::{View, rough_noises};
 use super::worst_pass::{rows_of, worst_pass};
 use crate::formulas::{Placed, nameless};
-use crate::hypotheses::{candidate, try_candidate};
+use crate::hypotheses::{candidate, in_motion, try_candidate};
 use crate::model::{Columns, Component, Fit, Problem, Stage, noises_of, settle, with_noise};
 use crate::numerics::count;
 use crate::policy::evidence::LOOSELY_KNOWN;
@@ -219,7 +219,10 @@ impl<'a> Court<'a> {
         let cards =
             CATALOGUE.iter().filter(|card| card.nature.delays && self.problem.sees(card.entry));
         let terms = cards.map(|card| Term::candidate(card, self.problem.model.rotary));
-        let found = terms.filter_map(|term| try_candidate(&stage, &candidate(&stage, term)?));
+        let found = terms.filter_map(|term| candidate(&stage, term)).flat_map(|resting| {
+            let all = [in_motion(&stage, &resting), Some(resting)];
+            all.into_iter().flatten().filter_map(|one| try_candidate(&stage, &one))
+        });
         found.filter_map(|found| self.evidence_beside(&found.component)).collect()
     }
 
@@ -240,9 +243,11 @@ impl<'a> Court<'a> {
     /// Evidence of an effect beside the file's, each of its numbers paid for.
     fn evidence_beside(&self, effect: &Component) -> Option<f64> {
         let columns = Columns::of(self.problem, std::slice::from_ref(effect)).ok()?;
-        let numbers = count(effect.width() + effect.term.nonlinear().len());
+        let counted = usize::from(effect.is_of_one_size());
+        let numbers = count(effect.term.nonlinear().len().saturating_sub(counted));
         let (evidence, _) = self.evidence(self.problem, &columns);
-        Some(evidence - numbers * self.problem.price_of_a_number())
+        let price = effect.price(self.problem) + numbers * self.problem.price_of_a_number();
+        Some(evidence - price)
     }
 
     fn integrated(&self, columns: impl Iterator<Item = Columns>) -> f64 {

@@ -51,6 +51,9 @@ fn disagreement(
     (parts, looks): (&Parts, f64),
 ) -> Option<Structure> {
     let component = &state.components[index];
+    if component.is_of_one_size() {
+        return None;
+    }
     let (used, from) = state.coefficients(index);
     let raw = part_by_part(problem, &state.columns.raw[from..from + used.len()], &parts.of_rows);
     if raw.is_empty() || COLUMNS_OF_PASSES < raw.len() || component.term.nature().is_setting() {

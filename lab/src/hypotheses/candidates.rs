@@ -82,8 +82,12 @@ fn candidates_of(
         .filter_map(|term| candidate(stage, term))
         .map(|candidate| with_overtones(candidate, stage.problem, found))
         .flat_map(|candidate| {
-            let others =
-                [freed(&candidate), doubled(stage, &candidate), at_once(stage, &candidate)];
+            let others = [
+                freed(&candidate),
+                doubled(stage, &candidate),
+                at_once(stage, &candidate),
+                in_motion(stage, &candidate),
+            ];
             others.into_iter().chain([Some(candidate)])
         })
         .flatten()
@@ -151,6 +155,17 @@ fn at_once(stage: &Stage<'_>, candidate: &Candidate) -> Option<Candidate> {
     let nonlinear = term.parameters.iter().filter(|what| what.is_nonlinear());
     let axes = nonlinear.map(|what| axis(stage, what)).collect();
     on_axes(stage, term, axes)
+}
+
+/// An effect that delays on a record that began while it followed: what each pass began with is open. `None`
+/// where the model shows nothing that it could delay.
+pub(crate) fn in_motion(stage: &Stage<'_>, candidate: &Candidate) -> Option<Candidate> {
+    let term = stage.problem.with_starts(&candidate.term)?;
+    let delayed = stage.problem.design(&candidate.at(0)).ok()?.fixed?;
+    if delayed.iter().all(|delta| *delta == 0.0) {
+        return None;
+    }
+    Some(Candidate { term, ..candidate.clone() })
 }
 
 /// An effect with its grid; `None` when there is no place to look for it.

@@ -5,7 +5,7 @@
 
 use helixlock_plant::{Formula, Parameter, Role, Search, Term};
 
-use super::candidates::{Candidate, axis, on_axes};
+use super::candidates::{Candidate, axis, in_motion, on_axes};
 use crate::model::{Component, Stage};
 
 /// Every effect of the file that no component of a model stands in for yet, at another size, and at any values it
@@ -23,7 +23,9 @@ pub(super) fn corrections(stage: &Stage<'_>, found: &[Component]) -> Vec<Candida
             let nonlinear = term.parameters.iter().filter(|what| what.is_nonlinear());
             let with_values = nonlinear.zip(term.nonlinear());
             let axes = with_values.map(|(what, value)| values(stage, what, value)).collect();
-            [in_size(stage, term.clone()), on_axes(stage, term, axes)]
+            let any = on_axes(stage, term.clone(), axes);
+            let moving = any.as_ref().and_then(|any| in_motion(stage, any));
+            [in_size(stage, term), any, moving]
         })
         .flatten()
         .collect()

@@ -26,7 +26,7 @@ pub(crate) fn on_grid(problem: &Problem, candidate: &Candidate) -> GridColumns {
     let make = || Arc::new((0..candidate.grid.len()).into_par_iter().map(at).collect());
     match kind.filter(|_| 1 < candidate.grid.len() && values <= MOST_VALUES) {
         Some(kind) => {
-            let key = (kind, candidate.term.instead_of);
+            let key = (kind, candidate.term.instead_of, width);
             problem.designs.of(key, &candidate.grid, make)
         }
         None => make(),

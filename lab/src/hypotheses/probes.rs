@@ -316,7 +316,7 @@ fn of_targets(
     columns: Vec<Vec<f64>>,
     shape: &str,
 ) -> Option<Structure> {
-    if columns.is_empty() || !problem.free.raw.is_empty() {
+    if columns.is_empty() || problem.starts < problem.free.raw.len() {
         return None;
     }
     let raw: Vec<Column> = columns.into_iter().map(Column::from).collect();
@@ -353,7 +353,7 @@ fn standing_out(problem: &Problem, fit: &Fit) -> Option<Structure> {
 /// What goes on as noise does not. Beside effects it is not asked: of 200 challenges two that were
 /// explained rightly were not believed.
 fn predicted(problem: &Problem, model: &Columns, fit: &Fit) -> Option<Structure> {
-    if !model.raw.is_empty() {
+    if problem.starts < model.raw.len() {
         return None;
     }
     let (rms_um, chance) = nonlinearity(problem, fit)?;

@@ -31,7 +31,7 @@ impl Trial {
     /// Free numbers of the effect, linear and nonlinear.
     #[must_use]
     pub(crate) fn freedom(&self) -> f64 {
-        count(self.component.width().max(1))
+        self.component.freedom()
     }
 
     /// It with where its candidate was looked for, which takes time that only the best are worth.
@@ -91,11 +91,13 @@ pub(crate) fn try_candidate(stage: &Stage<'_>, candidate: &Candidate) -> Option<
 
 /// Where a candidate is looked for, with what its curve turns by through its best place.
 fn looks(stage: &Stage<'_>, candidate: &Candidate, best: &[f64]) -> Looks {
+    let itself = candidate.term.without_starts();
     let along = |looks: Looks, (axis, values): &(usize, Vec<f64>)| {
         looks.over(values, |value| {
             let mut place = best.to_vec();
             place[*axis] = value;
-            let columns = columns_at(stage, candidate, &place);
+            let component = Component::new(itself.with_nonlinear(&place));
+            let columns = usable(stage.problem, &component);
             columns.map_or_else(Vec::new, |columns| stage.span(&columns))
         })
     };

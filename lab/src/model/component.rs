@@ -6,7 +6,9 @@ use helixlock_plant::{Column, Context, EffectError, Estimate, Role, Smoothness, 
 
 use super::columns::Columns;
 use super::problem::{Design, Problem};
-use crate::noise::rms;
+use crate::noise::{Block, rms};
+use crate::numerics::count;
+use crate::policy::evidence::LEAST_PRICE;
 
 /// An effect with the columns a fit may use.
 #[derive(Debug, Clone)]
@@ -91,7 +93,8 @@ impl Component {
         (rate(1.0) - rate(0.0)) / TAU
     }
 
-    /// Columns that stand or fall together: a sine with its cosine, any other alone.
+    /// Columns that stand or fall together: a sine with its cosine, any other alone. What a pass began with,
+    /// behind them, stands: another effect that is yet to be found has its share in it.
     #[must_use]
     pub(crate) fn atoms(&self) -> Vec<Vec<usize>> {
         let mut atoms = Vec::new();
@@ -100,7 +103,7 @@ impl Component {
             let width = match parameter.role {
                 Role::Amplitude => 2,
                 Role::Linear | Role::Squared | Role::Known { .. } => 1,
-                Role::Phase | Role::Nonlinear => 0,
+                Role::Phase | Role::Nonlinear | Role::Start { .. } => 0,
             };
             if 0 < width {
                 atoms.push((column..column + width).collect());
@@ -114,9 +117,9 @@ impl Component {
     #[must_use]
     pub(crate) fn counts(&self) -> Vec<usize> {
         let atoms = self.atoms();
-        let linear = self.term.parameters.iter().filter(|what| {
-            matches!(what.role, Role::Amplitude | Role::Linear | Role::Squared | Role::Known { .. })
-        });
+        let is_open =
+            |what: &helixlock_plant::Parameter| !matches!(what.role, Role::Phase | Role::Nonlinear);
+        let linear = self.term.parameters.iter().filter(|what| is_open(what));
         let counting =
             |what: &helixlock_plant::Parameter| what.role == Role::Linear && what.name == "count";
         linear.zip(atoms).filter(|(what, _)| counting(what)).map(|(_, atom)| atom[0]).collect()
@@ -135,6 +138,65 @@ impl Component {
     #[must_use]
     pub(crate) fn width(&self) -> usize {
         self.kept.iter().filter(|kept| **kept).count()
+    }
+
+    /// Free numbers, as evidence counts them: those in use, of an effect that has none of its own one,
+    /// and what passes began with.
+    #[must_use]
+    pub(crate) fn freedom(&self) -> f64 {
+        count(self.width().saturating_sub(self.starts()).max(1) + self.starts())
+    }
+
+    /// What those cost as evidence: a number that all rows tell of as much as any, one that is forgotten
+    /// after some rows as one of so many.
+    #[must_use]
+    pub(crate) fn price(&self, problem: &Problem) -> f64 {
+        let own = self.freedom() - count(self.starts());
+        own * problem.price_of_a_number() + self.price_of_starts(problem)
+    }
+
+    /// The part of it for what passes began with.
+    #[must_use]
+    pub(crate) fn price_of_starts(&self, problem: &Problem) -> f64 {
+        let starts = self.starts();
+        if starts == 0 {
+            return 0.0;
+        }
+        let number = problem.price_of_a_number();
+        let design = self.design(problem);
+        let columns = design.map(|(design, _)| design.columns).unwrap_or_default();
+        let started = columns.iter().rev().take(starts);
+        let price =
+            |column: &Column| libm::log(rows_told(problem, column)).max(LEAST_PRICE).min(number);
+        started.map(price).sum()
+    }
+
+    /// Columns of what passes began with, without the effect; `None` when they cannot be worked out.
+    #[must_use]
+    pub(crate) fn starts_alone(&self, problem: &Problem) -> Option<Columns> {
+        let (design, _) = self.design(problem).ok()?;
+        let own = design.columns.len() - self.starts();
+        Some(Columns::free(design.columns.into_iter().skip(own)))
+    }
+
+    /// The effect itself, whatever passes began with.
+    #[must_use]
+    pub(crate) fn without_starts(&self) -> Self {
+        let own = self.kept.len() - self.term.starts().count();
+        let (kept, whole) = (self.kept[..own].to_vec(), self.whole[..own].to_vec());
+        Self { term: self.term.without_starts(), kept, whole }
+    }
+
+    /// Number of passes that begin with a value of their own.
+    pub(crate) fn starts(&self) -> usize {
+        let starts = self.term.starts().count();
+        self.kept[self.kept.len() - starts..].iter().filter(|kept| **kept).count()
+    }
+
+    /// True for an effect that scales with none of its numbers.
+    #[must_use]
+    pub(crate) fn is_of_one_size(&self) -> bool {
+        self.kept.len() == self.term.starts().count()
     }
 
     /// Columns in use with their priors, and the part that does not scale.
@@ -233,13 +295,14 @@ impl Component {
         Self { term: self.term.with_nonlinear(&values), ..self.clone() }
     }
 
-    /// The term with the values that belong to these coefficients of the columns in use.
+    /// The term with the values that belong to these coefficients of the columns in use, on any record.
     #[must_use]
     pub(crate) fn valued(&self, used: &[f64]) -> Term {
-        self.term.with_coefficients(&self.spread(used))
+        self.term.with_coefficients(&self.spread(used)).without_starts()
     }
 
-    /// Linear parameters in use with standard errors; `covariance` covers the columns in use.
+    /// Linear parameters of the machine in use with standard errors; `covariance` covers the columns in
+    /// use.
     #[must_use]
     pub(crate) fn estimates(&self, used: &[f64], covariance: &[Vec<f64>]) -> Vec<Estimate> {
         let width = self.kept.len();
@@ -251,7 +314,9 @@ impl Component {
             }
         }
         let estimates = self.term.estimates(&self.spread(used), &whole);
-        estimates.into_iter().filter(|estimate| self.uses(estimate.parameter)).collect()
+        let is_told =
+            |parameter: usize| self.uses(parameter) && !self.term.parameters[parameter].is_start();
+        estimates.into_iter().filter(|estimate| is_told(estimate.parameter)).collect()
     }
 
     /// True for a number of something, found to be whole: it has no error.
@@ -259,7 +324,7 @@ impl Component {
     pub(crate) fn is_counted(&self, parameter: usize) -> bool {
         let linear = self.term.parameters[..=parameter].iter().map(|what| match what.role {
             Role::Amplitude => 2,
-            Role::Linear | Role::Squared | Role::Known { .. } => 1,
+            Role::Linear | Role::Squared | Role::Known { .. } | Role::Start { .. } => 1,
             Role::Phase | Role::Nonlinear => 0,
         });
         let behind: usize = linear.sum();
@@ -286,7 +351,7 @@ impl Component {
         for (index, what) in self.term.parameters.iter().enumerate() {
             let width = match what.role {
                 Role::Amplitude => 2,
-                Role::Linear | Role::Squared | Role::Known { .. } => 1,
+                Role::Linear | Role::Squared | Role::Known { .. } | Role::Start { .. } => 1,
                 Role::Phase if index == parameter => {
                     return self.kept.get(column - 1) == Some(&true);
                 }
@@ -300,6 +365,17 @@ impl Component {
         }
         false
     }
+}
+
+/// Rows that tell what a pass began with, each as much as it still shows of it.
+fn rows_told(problem: &Problem, column: &Column) -> f64 {
+    let of_block = |block: &Block| -> Vec<f64> {
+        let last = column[block.rows.end - 1];
+        block.rows.clone().map(|row| column[row] - last).collect()
+    };
+    let shown: Vec<f64> = problem.layout.blocks.iter().flat_map(of_block).collect();
+    let most = shown.iter().fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()));
+    shown.iter().map(|value| (value / most) * (value / most)).sum()
 }
 
 /// A part that does not scale, and so much of a column beside it.

@@ -8,8 +8,9 @@ use super::columns::Columns;
 /// Columns at every place of a grid; `None` where they say nothing.
 pub(crate) type GridColumns = Arc<Vec<Option<Columns>>>;
 
-/// Kind of an effect, and the effect of the machine file in whose place it stands.
-pub(crate) type Key = (&'static str, Option<usize>);
+/// Kind of an effect, the effect of the machine file in whose place it stands, and its columns: more where
+/// it is open what passes began with.
+pub(crate) type Key = (&'static str, Option<usize>, usize);
 
 /// What is known of the effects of the catalogue; clones of a problem share it.
 #[derive(Debug, Clone, Default)]

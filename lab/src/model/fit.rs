@@ -8,8 +8,8 @@
 use super::columns::Columns;
 use super::problem::Problem;
 use crate::noise::{Layout, Noise, Whitener, fit_noise};
-use crate::numerics::least_squares;
 use crate::numerics::least_squares::LinearFit;
+use crate::numerics::{deviation, least_squares};
 
 /// A fitted model.
 #[derive(Debug, Clone)]
@@ -87,6 +87,22 @@ pub(crate) fn with_noise(
 #[must_use]
 pub(crate) fn noises_of(problem: &Problem, left: &[f64]) -> Vec<Noise> {
     (0..problem.sensors.len()).map(|sensor| noise_of(problem, left, sensor, None)).collect()
+}
+
+/// White noise of the size that neighbouring samples of what is left differ by: no slow effect hides in it.
+#[must_use]
+pub(crate) fn plain_noises(problem: &Problem, left: &[f64]) -> Vec<Noise> {
+    (0..problem.sensors.len())
+        .map(|sensor| {
+            let blocks = problem.layout.blocks.iter().filter(|block| block.sensor == sensor);
+            let mut steps: Vec<f64> = blocks
+                .flat_map(|block| block.rows.clone().skip(1))
+                .map(|row| (left[row] - left[row - 1]).abs())
+                .collect();
+            let deviation = deviation(&mut steps).max(f64::MIN_POSITIVE.sqrt());
+            Noise::white().scaled(0.5 * deviation * deviation)
+        })
+        .collect()
 }
 
 /// Noise of each sensor, searched for near one that is nearly right.

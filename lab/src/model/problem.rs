@@ -54,6 +54,8 @@ pub struct Problem {
     pub(crate) hunting_um: f64,
     /// What belongs to no effect and every model may follow: see [`Self::with_targets_free`].
     pub(crate) free: Columns,
+    /// How many of these, the first, are what passes began with: see [`Self::with_starts`].
+    pub(crate) starts: usize,
 }
 
 impl Problem {
@@ -146,6 +148,7 @@ impl Problem {
             velocity_rpm: OnceLock::new(),
             hunting_um: 0.0,
             free: Columns::default(),
+            starts: 0,
         };
         problem.stack_rows();
         problem.least_variance = problem.finest(&[]);
@@ -155,6 +158,7 @@ impl Problem {
         if whole {
             problem.find_start()?;
         }
+        problem.find_starts()?;
         let residual = problem.residual();
         problem.mark_outliers(&residual);
         if problem.is_coarser_without_far_rows() {
@@ -341,7 +345,7 @@ impl Problem {
         let stands = |place: usize| terms.iter().all(|term| term.instead_of != Some(place));
         let own = self.model.effects.iter().enumerate().filter(|(place, _)| stands(*place));
         let all = own.map(|(_, term)| term).chain(terms.iter().copied());
-        let lags = all.filter(|term| term.nature().delays);
+        let lags = all.filter(|term| term.nature().delays).map(Term::without_starts);
         lags.map(|term| Ok((term.entry, term.effect(&self.model, &self.record.columns)?))).collect()
     }
 

@@ -93,7 +93,7 @@ impl State {
     }
 }
 
-/// Whitened pattern of a component at its fitted size, offsets taken out.
+/// Whitened pattern of a component at its fitted size, offsets taken out, and what passes began with.
 #[must_use]
 pub(crate) fn pattern(
     problem: &Problem,
@@ -102,8 +102,9 @@ pub(crate) fn pattern(
     whitener: &Whitener,
 ) -> Vec<f64> {
     let (coefficients, from) = state.coefficients(index);
+    let own = coefficients.len() - state.components[index].starts();
     let mut sum = vec![0.0; problem.samples.len()];
-    for (column, weight) in state.columns.raw[from..].iter().zip(coefficients) {
+    for (column, weight) in state.columns.raw[from..].iter().zip(&coefficients[..own]) {
         sum.iter_mut().zip(column).for_each(|(value, part)| *value += weight * part);
     }
     whitener.whiten(sum)

@@ -140,7 +140,7 @@ impl Problem {
     /// from one visit to the next is measured against how well visits agree.
     #[must_use]
     pub(crate) fn with_targets_free(&self) -> Self {
-        Self { free: Columns::free(self.columns_of_targets()), ..self.clone() }
+        self.beside(&Columns::free(self.columns_of_targets()))
     }
 
     /// The same problem with some columns more that every model may follow.

@@ -99,6 +99,11 @@ pub(crate) const MOST_BETWEEN: usize = 1 << 16;
 /// Chosen, by time and memory: twenty rows a wave of a hundred thousand rows. Doubled: 50 MB more.
 pub(crate) const MOST_REMEMBERED: usize = 1 << 18;
 
+/// Most passes of which it is open what a recorder that lags began with.
+///
+/// Chosen, by time: each is a column at every place that a lag is tried at. Doubled: four times as long.
+pub(crate) const MOST_STARTS: usize = 24;
+
 /// Samples a turn of the spindle, with those in between, of a recorder without comparisons.
 ///
 /// Derived: straight lines between them delay what a short lag shows of a wave of two turns by

@@ -11,7 +11,7 @@ use crate::model::{
 };
 use crate::noise::{effective_samples, rms, swift_rms};
 use crate::numerics::least_squares::covariance_rows;
-use crate::numerics::{chi_squared_tail, count, longest};
+use crate::numerics::{chi_squared_tail, longest};
 use crate::policy::chance::{
     FEW_SAMPLES, NAMED, NAMED_IN_OTHER_NOISE, NO_ALL_CLEAR, STANDARD_ERRORS,
 };
@@ -120,7 +120,7 @@ pub(crate) fn chance_in_any_noise(problem: &Problem, now: &State, judged: &Judge
 }
 
 fn chance_without_one_sample(problem: &Problem, now: &State, judged: &Judged) -> f64 {
-    let freedom = count(judged.component.width().max(1));
+    let freedom = judged.component.freedom();
     let other_samples = |gain| chi_squared_tail(gain, freedom) * judged.looks;
     chance_with_tails(problem, [&now.fit, &judged.fit], other_samples)
 }
@@ -137,9 +137,10 @@ pub(super) fn worth(problem: &Problem, fit: &Fit) -> f64 {
 /// Of a record that is worth few samples χ² promises too much: drawn noise says more, as far as it
 /// must to tell the chance from a limit.
 fn chance_in_slow_noise(problem: &Problem, now: &State, judged: &Judged, limit: f64) -> f64 {
-    let Some(columns) = own_columns(problem, judged).filter(|one| !one.raw.is_empty()) else {
+    if judged.component.is_of_one_size() {
         return judged.p_value;
-    };
+    }
+    let Some(columns) = own_columns(problem, judged) else { return judged.p_value };
     if FEW_SAMPLES <= worth(problem, &now.fit) {
         return judged.p_value;
     }
@@ -150,9 +151,10 @@ fn chance_in_slow_noise(problem: &Problem, now: &State, judged: &Judged, limit: 
 }
 
 fn chance_in_uneven_noise(problem: &Problem, now: &State, judged: &Judged) -> f64 {
-    let Some(columns) = own_columns(problem, judged) else { return judged.p_value };
+    let itself = judged.component.without_starts();
+    let Ok(columns) = Columns::of(problem, &[itself]) else { return judged.p_value };
     let inflation = uneven::inflation(problem, now, &columns, &judged.fit);
-    let freedom = count(judged.component.width().max(1));
+    let freedom = judged.component.freedom();
     let of_gain = |gain| chi_squared_tail(gain, freedom) * judged.looks.max(1.0);
     if inflation <= 1.0 { judged.p_value } else { of_gain(judged.gain / inflation).min(1.0) }
 }

@@ -19,7 +19,7 @@ use super::span::{Span, shown};
 use crate::hypotheses::Structure;
 use crate::model::{Columns, Problem, State};
 use crate::noise::rms;
-use crate::numerics::{chi_squared_tail, count};
+use crate::numerics::chi_squared_tail;
 use crate::policy::evidence::OWN_SHAPE;
 use crate::policy::size::SHARE_OF_AN_EFFECT;
 
@@ -59,7 +59,7 @@ pub(crate) fn untold(problem: &Problem, state: &State, index: usize) -> Option<S
     let size_um = component.size_um(problem, state.coefficients(index).0);
     let shape =
         format!("a curve like that of {}, not told from what else is left", component.term.name);
-    let chance = chi_squared_tail(gain, count(component.width().max(1)));
+    let chance = chi_squared_tail(gain, component.freedom());
     Some(Structure::without_place("travel and time", &shape, size_um, chance))
 }
 

@@ -13,7 +13,6 @@ use rayon::prelude::*;
 use super::acceptance::chance_in_any_noise;
 use super::analysis::Step;
 use super::beside_the_rest::not_told_beside;
-use super::judging::plain_noises;
 use super::likeness::is_slope;
 use super::refusal::Refusal;
 use super::rivals::Rivals;
@@ -23,7 +22,8 @@ use super::uneven;
 use crate::formulas::{Placed, Shape, nameless};
 use crate::hypotheses::{Structure, chance_with_tails, is_left};
 use crate::model::{
-    Columns, Component, Fit, Judged, Problem, Stage, State, noises_of, settle, with_noise,
+    Columns, Component, Fit, Judged, Problem, Stage, State, noises_of, plain_noises, settle,
+    with_noise,
 };
 use crate::noise::{Noise, about_means, rms};
 use crate::numerics::{Looks, chi_squared_tail, count, spread};
@@ -312,8 +312,8 @@ impl<'a> Court<'a> {
             group.iter().map(|&index| self.state.components[index].clone()).collect();
         let are_waves = components.iter().all(|one| one.term.is_wave());
         let is_part = |index: &usize| {
-            let is_number = self.state.components[*index].width() == 1;
-            is_number && !is_slope(self.problem, self.state, *index)
+            let one = &self.state.components[*index];
+            one.width() == 1 && !one.is_of_one_size() && !is_slope(self.problem, self.state, *index)
         };
         if !(are_waves || group.iter().all(is_part)) || !self.contains(&claim.placed, group) {
             return None;
@@ -365,7 +365,8 @@ impl<'a> Court<'a> {
 
     /// The best shapes in the place of each of some groups.
     fn claims(&self, groups: Vec<Vec<usize>>) -> Vec<(Seat<'a>, Vec<Claim<'a>>)> {
-        let noises = [self.state.fit.noises.clone(), plain_noises(self.problem, &self.state.fit)];
+        let noises =
+            [self.state.fit.noises.clone(), plain_noises(self.problem, &self.state.fit.left)];
         let seat = |group| self.seat(group, &noises);
         let seats: Vec<Seat<'a>> = groups.into_iter().filter_map(seat).collect();
         let tried = seats::tried(&seats, self.shapes, self.most_places);

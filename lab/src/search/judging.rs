@@ -5,19 +5,20 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use super::likeness;
+use super::starts::worth_alone;
 use crate::hypotheses::{Candidate, Trial, candidates, setting_trials, try_candidate};
 use crate::model::{
-    Columns, Fit, Judged, Problem, Stage, State, holdout_rms, noises_of, settle_beside,
+    Columns, Judged, Problem, Stage, State, holdout_rms, noises_of, plain_noises, settle_beside,
 };
-use crate::noise::{Noise, rms};
-use crate::numerics::{chi_squared_tail, count, deviation};
+use crate::noise::rms;
+use crate::numerics::{chi_squared_tail, count};
 use crate::policy::extent::{NEAR_THE_BEST, SHORTLIST};
 
 /// All candidates on what a model leaves, best evidence first.
 #[must_use]
 pub(crate) fn tried(problem: &Problem, now: &State) -> Vec<Judged> {
     let coloured = Stage::new(problem, &now.columns, &now.fit.noises);
-    let white = Stage::new(problem, &now.columns, &plain_noises(problem, &now.fit));
+    let white = Stage::new(problem, &now.columns, &plain_noises(problem, &now.fit.left));
     let first = judged_shortlist(problem, now, &[trials(&white, now), trials(&coloured, now)]);
     let Some(best) = first.first() else { return first };
     if best.fit.noises.iter().zip(&now.fit.noises).all(|(a, b)| a.is_like(b)) {
@@ -93,15 +94,15 @@ fn judge(problem: &Problem, now: &State, trial: &Trial, tried: f64) -> Option<Ju
     let columns = now.columns.and(&more);
     let start = noises_of(problem, &left);
     let fit = settle_beside(problem, &columns, &start, &now.fit.noises);
-    let gain = 2.0 * (fit.log_likelihood - now.fit.log_likelihood);
+    let alone = worth_alone(problem, now, &trial.component, &fit.noises);
+    let gain = 2.0 * (fit.log_likelihood - now.fit.log_likelihood) - alone;
     let freedom = trial.freedom();
-    let price = problem.price_of_a_number();
     let looks = trial.places(gain);
     Some(Judged {
         component: trial.component.clone(),
         gain,
         evidence: gain
-            - freedom * price
+            - trial.component.price(problem)
             - 2.0 * libm::log(looks)
             - likeness::price(&trial.component, &now.components),
         looks,
@@ -111,19 +112,4 @@ fn judge(problem: &Problem, now: &State, trial: &Trial, tried: f64) -> Option<Ju
         holdout_rms_um: holdout_rms(problem, &columns, &fit.noises),
         fit,
     })
-}
-
-/// White noise of the size that neighbouring samples differ by: no slow effect hides in it.
-pub(crate) fn plain_noises(problem: &Problem, fit: &Fit) -> Vec<Noise> {
-    (0..problem.sensors.len())
-        .map(|sensor| {
-            let blocks = problem.layout.blocks.iter().filter(|block| block.sensor == sensor);
-            let mut steps: Vec<f64> = blocks
-                .flat_map(|block| block.rows.clone().skip(1))
-                .map(|row| (fit.left[row] - fit.left[row - 1]).abs())
-                .collect();
-            let deviation = deviation(&mut steps).max(f64::MIN_POSITIVE.sqrt());
-            Noise::white().scaled(0.5 * deviation * deviation)
-        })
-        .collect()
 }

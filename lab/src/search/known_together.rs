@@ -1,8 +1,9 @@
 //! Effects of known size that show only together.
 
-use super::judging::plain_noises;
 use crate::hypotheses::of_known_size;
-use crate::model::{Columns, Component, Judged, Problem, Stage, State, noises_of, with_noise};
+use crate::model::{
+    Columns, Component, Judged, Problem, Stage, State, noises_of, plain_noises, with_noise,
+};
 use crate::numerics::count;
 use crate::policy::chance::NAMED;
 use crate::policy::evidence::SET_MARGIN;
@@ -45,7 +46,7 @@ pub(super) fn known_together(
                 &problem.layout,
                 &columns,
                 &problem.residual(),
-                &plain_noises(problem, &now.fit),
+                &plain_noises(problem, &now.fit.left),
             );
             let state = State::of(problem, all, &noises_of(problem, &rough.left))?;
             let gain = 2.0 * (state.fit.log_likelihood - now.fit.log_likelihood);

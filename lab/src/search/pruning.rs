@@ -2,13 +2,14 @@
 
 use rayon::prelude::*;
 
+use super::starts::worth_alone;
 use crate::hypotheses::{above_hunting, matters};
 use crate::model::{
     Component, JointCovariance, Problem, State, helps_unseen, joint_covariance, settle_beside,
 };
 use crate::noise::swift_rms;
+use crate::numerics::chi_squared_tail;
 use crate::numerics::least_squares::covariance_rows;
-use crate::numerics::{chi_squared_tail, count};
 use crate::policy::chance::{EXACT_STANDARD_ERRORS, STANDARD_ERRORS};
 use crate::policy::evidence::{SURE_ON_MEANS, WHOLE};
 
@@ -47,8 +48,8 @@ pub(crate) fn pruned_in_doubt(
 ) -> (State, Vec<Dropped>) {
     let is_needed = |index: usize| {
         let Some(fewer) = without(means, of_means, index) else { return false };
-        let gain = gain(means, of_means, &fewer);
-        let price = count(state.components[index].width().max(1)) * problem.price_of_a_number();
+        let gain = gain(means, of_means, &fewer, index);
+        let price = state.components[index].price(problem);
         SURE_ON_MEANS * price < gain && too_small(problem, state, index, gain).is_none()
     };
     if state.components.len() == of_means.components.len()
@@ -82,23 +83,26 @@ fn without(problem: &Problem, state: &State, index: usize) -> Option<State> {
 
 /// Why an effect is not needed; `None` when it is.
 fn superfluous(problem: &Problem, state: &State, fewer: &State, index: usize) -> Option<String> {
-    too_small(problem, state, index, gain(problem, state, fewer))
+    too_small(problem, state, index, gain(problem, state, fewer, index))
 }
 
-/// What a state is better than one with fewer effects, in twice the log likelihood.
-fn gain(problem: &Problem, state: &State, fewer: &State) -> f64 {
+/// What a state is better than one without an effect, in twice the log likelihood, beyond what its passes' first
+/// values would be worth alone.
+fn gain(problem: &Problem, state: &State, fewer: &State, index: usize) -> f64 {
     let fit = settle_beside(problem, &state.columns, &state.fit.noises, &fewer.fit.noises);
-    2.0 * (fit.log_likelihood.max(state.fit.log_likelihood) - fewer.fit.log_likelihood)
+    let alone = worth_alone(problem, fewer, &state.components[index], &state.fit.noises);
+    let best = fit.log_likelihood.max(state.fit.log_likelihood);
+    2.0 * (best - fewer.fit.log_likelihood) - alone
 }
 
 /// Why an effect that gains so much is not needed; `None` when it is.
 fn too_small(problem: &Problem, state: &State, index: usize, gain: f64) -> Option<String> {
-    let width = count(state.components[index].width().max(1));
-    let size = state.components[index].size_um(problem, state.coefficients(index).0);
+    let component = &state.components[index];
+    let size = component.size_um(problem, state.coefficients(index).0);
     let after = swift_rms(&problem.layout, &state.fit.left);
     let unit = problem.measurement.unit();
-    let chance = chi_squared_tail(gain, width);
-    if gain < width * problem.price_of_a_number() {
+    let chance = chi_squared_tail(gain, component.freedom());
+    if gain < component.price(problem) {
         return Some(format!("superfluous beside the others: evidence {gain:.1} only"));
     }
     if !matters(problem, &state.fit, size, chance) || !above_hunting(problem, size) {
@@ -196,7 +200,7 @@ fn useless(state: &State, covariance: &JointCovariance, index: usize) -> Option<
     if component.term.instead_of.is_some() {
         return None;
     }
-    if component.kept.is_empty() {
+    if component.is_of_one_size() {
         let mut values = component.term.nonlinear().into_iter().zip(&covariance.nonlinear[index]);
         let is_open = |(value, stderr): (f64, &Option<f64>)| {
             stderr.is_some_and(|stderr| value.abs() < EXACT_STANDARD_ERRORS * stderr)

@@ -142,7 +142,7 @@ pub(super) fn inflation(
     whitener: &Whitener,
     shape: &[f64],
 ) -> f64 {
-    let Ok((design, _)) = rival.design(problem) else { return 1.0 };
+    let Ok((design, _)) = rival.without_starts().design(problem) else { return 1.0 };
     let columns: Vec<&[f64]> = design.columns.iter().map(|column| column.as_slice()).collect();
     let white = whitener.whiten_all(&columns);
     let views: Vec<&[f64]> = white.iter().map(Vec::as_slice).collect();

@@ -53,6 +53,7 @@ fn mended(problem: &Problem, suspect: &Suspect) -> Option<Problem> {
         observed: problem.observed.clone(),
         layout: problem.layout.clone(),
         free: problem.free.clone(),
+        starts: problem.starts,
         ..suspect.mended.clone()
     };
     mended.has_samples_of(problem).then_some(mended)

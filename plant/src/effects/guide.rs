@@ -94,7 +94,7 @@ fn parameters(card: &Card) -> String {
         let default =
             parameter.default.map_or_else(|| "required".into(), |value| value.to_string());
         let kind = match parameter.role {
-            Role::Linear | Role::Squared => "linear",
+            Role::Linear | Role::Squared | Role::Start { .. } => "linear",
             Role::Amplitude => "amplitude",
             Role::Phase => "phase",
             Role::Known { .. } => "known",

@@ -6,6 +6,9 @@
 //! δ, y what is recorded, e error at the meter, in µm    τ time constant in s
 //! ```
 //!
+//! A record may begin while it follows: its passes then begin with a δ of their own, which dies away
+//! as `δ₀·exp(−(t − t₀)/τ)`.
+//!
 //! A ramp of 0.1 µm/s through τ = 2 s reads 0.2 µm behind. The loop does not go through the recorder,
 //! so it leaves table and counter alone: in a run it is [`crate::Model::recorder_lags_s`].
 
@@ -53,6 +56,42 @@ impl Effect for Lag {
         deltas
     }
 
+    fn feeds_back(&self) -> bool {
+        true
+    }
+
+    fn started(&self, pass: usize) -> Option<Box<dyn Effect>> {
+        Some(Box::new(Start { time_constant_s: self.time_constant_s, pass }))
+    }
+}
+
+/// What is left of a pass's first δ, 1 µm.
+#[derive(Debug)]
+struct Start {
+    time_constant_s: f64,
+    pass: usize,
+}
+
+impl Effect for Start {
+    /// Nothing, as above.
+    fn delta_um(&self, _: &Instant<'_>) -> f64 {
+        0.0
+    }
+
+    fn deltas_um(&self, record: &Record) -> Vec<f64> {
+        let mut deltas = vec![0.0; record.len()];
+        for rows in record.passes().into_iter().filter(|rows| record.pass[rows.start] == self.pass)
+        {
+            let first_s = record.time_s[rows.start];
+            for row in rows {
+                let elapsed_s = record.time_s[row] - first_s;
+                deltas[row] = libm::exp(-elapsed_s / self.time_constant_s);
+            }
+        }
+        deltas
+    }
+
+    /// What the recorder shows goes through it no other time.
     fn feeds_back(&self) -> bool {
         true
     }
