@@ -27,7 +27,8 @@ pub(crate) fn nameless(problem: &Problem) -> Vec<Shape> {
     all.extend(moving::since_a_reversal(&quantities));
     all.extend(moving::since_a_stop(&quantities));
     all.extend(moving::late(&quantities));
-    all.extend(of_shafts(&quantities, problem, false));
+    all.extend(each_turn(&quantities, problem, false));
+    all.extend(each_way(&quantities, problem));
     for column in &quantities.columns {
         all.extend(logged::of_a_column(&quantities, column));
         all.extend(logged::beyond_a_line(&quantities, column));
@@ -42,7 +43,7 @@ pub(crate) fn nameless(problem: &Problem) -> Vec<Shape> {
 pub(crate) fn formulas(problem: &Problem) -> Vec<Shape> {
     let quantities = Quantities::of(problem);
     let mut all = nameless(problem);
-    all.extend(of_shafts(&quantities, problem, true));
+    all.extend(each_turn(&quantities, problem, true));
     all.extend(turning::waves(&quantities, problem));
     all.extend(turning::swelling(&quantities, problem));
     all.extend(turning::resonances(&quantities, problem));
@@ -55,13 +56,17 @@ pub(crate) fn formulas(problem: &Problem) -> Vec<Shape> {
 }
 
 /// What comes with every turn of shafts, those of gears or the others.
-fn of_shafts(all: &Quantities, problem: &Problem, of_a_gear: bool) -> Vec<Shape> {
+fn each_turn(all: &Quantities, problem: &Problem, of_a_gear: bool) -> Vec<Shape> {
     let shafts = problem.shafts().into_iter().filter(|shaft| shaft.of_a_gear == of_a_gear);
-    let of = |Shaft { name, order, .. }: Shaft| {
-        let each_turn = turning::each_turn(all, &name, order);
-        each_turn.into_iter().chain(turning::each_way(all, &name, order)).collect::<Vec<_>>()
-    };
+    let of = |Shaft { name, order, .. }: Shaft| turning::each_turn(all, &name, order);
     shafts.flat_map(of).collect()
+}
+
+/// What every shaft makes each way by itself. Sines in time follow a gear that bears on its other flank on the way
+/// back, for between two reversals they differ little.
+fn each_way(all: &Quantities, problem: &Problem) -> Vec<Shape> {
+    let of = |Shaft { name, order, .. }: Shaft| turning::each_way(all, &name, order);
+    problem.shafts().into_iter().filter_map(of).collect()
 }
 
 /// A shape without unknowns, to be filled.
