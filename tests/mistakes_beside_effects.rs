@@ -6,7 +6,7 @@ use helixlock_lab::{Diagnosis, Verdict, compare, diagnose};
 use helixlock_plant::Model;
 use helixlock_traces::{Column, Table};
 
-use crate::support::diagnosed::{MACHINE, names, problem};
+use crate::support::diagnosed::{MACHINE, diagnosed_on, names, problem};
 use crate::support::passes::white;
 
 /// A machine of two waves, and of a carriage that tips.
@@ -78,4 +78,30 @@ fn a_position_that_counts_the_other_way_is_doubted() {
 fn a_logged_column_of_the_other_sign_is_doubted() {
     let says = doubted(&mistaken(|_| 0.0, "bed_pitch_arcsec", |arcsec| -arcsec));
     assert!(says.contains("`bed_pitch_arcsec` has the opposite sign"), "{says}");
+}
+
+/// A wave of twice the order of the file's, larger than that one and of its phase, is not the file's on places of
+/// half the length: that one is there as well.
+#[test]
+fn a_larger_second_harmonic_of_the_screw_is_no_unit_of_the_position() {
+    let machine = "spindle.speed = '60 rpm'\nlead_screw.lead = '6 mm'\n\
+                   effect = [{ kind = 'screw-periodic', amplitude = '2 um', phase = '-36 deg' }]\n";
+    let phase = (-36_f64).to_radians();
+    for seed in 1..4 {
+        let (mut noise, mut uneven) = (white(seed, 2.0), white(seed + 100, 0.8));
+        let mut columns = [const { Vec::new() }; 3];
+        for row in 0..400_u32 {
+            let (pass, nth) = (row / 100, row % 100);
+            let nth = if pass % 2 == 0 { nth } else { 99 - nth };
+            let mm = 2.5 * f64::from(nth) + uneven();
+            let angle = std::f64::consts::TAU * mm / 6.0;
+            let error_um = -2.0 * libm::sin(angle + phase) - 3.3 * libm::sin(2.0 * angle + phase);
+            let cells = [f64::from(pass), mm, error_um + noise()];
+            columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+        }
+        let titles = ["pass", "position_mm", "error_um"];
+        let found = diagnosed_on(machine, titles.into_iter().zip(columns).collect());
+        assert!(found.doubts.is_empty(), "{seed}: {:?}", found.doubts[0].says);
+        assert_eq!(names(&found), ["screw-periodic"], "{seed}");
+    }
 }

@@ -3,7 +3,7 @@
 
 use std::cell::OnceCell;
 
-use helixlock_plant::{CATALOGUE, Entry, Model, Parameter, Role, Term};
+use helixlock_plant::{CATALOGUE, Card, Entry, Model, Parameter, Role, Search, Term};
 
 use super::column::all_physics;
 use super::common::{curve_of, curves, slopes};
@@ -176,7 +176,14 @@ impl<'a> Court<'a> {
             rivals.extend(self.with_physics().iter().map(evidence));
         }
         if best.shifts() {
-            rivals.extend(self.delayed());
+            rivals.extend(self.with_one(|card| card.nature.delays));
+        }
+        if best.stretches() {
+            rivals.extend(
+                self.with_one(|card| {
+                    card.parameters.iter().any(|what| what.search == Search::Whole)
+                }),
+            );
         }
         rivals.into_iter().fold(f64::NEG_INFINITY, f64::max)
     }
@@ -213,11 +220,11 @@ impl<'a> Court<'a> {
         self.integrated(all.iter().filter_map(|term| any_size(self.problem, term)))
     }
 
-    /// That of each effect of the catalogue that delays, at its best.
-    fn delayed(&self) -> Vec<f64> {
+    /// That of each effect of the catalogue of some kind, at its best.
+    fn with_one(&self, is_one: impl Fn(&Card) -> bool) -> Vec<f64> {
         let stage = Stage::new(self.problem, &self.common[1], &rough_noises(self.problem));
-        let cards =
-            CATALOGUE.iter().filter(|card| card.nature.delays && self.problem.sees(card.entry));
+        let sees = |card: &&Card| is_one(card) && self.problem.sees(card.entry);
+        let cards = CATALOGUE.iter().copied().filter(sees);
         let terms = cards.map(|card| Term::candidate(card, self.problem.model.rotary));
         let found = terms.filter_map(|term| candidate(&stage, term)).flat_map(|resting| {
             let all = [in_motion(&stage, &resting), Some(resting)];

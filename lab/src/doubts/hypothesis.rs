@@ -80,6 +80,11 @@ impl Hypothesis {
         self.what == "shift"
     }
 
+    /// True for a unit of what is no sensor's: of a place, which harmonics of the file's waves imitate.
+    pub(super) fn stretches(&self) -> bool {
+        self.what == "unit" && !self.scales
+    }
+
     /// True when it is said only if no mistake of this machine's data is likely.
     pub(super) fn last_resort(&self) -> bool {
         self.what == "another-machine"
