@@ -543,6 +543,21 @@ fn a_sensor_that_sticks_is_told() {
     assert_eq!(held(1e-6, true), None, "parked");
 }
 
+/// A display of half a micrometre of slow noise of 0.2 µm shows nought nearly always, and where it does not it stays.
+#[test]
+fn a_coarse_display_about_nought_is_not_stuck() {
+    let known = machine(150, "");
+    let mut chance = ChaCha8Rng::seed_from_u64(5);
+    let mut table = measured(&known);
+    let mut slow = 0.0;
+    for shown in &mut table.columns[3].values {
+        let fresh: f64 = StandardNormal.sample(&mut chance);
+        slow = 0.95 * slow + 0.062 * fresh;
+        *shown = 0.5 * libm::round(slow / 0.5);
+    }
+    assert_eq!(doubted(&known, &table), None);
+}
+
 /// Play that the file has, and that is taken up a target late: a slipped row at the turns and nowhere else.
 #[test]
 fn play_that_is_taken_up_late_is_no_slipped_row() {
