@@ -21,7 +21,7 @@ mod unsure;
 mod waves;
 
 pub(crate) use columns::Columns;
-pub(crate) use component::Component;
+pub(crate) use component::{Component, price_of_starts};
 pub(crate) use designs::GridColumns;
 pub(crate) use fit::{Fit, noises_of, plain_noises, settle, settle_beside, with_noise};
 pub(crate) use holdout::{helps_unseen, holdout_rms, holdout_rms_where};

@@ -3,7 +3,7 @@
 use helixlock_plant::{EffectError, Formula, Term};
 
 use super::diagnosis::{FittedEffect, effects};
-use crate::hypotheses::{Trial, as_it_stands, candidate, in_motion, try_candidate};
+use crate::hypotheses::{Trial, as_it_stands, candidate, however_begun, try_candidate};
 use crate::model::{
     Columns, Component, Problem, Stage, State, holdout_rms, noises_of, plain_noises,
 };
@@ -99,8 +99,7 @@ fn found(problem: &Problem, columns: &Columns, noises: &[Noise], term: &Term) ->
     let stage = Stage::new(problem, columns, noises);
     let term = term.clone();
     let resting = if is_own(&term) { as_it_stands(term) } else { candidate(&stage, term)? };
-    let all = [in_motion(&stage, &resting), Some(resting)];
-    let trials = all.iter().flatten().filter_map(|one| try_candidate(&stage, one));
+    let trials = however_begun(&stage, resting).filter_map(|one| try_candidate(&stage, &one));
     let worth = |trial: &Trial| trial.gain - trial.component.price(problem);
     trials.max_by(|a, b| worth(a).total_cmp(&worth(b))).map(|trial| trial.component)
 }

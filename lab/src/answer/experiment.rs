@@ -6,7 +6,7 @@
 
 use helixlock_plant::{Samples, Term};
 
-use crate::hypotheses::{as_it_stands, in_motion, try_candidate};
+use crate::hypotheses::{as_it_stands, however_begun, try_candidate};
 use crate::measurement::Measurement;
 use crate::model::{Columns, Component, Problem, Stage, State};
 use crate::noise::{Noise, rms};
@@ -197,9 +197,8 @@ fn separated(
     measured.observed = true_um.iter().zip(&both.predicted).map(|(a, b)| a + b).collect();
     let stage = Stage::new(&measured, &Columns::default(), noises);
     let all = stage.gain(&Columns::of(&measured, &[Component::new(own.clone())]).ok()?).gain;
-    let resting = as_it_stands(rival.clone());
-    let all_starts = [in_motion(&stage, &resting), Some(resting)];
-    let refitted = all_starts.iter().flatten().filter_map(|one| try_candidate(&stage, one));
+    let rivals = however_begun(&stage, as_it_stands(rival.clone()));
+    let refitted = rivals.filter_map(|one| try_candidate(&stage, &one));
     let followed = refitted.map(|trial| trial.gain).fold(0.0, f64::max);
     Some(Advice {
         action: experiment.action.to_owned(),

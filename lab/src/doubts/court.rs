@@ -12,7 +12,7 @@ use super::hypothesis::{Hypothesis, with_effects};
 use super::view::{View, rough_noises};
 use super::worst_pass::{rows_of, worst_pass};
 use crate::formulas::{Placed, nameless};
-use crate::hypotheses::{candidate, in_motion, try_candidate};
+use crate::hypotheses::{candidate, however_begun, try_candidate};
 use crate::model::{Columns, Component, Fit, Problem, Stage, noises_of, settle, with_noise};
 use crate::numerics::count;
 use crate::policy::evidence::LOOSELY_KNOWN;
@@ -226,10 +226,9 @@ impl<'a> Court<'a> {
         let sees = |card: &&Card| is_one(card) && self.problem.sees(card.entry);
         let cards = CATALOGUE.iter().copied().filter(sees);
         let terms = cards.map(|card| Term::candidate(card, self.problem.model.rotary));
-        let found = terms.filter_map(|term| candidate(&stage, term)).flat_map(|resting| {
-            let all = [in_motion(&stage, &resting), Some(resting)];
-            all.into_iter().flatten().filter_map(|one| try_candidate(&stage, &one))
-        });
+        let resting = terms.filter_map(|term| candidate(&stage, term));
+        let found = resting.flat_map(|one| however_begun(&stage, one));
+        let found = found.filter_map(|one| try_candidate(&stage, &one));
         found.filter_map(|found| self.evidence_beside(&found.component)).collect()
     }
 

@@ -157,9 +157,17 @@ fn at_once(stage: &Stage<'_>, candidate: &Candidate) -> Option<Candidate> {
     on_axes(stage, term, axes)
 }
 
+/// An effect whatever its passes began with, at rest or, where it delays, in motion.
+pub(crate) fn however_begun(
+    stage: &Stage<'_>,
+    resting: Candidate,
+) -> impl Iterator<Item = Candidate> + use<> {
+    in_motion(stage, &resting).into_iter().chain([resting])
+}
+
 /// An effect that delays on a record that began while it followed: what each pass began with is open. `None`
 /// where the model shows nothing that it could delay.
-pub(crate) fn in_motion(stage: &Stage<'_>, candidate: &Candidate) -> Option<Candidate> {
+pub(super) fn in_motion(stage: &Stage<'_>, candidate: &Candidate) -> Option<Candidate> {
     let term = stage.problem.with_starts(&candidate.term)?;
     let delayed = stage.problem.design(&candidate.at(0)).ok()?.fixed?;
     if delayed.iter().all(|delta| *delta == 0.0) {

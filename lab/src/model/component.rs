@@ -158,25 +158,21 @@ impl Component {
     /// The part of it for what passes began with.
     #[must_use]
     pub(crate) fn price_of_starts(&self, problem: &Problem) -> f64 {
-        let starts = self.starts();
-        if starts == 0 {
+        if self.starts() == 0 {
             return 0.0;
         }
-        let number = problem.price_of_a_number();
-        let design = self.design(problem);
-        let columns = design.map(|(design, _)| design.columns).unwrap_or_default();
-        let started = columns.iter().rev().take(starts);
-        let price =
-            |column: &Column| libm::log(rows_told(problem, column)).max(LEAST_PRICE).min(number);
-        started.map(price).sum()
+        self.starts_alone(problem).map_or(0.0, |starts| price_of_starts(problem, &starts))
     }
 
-    /// Columns of what passes began with, without the effect; `None` when they cannot be worked out.
-    #[must_use]
-    pub(crate) fn starts_alone(&self, problem: &Problem) -> Option<Columns> {
-        let (design, _) = self.design(problem).ok()?;
+    /// Columns of what passes began with, without the effect.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::design`].
+    pub(crate) fn starts_alone(&self, problem: &Problem) -> Result<Columns, EffectError> {
+        let (design, _) = self.design(problem)?;
         let own = design.columns.len() - self.starts();
-        Some(Columns::free(design.columns.into_iter().skip(own)))
+        Ok(Columns::free(design.columns.into_iter().skip(own)))
     }
 
     /// The effect itself, whatever passes began with.
@@ -365,6 +361,16 @@ impl Component {
         }
         false
     }
+}
+
+/// What columns of what passes began with cost as evidence.
+#[must_use]
+pub(crate) fn price_of_starts(problem: &Problem, starts: &Columns) -> f64 {
+    let number = problem.price_of_a_number();
+    let price =
+        |column: &Column| libm::log(rows_told(problem, column)).max(LEAST_PRICE).min(number);
+    // From the last on, for sums depend on their order.
+    starts.raw.iter().rev().map(price).sum()
 }
 
 /// Rows that tell what a pass began with, each as much as it still shows of it.

@@ -7,8 +7,9 @@
 use helixlock_plant::{Column, EffectError, Term};
 
 use super::columns::Columns;
+use super::component::Component;
 use super::fit::{plain_noises, with_noise};
-use super::problem::{Design, Problem};
+use super::problem::Problem;
 use crate::policy::extent::MOST_STARTS;
 
 impl Problem {
@@ -44,9 +45,8 @@ impl Problem {
         let terms = self.model.effects.iter().filter_map(|term| self.with_starts(term));
         let mut all = Columns::default();
         for term in terms {
-            let Design { mut columns, .. } = self.design(&term)?;
-            let own = columns.split_off(columns.len() - term.starts().count());
-            let shown = own.into_iter().filter(|column| column.iter().any(|value| *value != 0.0));
+            let own = Component::new(term).starts_alone(self)?.raw.into_iter();
+            let shown = own.filter(|column| column.iter().any(|value| *value != 0.0));
             all = all.and(&Columns::free(shown));
         }
         Ok(all)

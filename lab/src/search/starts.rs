@@ -4,7 +4,7 @@
 //! a door, a fresh wheel do so, too. An effect that delays is worth what it explains beyond that.
 
 use crate::hypotheses::candidate;
-use crate::model::{Component, Problem, Stage, State, settle_beside};
+use crate::model::{Component, Problem, Stage, State, price_of_starts, settle_beside};
 use crate::noise::Noise;
 
 /// Evidence of first values that die away, beside a model and without the effect itself, at the time constant
@@ -22,13 +22,14 @@ pub(super) fn worth_alone(
     let stage = Stage::new(problem, &now.columns, noises);
     let Some(anywhere) = candidate(&stage, component.term.clone()) else { return 0.0 };
     let places = (0..anywhere.grid.len()).map(|point| Component::new(anywhere.at(point)));
-    let worth = places.filter_map(|one| {
-        let starts = one.starts_alone(problem)?;
-        Some((stage.gain(&starts).gain - one.price_of_starts(problem), one, starts))
+    let priced = places.filter_map(|one| {
+        let starts = one.starts_alone(problem).ok()?;
+        Some((stage.gain(&starts).gain, price_of_starts(problem, &starts), starts))
     });
-    let Some((_, best, starts)) = worth.max_by(|a, b| a.0.total_cmp(&b.0)) else { return 0.0 };
+    let best = priced.max_by(|a, b| (a.0 - a.1).total_cmp(&(b.0 - b.1)));
+    let Some((_, price, starts)) = best else { return 0.0 };
     let with_them = now.columns.and(&starts);
     let fit = settle_beside(problem, &with_them, noises, &now.fit.noises);
     let gain = 2.0 * (fit.log_likelihood - now.fit.log_likelihood);
-    (gain - best.price_of_starts(problem)).max(0.0)
+    (gain - price).max(0.0)
 }
