@@ -106,7 +106,8 @@ impl Comparison {
 /// thirty thousand, means of neighbours where there are more.
 #[must_use]
 pub fn compare(problem: &Problem) -> Comparison {
-    let (doubts, compared) = rayon::join(|| doubts(problem), || compared(problem));
+    let compared = compared(problem);
+    let doubts = doubts(problem);
     Comparison { doubts, ..compared }
 }
 
