@@ -180,3 +180,23 @@ fn reports_say_which_readings_weigh_little() {
         assert!(told.contains("954 个读数中有 1 个远离其余"), "{command}: {told}");
     }
 }
+
+/// Six readings on end that are off by eight deviations, in a single pass: a worn spot would be round.
+#[test]
+fn readings_on_end_that_are_off_are_no_wear() {
+    for seed in 0..3 {
+        let mut noise = white(seed, 0.05);
+        let mut columns = [const { Vec::new() }; 3];
+        for row in 0_u16..300 {
+            let time_s = 0.0836 * f64::from(row);
+            let off_um = if (64..70).contains(&row) { 0.4 } else { 0.0 };
+            let cells = [time_s, 20.0 * time_s, off_um + noise()];
+            columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+        }
+        let names = ["time_s", "position_mm", "error_um"];
+        let found = diagnosed(names.into_iter().zip(columns).collect());
+        assert_eq!(found.verdict, Verdict::Unexplained, "{seed}");
+        let round = found.rounds.last().expect("a round");
+        assert!(round.effects.is_empty(), "{seed}: {:?}", round.effects);
+    }
+}

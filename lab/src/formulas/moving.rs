@@ -7,15 +7,18 @@ use super::expression::{Expression, Function, Quantity, call, number, turns};
 use super::grammar::{periods, shape, unknown};
 use super::quantities::{Quantities, about_middle, from_start, lowest, of};
 use super::shape::Shape;
-use crate::numerics::{by_factors, count, evenly, longest, spread};
+use crate::numerics::{by_factors, count, evenly, longest, median, spread};
 use crate::policy::extent::{LONGEST_WAVE, RUN_IN};
 
 /// First width of a knock, against the distance of two; it is refined.
 pub(super) const KNOCK: f64 = 0.07;
 
-/// Moments of a pass at which a knock is looked for, and the passes beyond which they lie wider.
+/// Moments of a pass at which a knock or readings off are looked for, and the passes beyond which they lie wider.
 const PLACES_A_PASS: usize = 130;
 const MOST_PASSES: usize = 4;
+
+/// Half of how many readings on end may be off.
+const HALF_A_BURST_ROWS: [f64; 3] = [1.5, 3.0, 5.0];
 
 /// Share of the record that a step stands away from its ends; a refined one comes as near as
 /// [`RUN_IN`].
@@ -286,8 +289,24 @@ pub(super) fn in_time(all: &Quantities) -> Vec<Shape> {
                 .placed()
                 .curve("size", call(Function::Step, unknown(1) - off)),
         );
+    } else {
+        shapes.push(readings_off(t));
     }
     shapes
+}
+
+/// A few readings on end that are off and come back: where each place is met once, nothing tells them from a spot.
+fn readings_off(t: &Arc<Quantity>) -> Shape {
+    let mut times = t.values.to_vec();
+    times.sort_by(f64::total_cmp);
+    let mut intervals: Vec<f64> = times.windows(2).map(|two| two[1] - two[0]).collect();
+    let halves = HALF_A_BURST_ROWS.map(|rows| rows * median(&mut intervals)).to_vec();
+    let off = call(Function::Abs, of(t) - unknown(0));
+    shape("some readings on end off", "time", "a blow, dirt in the beam, a contact that fails")
+        .unknown("at_s", &t.dimension, moments(t, PLACES_A_PASS))
+        .unknown("half_s", &t.dimension, halves)
+        .placed()
+        .curve("size", call(Function::Step, unknown(1) - off))
 }
 
 /// Slopes and bows that come or settle in time as a screw, scale or bed warms, where a place is met at
