@@ -64,14 +64,26 @@ pub(crate) fn doubts_and_suspects(problem: &Problem) -> (Vec<Doubt>, Vec<Suspect
     let mut now = small.unwrap_or_else(|| problem.clone());
     let mut doubts: Vec<Doubt> = Vec::new();
     while doubts.len() < MOST {
-        let all = hypotheses(&now);
-        let (mistake, suspects) = Court::of(&now, all.len()).judged(all);
+        let (mistake, suspects) = judged(&now);
         let is_new = |one: &Hypothesis| doubts.iter().all(|other| other.mend != one.mend);
         let Some(one) = mistake.filter(is_new) else { return (doubts, suspects) };
         doubts.push(one.doubt());
         now = one.mended;
     }
     (doubts, Vec::new())
+}
+
+/// The clearest mistake, and what may be one. Readings beside their rows are judged without the
+/// ends of passes.
+fn judged(problem: &Problem) -> (Option<Hypothesis>, Vec<Suspect>) {
+    let all = hypotheses(problem);
+    let apart = slip::apart_from_ends(problem);
+    let slips = if follows_steps(problem) { Vec::new() } else { slip::slips(&apart) };
+    let looks = all.len() + slips.len();
+    let (slipped, _) = Court::of(&apart, looks).judged(slips);
+    let (mistake, suspects) = Court::of(problem, looks).judged(all);
+    let clearest = mistake.into_iter().chain(slipped).min_by(Hypothesis::said_before);
+    (clearest, suspects)
 }
 
 /// What contradicts itself, whatever effects fit; the rest is told only when that is mended.
@@ -95,7 +107,6 @@ fn hypotheses(problem: &Problem) -> Vec<Hypothesis> {
     if !follows_steps(problem) {
         all.extend(factor::factors(problem, odd, &noises));
         all.extend(late::late_logs(problem, &noises));
-        all.extend(slip::slips(problem));
         all.extend(convention::conventions(problem));
         all.extend(hypothesis::another_machine(problem));
     }

@@ -75,9 +75,7 @@ impl<'a> Court<'a> {
             .map(|one| Hypothesis { evidence: self.own_evidence(&one) - base, ..one })
             .filter(|one| DOUBT < one.evidence)
             .collect();
-        likely.sort_by(|a, b| {
-            a.lateness().cmp(&b.lateness()).then(b.evidence.total_cmp(&a.evidence))
-        });
+        likely.sort_by(Hypothesis::said_before);
         let most = likely.iter().map(|one| one.evidence).fold(0.0, f64::max);
         let mut suspects = Vec::new();
         for one in likely {

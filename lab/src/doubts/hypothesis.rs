@@ -1,5 +1,7 @@
 //! A mistake as a hypothesis: what would be predicted, and how usual the readings would be.
 
+use std::cmp::Ordering;
+
 use helixlock_plant::{Model, Term};
 
 use crate::measurement::Measurement;
@@ -97,6 +99,11 @@ impl Hypothesis {
             (true, _) => 2,
             (_, free) => u8::from(free),
         }
+    }
+
+    /// Which of two is said before the other.
+    pub(super) fn said_before(&self, other: &Self) -> Ordering {
+        self.lateness().cmp(&other.lateness()).then(other.evidence.total_cmp(&self.evidence))
     }
 
     /// A mistake in the machine file; `None` when the data cannot be laid out alike by the mended one.

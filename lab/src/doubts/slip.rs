@@ -1,28 +1,75 @@
 //! Readings that stand some rows beside their place, as a column does that was pasted a row too low.
 
+use std::ops::Range;
+
 use super::court::saying;
 use super::hypothesis::Hypothesis;
+use super::view::{View, rough_noises};
 use crate::measurement::sensor_column;
-use crate::model::Problem;
-use crate::policy::mistakes::MOST_ROWS_SLIPPED;
+use crate::model::{Columns, Problem};
+use crate::policy::mistakes::{DOUBT, MOST_ROWS_SLIPPED};
 
-/// What each sensor shows, so many rows too low or too high in every pass.
+/// Factor on the variance of rows that are to say nothing.
+const WITHOUT_WEIGHT: f64 = 1e8;
+
+/// What each sensor shows, so many rows too low or too high in every pass, of a problem whose ends of passes say
+/// nothing.
+///
+/// A reversal is often late by itself, as play is taken up: a slip shows where no turn is near, too.
 pub(super) fn slips(problem: &Problem) -> Vec<Hypothesis> {
+    let apart = apart_from_turns(problem);
+    let view = View::new(&apart, &Columns::default(), &rough_noises(&apart));
+    let as_it_is = view.left(problem);
+    let is_elsewhere = |one: &Hypothesis| DOUBT < as_it_is - view.left(&one.mended);
     let sensors = 0..problem.sensors.len();
     let rows = -MOST_ROWS_SLIPPED..=MOST_ROWS_SLIPPED;
     let moved = rows.filter(|rows| *rows != 0);
-    sensors.flat_map(|sensor| moved.clone().map(move |rows| slip(problem, sensor, rows))).collect()
+    let all = sensors.flat_map(|sensor| moved.clone().map(move |rows| (sensor, rows)));
+    all.map(|(sensor, rows)| slip(problem, sensor, rows)).filter(is_elsewhere).collect()
 }
 
-/// What is predicted of a row stands where its reading does, but for rows that would come from before a turn or from
-/// another pass: a reversal is often late by itself, as play is taken up.
+/// A problem in which the rows at the ends of its passes say nothing, where what a slipped column shows is lost or
+/// another pass's.
+pub(super) fn apart_from_ends(problem: &Problem) -> Problem {
+    silent(problem, |rows, row| reached(rows, row).all(|meant| meant.is_some()))
+}
+
+/// The same for rows near a turn, where it is of the other way.
+fn apart_from_turns(problem: &Problem) -> Problem {
+    let way = |row: usize| problem.record.direction[problem.samples[row]];
+    silent(problem, |rows, row| {
+        reached(rows, row).all(|meant| meant.is_some_and(|meant| 0.0 < way(row) * way(meant)))
+    })
+}
+
+/// The rows of a pass that one may stand for at most, before it and behind.
+fn reached(rows: &Range<usize>, row: usize) -> impl Iterator<Item = Option<usize>> {
+    [-MOST_ROWS_SLIPPED, MOST_ROWS_SLIPPED].into_iter().map(move |by| meant(rows, row, by))
+}
+
+/// The row of a pass that stands so many beside another, if it is there.
+fn meant(rows: &Range<usize>, row: usize, by: isize) -> Option<usize> {
+    row.checked_add_signed(by).filter(|meant| rows.contains(meant))
+}
+
+/// A problem in which only some rows say anything.
+fn silent(problem: &Problem, speaks: impl Fn(&Range<usize>, usize) -> bool) -> Problem {
+    let mut inflation = problem.layout.inflation.to_vec();
+    for rows in problem.layout.blocks.iter().map(|block| &block.rows) {
+        let quiet = rows.clone().filter(|row| !speaks(rows, *row));
+        quiet.for_each(|row| inflation[row] *= WITHOUT_WEIGHT);
+    }
+    let mut silent = problem.clone();
+    silent.layout.inflation = inflation.into();
+    silent
+}
+
+/// What is predicted of a row stands where its reading does.
 fn slip(problem: &Problem, sensor: usize, too_low: isize) -> Hypothesis {
     let mut predicted = problem.predicted.to_vec();
-    let way = |row: usize| problem.record.direction[problem.samples[row]];
     for block in problem.layout.blocks.iter().filter(|block| block.sensor == sensor) {
         for row in block.rows.clone() {
-            let meant = row.saturating_add_signed(-too_low);
-            if block.rows.contains(&meant) && 0.0 < way(row) * way(meant) {
+            if let Some(meant) = meant(&block.rows, row, -too_low) {
                 predicted[row] = problem.predicted[meant];
             }
         }

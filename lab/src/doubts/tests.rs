@@ -605,6 +605,35 @@ fn a_slipped_column_is_told_by_its_rows() {
     assert_eq!((what, mend.as_str()), ("shift", "move `error_um` up by 3 rows in every pass"));
 }
 
+/// One wave and play, there and back at one speed: but for its turns, a column a row too low is a sine of each way its
+/// own.
+#[test]
+fn a_slipped_column_is_told_where_the_axis_turns_back() {
+    let wave = "[[effect]]\nkind = 'screw-periodic'\namplitude = '2 um'\nphase = '20 deg'\n";
+    let play = "[[effect]]\nkind = 'backlash'\nwidth = '3 um'\n";
+    let known = machine(150, &format!("{wave}{play}"));
+    let place = |row: i32| if row % 400 < 200 { row % 400 } else { 399 - row % 400 };
+    let column = |name: &str, of: &dyn Fn(i32) -> f64| Column {
+        name: name.to_owned(),
+        values: (0..800).map(of).collect(),
+    };
+    let mut table = Table::new(vec![
+        column("pass", &|row| f64::from(row / 400 + 1)),
+        column("time_s", &|row| 0.0754 * f64::from(row)),
+        column("position_mm", &|row| 1.5075 * f64::from(place(row))),
+        column("direction", &|row| if row % 400 < 200 { 1.0 } else { -1.0 }),
+        column("error_um", &|_| 0.0),
+    ]);
+    let clean = problem(&known, &table).predicted;
+    let mut chance = ChaCha8Rng::seed_from_u64(7);
+    for (row, shown) in table.columns[4].values.iter_mut().enumerate() {
+        let fresh: f64 = StandardNormal.sample(&mut chance);
+        *shown = clean[row.saturating_sub(1)] + 0.15 * fresh;
+    }
+    let (what, mend) = doubted(&known, &table).expect("a doubt");
+    assert_eq!((what, mend.as_str()), ("shift", "move `error_um` up by 1 row in every pass"));
+}
+
 /// A wave that ends at the instrument's range; one whose peaks the display rounds; runs that begin and end at zero.
 #[test]
 fn readings_cut_off_are_told_and_rounded_ones_are_none() {
