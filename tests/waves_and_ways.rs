@@ -156,3 +156,36 @@ fn a_changed_value_leaves_the_others_to_the_file() {
         "{screw:?}"
     );
 }
+
+/// A table that its drive moves with 40 µm of play, to and fro over some strokes, again and again; the play is carried
+/// over a turn that comes before it is taken up.
+fn to_and_fro(strokes_um: &[u32]) -> Diagnosis {
+    const PLAY_UM: f64 = 40.0;
+    let mut noise = white(5, 4.0);
+    let (mut drive_um, mut table_um, mut way) = (10_000.0, 10_000.0 - 0.5 * PLAY_UM, 1.0);
+    let mut columns = [const { Vec::new() }; 3];
+    for stroke_um in strokes_um.iter().cycle().take(24) {
+        for _ in 0..stroke_um / 2 {
+            drive_um += 2.0 * way;
+            table_um = f64::clamp(table_um, drive_um - 0.5 * PLAY_UM, drive_um + 0.5 * PLAY_UM);
+            let time_s = 0.1 * f64::from(u32::try_from(columns[0].len()).expect("few rows"));
+            let cells = [time_s, 1e-3 * drive_um, table_um - drive_um + noise()];
+            columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+        }
+        way = -way;
+    }
+    let machine = "spindle.speed = \"60 rpm\"\nlead_screw.lead = \"5 mm\"\n";
+    let names = ["time_s", "position_mm", "error_um"];
+    diagnosed_on(machine, names.into_iter().zip(columns).collect())
+}
+
+#[test]
+fn play_that_half_of_the_strokes_do_not_take_up_gets_no_width() {
+    let found = to_and_fro(&[60, 80, 48, 66, 90, 52, 70]);
+    assert_eq!((found.verdict, names(&found)), (Verdict::Explained, vec!["backlash"]));
+    let width = &last(&found)[0].parameters[0];
+    let off_um = (width.value.abs() - 40.0).abs();
+    assert!(off_um < 3.0 * width.stderr.expect("an error"), "{} µm", width.value);
+    let found = to_and_fro(&[90, 24, 50, 22, 110, 30, 26]);
+    assert_eq!((found.verdict, names(&found)), (Verdict::Unexplained, vec![]));
+}

@@ -1,5 +1,7 @@
 //! Whether the best effect of a round may be taken into a model.
 
+use std::ops::Range;
+
 use helixlock_plant::{Role, Search, Term};
 
 use super::orders::{not_told_by_targets, turns_as_well};
@@ -16,6 +18,7 @@ use crate::policy::chance::{
     FEW_SAMPLES, NAMED, NAMED_IN_OTHER_NOISE, NO_ALL_CLEAR, STANDARD_ERRORS,
 };
 use crate::policy::evidence::{MOST_OF_A_NAME, MOST_WHOLE_WAVES};
+use crate::policy::extent::STROKES_A_SHORT_ONE;
 use crate::policy::size::{SHARE_OF_NOISE, TRUE_TO};
 
 /// Step from the end of a range to a value inside, against the range.
@@ -212,8 +215,9 @@ fn implausible(problem: &Problem, judged: &Judged) -> Option<Refusal> {
     })
 }
 
-/// Refused when the fit would go on beyond the range of a nonlinear parameter, or a way beyond all that any reversal
-/// was followed by: what it follows there is another shape than the one the effect is named for.
+/// Refused when the fit would go on beyond the range of a nonlinear parameter, or a way beyond what reversals are
+/// followed by: what it follows there is another shape than the one the effect is named for, and what was not taken up
+/// is carried over the next reversal.
 fn at_an_end(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
     let term = &judged.component.term;
     term.nonlinear_indices().iter().enumerate().find_map(|(place, &index)| {
@@ -221,7 +225,7 @@ fn at_an_end(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal>
         let low = *what.range.start();
         let mut high = *what.range.end();
         if what.of_way && what.may_be_none() {
-            high = high.min(longest(&problem.record.since_reversal_mm));
+            high = high.min(gone_by_most(problem));
         }
         let inside = low < value && value < high;
         let next = match what.search {
@@ -234,6 +238,18 @@ fn at_an_end(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal>
         let refused = low < high && !inside && changes(problem, now, judged, (place, next));
         refused.then(|| Refusal::End { parameter: what.key(), value })
     })
+}
+
+/// The way that nearly all strokes between two reversals go, mm; where none is, the longest behind a reversal.
+fn gone_by_most(problem: &Problem) -> f64 {
+    let gone = &problem.record.since_reversal_mm;
+    let of_pass = |rows: Range<usize>| {
+        let ends = gone[rows].windows(2).filter(|two| two[1] < two[0] && two[0].is_finite());
+        ends.map(|two| two[0]).collect::<Vec<_>>()
+    };
+    let mut strokes: Vec<f64> = problem.record.passes().into_iter().flat_map(of_pass).collect();
+    strokes.sort_unstable_by(f64::total_cmp);
+    strokes.get(strokes.len() / STROKES_A_SHORT_ONE).copied().unwrap_or_else(|| longest(gone))
 }
 
 /// True unless the fit is as good with another value of a nonlinear parameter: a way that is shorter
