@@ -80,7 +80,8 @@ fn judged(problem: &Problem) -> (Option<Hypothesis>, Vec<Suspect>) {
     let apart = slip::apart_from_ends(problem);
     let slips = if follows_steps(problem) { Vec::new() } else { slip::slips(&apart) };
     let looks = all.len() + slips.len();
-    let (slipped, _) = Court::of(&apart, looks).judged(slips);
+    // Hardly ever is there one, and a court works out what a bare machine would show.
+    let slipped = (!slips.is_empty()).then(|| Court::of(&apart, looks).judged(slips).0).flatten();
     let (mistake, suspects) = Court::of(problem, looks).judged(all);
     let clearest = mistake.into_iter().chain(slipped).min_by(Hypothesis::said_before);
     (clearest, suspects)
