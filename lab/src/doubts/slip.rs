@@ -9,9 +9,6 @@ use crate::measurement::sensor_column;
 use crate::model::{Columns, Problem};
 use crate::policy::mistakes::{DOUBT, MOST_ROWS_SLIPPED};
 
-/// Factor on the variance of rows that are to say nothing.
-const WITHOUT_WEIGHT: f64 = 1e8;
-
 /// What each sensor shows, so many rows too low or too high in every pass, of a problem whose ends of passes say
 /// nothing.
 ///
@@ -54,14 +51,11 @@ fn meant(rows: &Range<usize>, row: usize, by: isize) -> Option<usize> {
 
 /// A problem in which only some rows say anything.
 fn silent(problem: &Problem, speaks: impl Fn(&Range<usize>, usize) -> bool) -> Problem {
-    let mut inflation = problem.layout.inflation.to_vec();
+    let mut quiet = vec![false; problem.samples.len()];
     for rows in problem.layout.blocks.iter().map(|block| &block.rows) {
-        let quiet = rows.clone().filter(|row| !speaks(rows, *row));
-        quiet.for_each(|row| inflation[row] *= WITHOUT_WEIGHT);
+        rows.clone().for_each(|row| quiet[row] = !speaks(rows, row));
     }
-    let mut silent = problem.clone();
-    silent.layout.inflation = inflation.into();
-    silent
+    Problem { layout: problem.layout.without(|row| quiet[row]), ..problem.clone() }
 }
 
 /// What is predicted of a row stands where its reading does.

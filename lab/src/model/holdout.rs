@@ -152,9 +152,7 @@ fn left_unseen(
     if columns.raw.is_empty() {
         return columns.left(residual, &[]);
     }
-    // A held-out row gets so much noise that the fit does not see it.
-    let mut layout = problem.layout.clone();
-    layout.inflation.iter_mut().zip(held).filter(|(_, held)| **held).for_each(|(f, _)| *f *= 1e8);
+    let layout = problem.layout.without(|row| held[row]);
     let whitener = Whitener::new(&layout, noises);
     let white = columns.whitened(&whitener);
     let views: Vec<&[f64]> = white.iter().map(Vec::as_slice).collect();

@@ -30,6 +30,15 @@ pub struct Layout {
 }
 
 impl Layout {
+    /// The same with so much noise in some rows that a fit does not see them.
+    #[must_use]
+    pub(crate) fn without(&self, is_out: impl Fn(usize) -> bool) -> Self {
+        let mut layout = self.clone();
+        let rows = layout.inflation.iter_mut().enumerate();
+        rows.filter(|(row, _)| is_out(*row)).for_each(|(_, by)| *by *= 1e8);
+        layout
+    }
+
     /// Number of rows.
     #[must_use]
     pub(crate) fn len(&self) -> usize {

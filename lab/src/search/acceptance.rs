@@ -240,7 +240,7 @@ fn at_an_end(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal>
     })
 }
 
-/// The way that nearly all strokes between two reversals go, mm; where none is, the longest behind a reversal.
+/// The way that three in four strokes between two reversals go, mm; where none is, the longest behind a reversal.
 fn gone_by_most(problem: &Problem) -> f64 {
     let gone = &problem.record.since_reversal_mm;
     let of_pass = |rows: Range<usize>| {
