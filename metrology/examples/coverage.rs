@@ -50,8 +50,11 @@ fn of_screws(out: &mut impl Write) -> Printed {
     for kind in screw::coverage::Screw::ALL {
         for noise_um in [0.05, 0.25, 0.6] {
             let found = screw::coverage::coverage(kind, noise_um, 500, 1);
-            for (symbol, found) in ["V300", "V2π"].iter().zip(found) {
-                let (widened, left) = (found.widening_um, found.left_um);
+            // The figures of JB/T 2886 are those of the same curve, the line left in.
+            let all = kind == screw::coverage::Screw::TooLong;
+            let of_variation = |symbol: &str| symbol == "V300" || symbol == "V2π";
+            for found in found.into_iter().filter(|one| all || of_variation(one.symbol)) {
+                let (symbol, widened, left) = (found.symbol, found.widening_um, found.left_um);
                 let (kind, held) = (kind.in_words(), 100.0 * found.held);
                 let sizes =
                     format!("{widened:.2} µm | {left:+.3} µm | {:.3} µm", found.uncertainty_um);

@@ -13,6 +13,14 @@ pub struct Characteristic {
     pub reached: Result<Reached, Missing>,
 }
 
+impl Characteristic {
+    /// True of a figure that is linear in the readings: noise moves it, and does not make it larger.
+    #[must_use]
+    pub fn is_linear(&self) -> bool {
+        self.symbol == "e"
+    }
+}
+
 /// Why a characteristic has no value.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Missing {

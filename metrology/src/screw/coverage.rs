@@ -6,7 +6,10 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, Normal, StandardNormal};
 
-use super::{Curve, Weighting, evaluate_travel, without_reading_noise};
+use super::{
+    Characteristic, Curve, Weighting, evaluate_travel, helical_characteristics,
+    pitch_characteristics, without_reading_noise,
+};
 
 /// What kind of screw is drawn: 600 mm, lead 6 mm, eight samples a turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,12 +26,21 @@ pub enum Screw {
     Stepped,
     /// A long wave, and one of a turn that grows along the travel.
     Growing,
+    /// Too long by up to 0.1 µm/mm, or too short, with the waves of the first.
+    TooLong,
 }
 
 impl Screw {
     /// All kinds, in the order of the table.
-    pub const ALL: [Self; 6] =
-        [Self::Waves, Self::Wandering, Self::Bowed, Self::Smooth, Self::Stepped, Self::Growing];
+    pub const ALL: [Self; 7] = [
+        Self::Waves,
+        Self::Wandering,
+        Self::Bowed,
+        Self::Smooth,
+        Self::Stepped,
+        Self::Growing,
+        Self::TooLong,
+    ];
 
     /// The screw in words, as the table of coverage has it.
     #[must_use]
@@ -40,6 +52,7 @@ impl Screw {
             Self::Smooth => "one long wave, nothing within a turn",
             Self::Stepped => "a step of 1.5 µm, with a small wave of a turn",
             Self::Growing => "a wave of 470 mm, one of a turn that grows",
+            Self::TooLong => "too long or too short, with waves of 470 mm and of a turn",
         }
     }
 
@@ -47,6 +60,7 @@ impl Screw {
         let travel_mm: Vec<f64> = (0..=800).map(|k| f64::from(k) * 0.75).collect();
         let [long, short] = [0, 1].map(|_| random.random_range(0.0..TAU));
         let mut wandered = 0.0;
+        let slope = if self == Self::TooLong { random.random_range(-0.1..0.1) } else { 0.0 };
         let deviation_um: Vec<f64> = travel_mm
             .iter()
             .map(|x| {
@@ -54,7 +68,9 @@ impl Screw {
                 wandered += 0.1 * step;
                 let turn = libm::sin(TAU * x / 6.0 + short);
                 match self {
-                    Self::Waves => 3.0 * libm::sin(TAU * x / 470.0 + long) + 0.8 * turn,
+                    Self::Waves | Self::TooLong => {
+                        slope * x + 3.0 * libm::sin(TAU * x / 470.0 + long) + 0.8 * turn
+                    }
                     Self::Wandering => wandered + 0.5 * turn,
                     Self::Bowed => 1e-5 * (x - 300.0) * (x - 300.0) + 0.3 * turn,
                     Self::Smooth => 4.0 * libm::sin(TAU * x / 1200.0 + long),
@@ -69,37 +85,40 @@ impl Screw {
 }
 
 /// How a characteristic came out, on average.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coverage {
-    /// What noise adds to the band as measured, µm.
+    /// Its symbol.
+    pub symbol: &'static str,
+    /// What noise adds to its size as measured, µm.
     pub widening_um: f64,
     /// What is left of it, µm.
     pub left_um: f64,
     /// Standard uncertainty, µm.
     pub uncertainty_um: f64,
-    /// Share of the bands that ±1.96 u holds.
+    /// Share of the records whose truth ±1.96 u holds.
     pub held: f64,
 }
 
-/// Draws so many screws and records of them with noise of a standard deviation, in µm; how V300 and
-/// V2π came out.
+/// Of ISO 3408-3 and of JB/T 2886: what is linear in the readings, and what noise widens over long and short.
+const SHOWN: [&str; 6] = ["e", "V300", "V2π", "ΔL300", "ΔLu", "ΔP"];
+
+/// Draws so many screws and records of them with noise of a standard deviation, in µm; how their
+/// figures came out.
 ///
 /// # Panics
 ///
 /// When `noise_um` is not a finite size.
 #[must_use]
-pub fn coverage(screw: Screw, noise_um: f64, records: u32, seed: u64) -> [Coverage; 2] {
-    let characteristics = |curve: &Curve| {
-        let found = evaluate_travel(curve, 6.0, 0.0, Weighting::Samples).expect("6 mm is a lead");
-        found.characteristics[2..].to_vec() // V300 and V2π
-    };
+pub fn coverage(screw: Screw, noise_um: f64, records: u32, seed: u64) -> Vec<Coverage> {
     let size = |curve: &Curve| -> Vec<f64> {
         let all = characteristics(curve);
-        all.iter().filter_map(|one| one.reached.ok()).map(|found| found.value_um).collect()
+        all.iter().filter_map(|one| one.reached.ok()).map(|found| found.value_um.abs()).collect()
     };
     let noise = Normal::new(0.0, noise_um).expect("noise is a finite size");
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let mut all = [Coverage::default(); 2];
+    let none =
+        Coverage { symbol: "", widening_um: 0.0, left_um: 0.0, uncertainty_um: 0.0, held: 0.0 };
+    let mut all = SHOWN.map(|symbol| Coverage { symbol, ..none });
     let share = 1.0 / f64::from(records);
     for record in 0..records {
         let curve = screw.drawn(&mut random);
@@ -117,5 +136,15 @@ pub fn coverage(screw: Screw, noise_um: f64, records: u32, seed: u64) -> [Covera
             }
         }
     }
+    all.to_vec()
+}
+
+/// Those that are shown, in their order.
+fn characteristics(curve: &Curve) -> Vec<Characteristic> {
+    let travel = evaluate_travel(curve, 6.0, 0.0, Weighting::Samples).expect("6 mm is a lead");
+    let mut all = travel.characteristics.to_vec();
+    all.extend(helical_characteristics(curve, 6.0));
+    all.extend(pitch_characteristics(curve, 6.0));
+    all.retain(|one| SHOWN.contains(&one.symbol));
     all
 }

@@ -81,10 +81,12 @@ pub(super) fn drawn(
     }
     let models = models.iter().zip(asked).filter(|(_, times)| 0 < *times);
     let deviations = models.flat_map(|((model, _), times)| readings.drawn(*model, times, random));
+    let line = fit_mean_line(curve, Weighting::Samples);
     let mut curves = Vec::with_capacity(number_of_curves);
     for deviations in deviations {
-        let mut next = deviations.iter();
-        curves.push(curve.changed(|_| noise_um * next.next().copied().unwrap_or_default()));
+        let mut next = deviations.iter().zip(curve.travel_mm());
+        let along_line = |(off, mm): (&f64, &f64)| line.at(*mm) + noise_um * off;
+        curves.push(curve.changed(|um| next.next().map_or(*um, along_line)));
     }
     curves
 }
