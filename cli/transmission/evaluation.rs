@@ -47,6 +47,19 @@ impl Evaluation {
         self.results.iter().rev().find_map(|result| result.found.as_ref().ok())
     }
 
+    /// What a reader of the result must know.
+    pub(crate) fn notes(&self) -> Vec<String> {
+        let spectrum = self.best().and_then(|found| found.spectrum.as_ref());
+        let short = spectrum.filter(|spectrum| spectrum.lines.is_empty());
+        let note = |spectrum: &OrderSpectrum| {
+            let turns = spectrum.turns;
+            format!(
+                "{turns:.3} turns of the output are less than one: orders are not told apart, and named shafts are fitted with a constant alone; what no shaft was named for is in them"
+            )
+        };
+        short.map(note).into_iter().collect()
+    }
+
     /// True when there is no limit or the best method keeps it.
     pub(crate) fn holds(&self) -> bool {
         let limit_rad = self.limit_arcsec.map(|limit| limit / ARCSEC);

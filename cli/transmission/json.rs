@@ -20,6 +20,8 @@ keys! {
         limit_arcsec: Option<f64> = all.limit_arcsec,
         holds: Option<bool> = all.limit_arcsec.map(|_| all.holds()),
         methods: Vec<MethodJson<'a>> = all.results.iter().map(MethodJson::new).collect(),
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        notes: Vec<String> = all.notes(),
         #[serde(skip_serializing_if = "Option::is_none")]
         samples: Option<SamplesJson> = match all.results.as_slice() {
             [MethodResult { found: Ok(found), .. }] => {
@@ -48,7 +50,7 @@ keys! {
         samples: usize = found.reading.samples.len(),
         peak_to_peak_arcsec: f64 = found.reading.peak_to_peak_rad() * ARCSEC,
         slope_arcsec_per_turn: Option<f64> =
-            found.spectrum.as_ref().map(|spectrum| spectrum.slope_rad_per_turn * ARCSEC),
+            found.spectrum.as_ref().and_then(|found| Some(found.slope_rad_per_turn? * ARCSEC)),
         limits: LimitsJson = LimitsJson::new(&found.reading.limits),
         cost_per_sample: CostJson = CostJson::new(found.reading.cost),
         against_truth: Option<TruthJson> = found.against_truth.map(TruthJson::new),

@@ -4,6 +4,7 @@ use helixlock_metrology::transmission::Method;
 use helixlock_report::{Axis, Colour, Figure, Label, Page, Panel, Part, Series, Style, Table};
 
 use super::evaluation::{ARCSEC, Evaluation, Found, MethodResult};
+use super::text;
 use crate::shared::page_pieces::{self, panel};
 
 const COLOURS: [Colour; 5] =
@@ -18,6 +19,7 @@ pub(crate) fn page(evaluation: &Evaluation) -> Page {
             format!("peak to peak by {}", best.reading.method.name()),
         )]));
     }
+    parts.extend(evaluation.notes().into_iter().map(Part::Note));
     parts.push(Part::Picture {
         svg: figure(evaluation).svg(),
         caption: "The error by every method, each with its own limits, and the order spectrum of the best.".into(),
@@ -70,6 +72,9 @@ fn series((result, colour): &(&MethodResult, Colour)) -> Option<Series> {
 
 fn spectrum(found: &Found) -> Option<Panel> {
     let lines = &found.spectrum.as_ref()?.lines;
+    if lines.is_empty() {
+        return None;
+    }
     let points = lines.iter().map(|line| [line.order, line.amplitude_rad * ARCSEC]);
     let named = found.peaks.iter().filter(|peak| !peak.shafts.is_empty());
     let label = |peak: &helixlock_metrology::transmission::Peak| Label {
@@ -117,9 +122,9 @@ fn methods(evaluation: &Evaluation) -> Table {
 
 fn orders(found: &Found) -> Table {
     let mut table = Table::new(["order", "amplitude ″", "shafts"]);
-    for peak in &found.peaks {
-        let amplitude = format!("{:.4}", peak.line.amplitude_rad * ARCSEC);
-        table.row([format!("{:.3}", peak.line.order), amplitude, peak.shafts.join(", ")]);
+    for (order, amplitude_rad, names) in text::orders(found) {
+        let amplitude = format!("{:.4}", amplitude_rad * ARCSEC);
+        table.row([format!("{order:.3}"), amplitude, names.join(", ")]);
     }
     table
 }

@@ -2,6 +2,8 @@
 
 use std::io::Write;
 
+use helixlock_metrology::transmission::{Peak, ShaftLine};
+
 use super::evaluation::{ARCSEC, Evaluation, Found};
 use crate::shared::words;
 
@@ -26,22 +28,15 @@ pub(crate) fn print(out: &mut impl Write, evaluation: &Evaluation) -> anyhow::Re
     }
     let Some(best) = evaluation.best() else { return Ok(()) };
     if let Some(spectrum) = &best.spectrum {
-        writeln!(
-            out,
-            "\nby {}: slope {:+.3} ″ a turn",
-            best.reading.method.name(),
-            spectrum.slope_rad_per_turn * ARCSEC
-        )?;
+        let name = best.reading.method.name();
+        match spectrum.slope_rad_per_turn {
+            Some(slope) => writeln!(out, "\nby {name}: slope {:+.3} ″ a turn", slope * ARCSEC)?,
+            None => writeln!(out, "\nby {name}: no slope without samples a whole turn apart")?,
+        }
     }
-    for peak in &best.peaks {
-        let names =
-            if peak.shafts.is_empty() { "no shaft named".into() } else { peak.shafts.join(", ") };
-        writeln!(
-            out,
-            "order {:10.3}  {:9.4} ″  {names}",
-            peak.line.order,
-            peak.line.amplitude_rad * ARCSEC
-        )?;
+    for (order, amplitude_rad, names) in orders(best) {
+        let names = if names.is_empty() { "no shaft named".into() } else { names.join(", ") };
+        writeln!(out, "order {order:10.3}  {:9.4} ″  {names}", amplitude_rad * ARCSEC)?;
     }
     if let Some(limit) = evaluation.limit_arcsec {
         let verdict = words::held(evaluation.holds());
@@ -51,7 +46,22 @@ pub(crate) fn print(out: &mut impl Write, evaluation: &Evaluation) -> anyhow::Re
             best.reading.peak_to_peak_rad() * ARCSEC
         )?;
     }
+    for note in evaluation.notes() {
+        writeln!(out, "note: {note}")?;
+    }
     Ok(())
+}
+
+/// Tall lines, or where there are none for want of a whole turn, the named shafts: order, amplitude in
+/// rad, names.
+pub(super) fn orders(found: &Found) -> Vec<(f64, f64, Vec<String>)> {
+    let Some(spectrum) = found.spectrum.as_ref().filter(|one| one.lines.is_empty()) else {
+        let peak = |peak: &Peak| (peak.line.order, peak.line.amplitude_rad, peak.shafts.clone());
+        return found.peaks.iter().map(peak).collect();
+    };
+    let shaft =
+        |one: &ShaftLine| (one.shaft.order, one.amplitude_rad, vec![one.shaft.name.clone()]);
+    spectrum.shafts.iter().map(shaft).collect()
 }
 
 fn print_method(out: &mut impl Write, name: &str, found: &Found) -> anyhow::Result<()> {

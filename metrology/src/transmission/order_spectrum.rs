@@ -41,9 +41,13 @@ pub struct ShaftLine {
 /// Amplitude against order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OrderSpectrum {
-    /// Slope removed, rad a turn: the ratio is not what it was said to be, or the run drifts.
-    pub slope_rad_per_turn: f64,
-    /// Lines, from the lowest order to half the samples.
+    /// Turns of the output that the samples stand for, each for its own step.
+    pub turns: f64,
+    /// Slope removed, rad a turn: the ratio is not what it was said to be, or the run drifts. Only samples
+    /// whole turns apart tell it from what repeats with the turn; absent where there are none.
+    pub slope_rad_per_turn: Option<f64>,
+    /// Lines, from the lowest order to half the samples; none with less than a whole turn, which does not
+    /// tell orders apart.
     pub lines: Vec<OrderLine>,
     /// Named contributions; shafts the samples are too few or the run is too short for are left out.
     pub shafts: Vec<ShaftLine>,
@@ -51,9 +55,11 @@ pub struct OrderSpectrum {
 
 /// The order spectrum of δ.
 ///
-/// Samples are even in output turns (each method gives them at output pulses). As many whole
-/// turns as there are go in; with less than a turn, all of it does. Line `m` has the order
-/// `m/turns`, and an amplitude of a sine on its order comes out as it is.
+/// Samples are even in output turns (each method gives them at output pulses), and each stands for its
+/// step: 720 pulses of a disc of 720 lines are a turn. As many whole turns as there are go in. Line `m`
+/// has the order `m/turns`, and an amplitude of a sine on its order comes out as it is. With less than a
+/// turn there are no lines and no slope, and the named shafts are fitted with a constant alone: the
+/// ratio is exact, so δ has no slope of its own.
 ///
 /// # Errors
 ///
@@ -66,8 +72,25 @@ pub fn order_spectrum(samples: &[Sample], shafts: &[Shaft]) -> Result<OrderSpect
     let step_turns =
         (whole[whole.len() - 1].output_turns - whole[0].output_turns) / number(whole.len() - 1);
     let turns = step_turns * number(whole.len());
-    let slope_rad_per_turn = slope(samples);
-    let flat_rad = flat(whole, slope_rad_per_turn);
+    let is_whole = 1.0 - WHOLE < turns;
+    let slope_rad_per_turn = slope(samples).filter(|_| is_whole);
+    let flat_rad = flat(whole, slope_rad_per_turn.unwrap_or(0.0));
+    let lines = if is_whole { lines(&flat_rad, turns) } else { Vec::new() };
+    let highest = 0.5 / step_turns;
+    let fast = shafts.iter().filter(|shaft| shaft.order < highest).cloned().collect::<Vec<_>>();
+    // What turns less than half a period is in the fit, so that it is not taken for others, and not told.
+    let mut shafts = named(whole, &flat_rad, &fast);
+    shafts.retain(|one| LEAST_PERIODS / turns < one.shaft.order);
+    Ok(OrderSpectrum { turns, slope_rad_per_turn, lines, shafts })
+}
+
+/// Part of a turn by which a whole one may be short: rounding.
+const WHOLE: f64 = 1e-9;
+/// Periods of a shaft that a run has to hold. Chosen: with less than half of one, a sine and a constant are
+/// much the same.
+const LEAST_PERIODS: f64 = 0.5;
+
+fn lines(flat_rad: &[f64], turns: f64) -> Vec<OrderLine> {
     let mut spectrum: Vec<Complex<f64>> =
         flat_rad.iter().map(|&value| Complex::new(value, 0.0)).collect();
     forward(&mut spectrum);
@@ -75,21 +98,19 @@ pub fn order_spectrum(samples: &[Sample], shafts: &[Shaft]) -> Result<OrderSpect
         order: number(index) / turns,
         amplitude_rad: 2.0 * spectrum[index].norm() / number(spectrum.len()),
     };
-    let lines: Vec<OrderLine> = (1..spectrum.len().div_ceil(2)).map(line).collect();
-    let highest = 0.5 / step_turns;
-    let seen = |shaft: &&Shaft| 0.5 / turns < shaft.order && shaft.order < highest;
-    let seen: Vec<Shaft> = shafts.iter().filter(seen).cloned().collect();
-    Ok(OrderSpectrum { slope_rad_per_turn, lines, shafts: named(whole, &flat_rad, &seen) })
+    (1..spectrum.len().div_ceil(2)).map(line).collect()
 }
 
 /// The samples of the largest whole number of turns.
 fn whole_turns(samples: &[Sample]) -> &[Sample] {
     let (Some(first), Some(last)) = (samples.first(), samples.last()) else { return samples };
-    let turns = (last.output_turns - first.output_turns + 1e-9).floor();
+    let span = last.output_turns - first.output_turns;
+    let step = span / number(samples.len().max(2) - 1);
+    let turns = (span + step + WHOLE).floor();
     if turns < 1.0 {
         return samples;
     }
-    let end = first.output_turns + turns - 1e-9;
+    let end = first.output_turns + turns - WHOLE;
     &samples[..samples.partition_point(|sample| sample.output_turns < end)]
 }
 
@@ -101,38 +122,23 @@ fn flat(whole: &[Sample], slope_rad_per_turn: f64) -> Vec<f64> {
 }
 
 /// How much δ grows a turn: the mean of what differs between samples whole turns apart, so that
-/// nothing periodic in the turn counts; the least-squares slope when there is less than a turn.
-fn slope(samples: &[Sample]) -> f64 {
+/// nothing periodic in the turn counts; `None` where none are.
+fn slope(samples: &[Sample]) -> Option<f64> {
     let turns = samples[samples.len() - 1].output_turns - samples[0].output_turns;
-    let lag = ((turns + 1e-9).floor() - 1.0).max(1.0);
+    let lag = ((turns + WHOLE).floor() - 1.0).max(1.0);
     let later = |sample: &Sample| {
-        let at = sample.output_turns + lag - 1e-9;
+        let at = sample.output_turns + lag - WHOLE;
         let after = samples.partition_point(|other| other.output_turns < at);
         let other = samples.get(after)?;
         Some((other.error_rad - sample.error_rad) / (other.output_turns - sample.output_turns))
     };
     let growths: Vec<f64> = samples.iter().map_while(later).collect();
-    if growths.is_empty() {
-        return least_squares_slope(samples);
-    }
-    growths.iter().sum::<f64>() / number(growths.len())
+    (!growths.is_empty()).then(|| growths.iter().sum::<f64>() / number(growths.len()))
 }
 
-fn least_squares_slope(samples: &[Sample]) -> f64 {
-    let count = number(samples.len());
-    let mean_turns = samples.iter().map(|s| s.output_turns).sum::<f64>() / count;
-    let (mut squares, mut products) = (0.0, 0.0);
-    for sample in samples {
-        let turns = sample.output_turns - mean_turns;
-        squares += turns * turns;
-        products += turns * sample.error_rad;
-    }
-    products / squares
-}
-
-/// Least squares of a sine and a cosine at every named order, jointly.
+/// Least squares of a constant, and of a sine and a cosine at every named order, jointly.
 fn named(samples: &[Sample], flat_rad: &[f64], shafts: &[Shaft]) -> Vec<ShaftLine> {
-    let size = 2 * shafts.len();
+    let size = 1 + 2 * shafts.len();
     let mut matrix = Banded::zeros(size, size);
     let mut right = vec![0.0; size];
     let start = samples.first().map_or(0.0, |sample| sample.output_turns);
@@ -141,7 +147,7 @@ fn named(samples: &[Sample], flat_rad: &[f64], shafts: &[Shaft]) -> Vec<ShaftLin
             let (sin, cos) = libm::sincos(TAU * shaft.order * (sample.output_turns - start));
             [sin, cos]
         });
-        let row: Vec<(usize, f64)> = waves.enumerate().collect();
+        let row: Vec<(usize, f64)> = std::iter::once(1.0).chain(waves).enumerate().collect();
         matrix.add_outer(&row, 1.0);
         for (place, wave) in &row {
             right[*place] += wave * value;
@@ -155,7 +161,7 @@ fn named(samples: &[Sample], flat_rad: &[f64], shafts: &[Shaft]) -> Vec<ShaftLin
         amplitude_rad: libm::hypot(wave[0], wave[1]),
         phase_rad: libm::atan2(wave[1], wave[0]),
     };
-    shafts.iter().zip(found.chunks(2)).map(line).collect()
+    shafts.iter().zip(found[1..].chunks(2)).map(line).collect()
 }
 
 #[cfg(test)]
@@ -181,7 +187,7 @@ mod tests {
             line.unwrap().amplitude_rad
         };
         assert!((at(1.0) - 3.0).abs() < 1e-6, "{}", at(1.0));
-        assert!((spectrum.slope_rad_per_turn - 0.1).abs() < 1e-9);
+        assert!((spectrum.slope_rad_per_turn.unwrap() - 0.1).abs() < 1e-9);
         assert!((at(36.0) - 0.5).abs() < 1e-6, "{}", at(36.0));
     }
 
@@ -194,5 +200,32 @@ mod tests {
         assert!((spectrum.shafts[1].amplitude_rad - 0.5).abs() < 1e-6);
         // cos = sin a quarter turn on.
         assert!((spectrum.shafts[1].phase_rad - TAU / 4.0).abs() < 1e-6);
+    }
+
+    /// δ of 12 once a turn and of 4 at the worm, over part of a turn. A line through what was less than a
+    /// turn took most of the first away: 4.7 of 12 over 720 pulses, 4.0 over 0.95 turns.
+    #[test]
+    fn no_slope_is_taken_off_less_than_a_turn() {
+        let shaft = |name: &str, order| Shaft { name: name.into(), order };
+        let shafts = [shaft("table", 1.0), shaft("worm", 36.0)];
+        let sample = |index: usize| {
+            let output_turns = number(index) / 720.0;
+            let error_rad = 12.0 * libm::sin(TAU * output_turns + 0.7)
+                + 4.0 * libm::cos(TAU * 36.0 * output_turns);
+            Sample { time_s: output_turns, output_turns, error_rad }
+        };
+        for pulses in [720, 721, 684, 504] {
+            let samples: Vec<Sample> = (0..pulses).map(sample).collect();
+            let found = order_spectrum(&samples, &shafts).unwrap();
+            let amplitudes: Vec<f64> = found.shafts.iter().map(|one| one.amplitude_rad).collect();
+            assert!((amplitudes[0] - 12.0).abs() < 1e-6, "{pulses}: {amplitudes:?}");
+            assert!((amplitudes[1] - 4.0).abs() < 1e-6, "{pulses}: {amplitudes:?}");
+            assert_eq!(found.lines.is_empty(), pulses < 720, "{pulses}");
+            assert!(found.slope_rad_per_turn.is_none_or(|slope| slope.abs() < 1e-9), "{found:?}");
+        }
+        let short: Vec<Sample> = (0..288).map(sample).collect();
+        let found = order_spectrum(&short, &shafts).unwrap();
+        assert_eq!(found.shafts.len(), 1, "0.4 turns do not show what turns once");
+        assert!((found.shafts[0].amplitude_rad - 4.0).abs() < 1e-6, "{found:?}");
     }
 }

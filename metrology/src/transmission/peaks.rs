@@ -57,8 +57,12 @@ mod tests {
             order: f64::from(index + 1) / 2.0,
             amplitude_rad: amplitude(index),
         });
-        let spectrum =
-            OrderSpectrum { slope_rad_per_turn: 0.0, lines: lines.collect(), shafts: vec![] };
+        let spectrum = OrderSpectrum {
+            turns: 2.0,
+            slope_rad_per_turn: None,
+            lines: lines.collect(),
+            shafts: vec![],
+        };
         let worm = Shaft { name: "worm".into(), order: 15.1 };
         let found = peaks(&spectrum, &[worm], 5);
         assert_eq!(found.len(), 2);
