@@ -12,6 +12,7 @@
 //! (The document's counting formulas give `−i·δ`, the same error seen at the input.)
 
 mod analog;
+mod capture_tick;
 mod counting;
 mod digital;
 mod divided;

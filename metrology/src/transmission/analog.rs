@@ -7,6 +7,7 @@ use super::divided::{Divided, divide};
 use super::gearing::float;
 use super::method::{Limits, Sample, Setup};
 use super::pulses::Pulses;
+use super::unevenness::fastest_pulses;
 use crate::Error;
 use crate::number::number;
 
@@ -23,7 +24,8 @@ pub(super) fn measure(pulses: &Pulses, setup: &Setup) -> Result<(Vec<Sample>, Li
         step_rad: None,
         samples_per_turn: float(gearing.output_lines) / number(divided.divider),
         bound_rad: steepest_rad_per_s * (2.0 * setup.recorder_s + period_s)
-            + range_rad * (ripple(period_s / setup.recorder_s) + 2.0 * divided.unevenness(pulses)),
+            + range_rad * (ripple(period_s / setup.recorder_s) + 2.0 * divided.unevenness(pulses))
+            + 4.0 * fastest_pulses(pulses, pulses.tick_s()) * gearing.input_pulse_rad(),
         in_words: "equal frequencies only; starts again beyond its range; the recorder lags by its time constant and lets some of the comparison frequency through",
     };
     Ok((samples, limits))

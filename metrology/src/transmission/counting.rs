@@ -2,7 +2,7 @@
 
 use super::method::{Limits, Sample, Setup};
 use super::pulses::Pulses;
-use super::unevenness::{fastest_pulses_per_tick, interpolation_pulses};
+use super::unevenness::{fastest_pulses, interpolation_pulses};
 use crate::Error;
 use crate::number::number;
 
@@ -15,8 +15,8 @@ pub(super) fn direct(pulses: &Pulses, setup: &Setup) -> Result<(Vec<Sample>, Lim
         range_rad: None,
         step_rad: None,
         samples_per_turn: super::gearing::float(setup.gearing.output_lines),
-        // Either sample loses less than one pulse.
-        bound_rad: pulse_rad,
+        // Either sample loses less than one pulse, and a tick may put an output pulse before or behind one.
+        bound_rad: pulse_rad * (1.0 + 4.0 * fastest_pulses(pulses, pulses.tick_s())),
         in_words: "any ratio, any size; loses the fraction of an input pulse",
     };
     Ok((samples, limits))
@@ -68,16 +68,20 @@ fn at_output_pulses(
 }
 
 /// Bound on a difference of two fractions of an input pulse: three instants are clocked for each,
-/// and each takes the speed as even between two pulses.
+/// each has the tick of the capture beside that clock, and each takes the speed as even between two
+/// pulses.
 pub(super) fn fraction_bound_pulses(pulses: &Pulses, setup: &Setup) -> f64 {
-    4.0 * fastest_pulses_per_tick(pulses, setup.clock_hz) + 2.0 * interpolation_pulses(pulses)
+    let ticks_s = 1.0 / setup.clock_hz + pulses.tick_s();
+    4.0 * fastest_pulses(pulses, ticks_s) + 2.0 * interpolation_pulses(pulses)
 }
 
-/// Turn of the output that one clock stands for at the mean speed, rad.
+/// Turn of the output that one clock stands for at the mean speed, or a tick of the capture where that is
+/// longer, rad.
 pub(super) fn tick_rad(pulses: &Pulses, setup: &Setup) -> f64 {
     let input_s = pulses.input_s();
     let span_s = input_s[input_s.len() - 1] - input_s[0];
-    let pulses_per_tick = number(input_s.len() - 1) / (span_s * setup.clock_hz);
+    let tick_s = pulses.tick_s().max(1.0 / setup.clock_hz);
+    let pulses_per_tick = number(input_s.len() - 1) * tick_s / span_s;
     pulses_per_tick * setup.gearing.input_pulse_rad()
 }
 

@@ -1,5 +1,6 @@
 //! Two pulse trains on one time axis.
 
+use super::capture_tick::common_step_s;
 use super::gearing::{Gearing, float};
 use super::missing_pulses;
 use crate::Error;
@@ -14,6 +15,7 @@ const RATIO_TOLERANCE: f64 = 0.01;
 pub struct Pulses {
     input_s: Vec<f64>,
     output_s: Vec<f64>,
+    tick_s: f64,
 }
 
 impl Pulses {
@@ -28,7 +30,8 @@ impl Pulses {
         check(&output_s, "output pulse")?;
         missing_pulses::check(&input_s, &output_s, "input pulse")?;
         missing_pulses::check(&output_s, &input_s, "output pulse")?;
-        Ok(Self { input_s, output_s })
+        let tick_s = common_step_s(&input_s, &output_s).unwrap_or(0.0);
+        Ok(Self { input_s, output_s, tick_s })
     }
 
     /// Instants of the input pulses, s.
@@ -41,6 +44,13 @@ impl Pulses {
     #[must_use]
     pub fn output_s(&self) -> &[f64] {
         &self.output_s
+    }
+
+    /// Tick of the capture's own clock, s: every instant is a whole number of them from the first; zero
+    /// where they have none in common.
+    #[must_use]
+    pub fn tick_s(&self) -> f64 {
+        self.tick_s
     }
 
     /// Refuses trains that cannot come from these lines and this ratio.

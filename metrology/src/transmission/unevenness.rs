@@ -16,10 +16,10 @@ pub(super) fn interpolation_pulses(pulses: &Pulses) -> f64 {
     periods_s.windows(2).map(change).fold(0.0, f64::max) / 4.0
 }
 
-/// Input pulses a clock tick stands for where the input is fastest.
-pub(super) fn fastest_pulses_per_tick(pulses: &Pulses, clock_hz: f64) -> f64 {
+/// Input pulses that a time stands for where the input is fastest.
+pub(super) fn fastest_pulses(pulses: &Pulses, time_s: f64) -> f64 {
     let periods_s = pulses.input_s().windows(2).map(|pair| pair[1] - pair[0]);
-    1.0 / (periods_s.fold(f64::INFINITY, f64::min) * clock_hz)
+    time_s / periods_s.fold(f64::INFINITY, f64::min)
 }
 
 /// Where an instant lies among the pulses of a train, in pulses from its first; `None` outside.
