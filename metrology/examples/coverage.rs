@@ -33,6 +33,11 @@ fn of_straightness(out: &mut impl Write) -> Printed {
     let others = Condition::ALL.iter().skip(1).flat_map(|condition| {
         [Bar::Repeating, Bar::NotRepeating, Bar::Wandering].map(|bar| (bar, *condition, 400))
     });
+    // What is lost in noise is asked of waves alone.
+    let others = others.filter(|(bar, condition, _)| {
+        let loud = matches!(condition, Condition::Loud | Condition::Louder);
+        *bar == Bar::NotRepeating || !loud
+    });
     for (bar, condition, records) in usual.into_iter().chain(others) {
         let found = coverage((bar, condition), records, 1)?;
         let [by_fourier, by_squares] = found.minimum_zone;

@@ -7,6 +7,8 @@ use crate::number::{dot, number};
 
 /// Most waves that are looked for.
 const MOST_WAVES: usize = 5;
+/// Mean squares of waves that are expected, in parts of that of the bar: every order of magnitude alike.
+const WAVE_SIZES: [f64; 4] = [1.0, 0.1, 0.01, 0.001];
 /// Above these the work grows beyond seconds: places, and places times those between the probes.
 const MOST_PLACES: usize = 600;
 const MOST_WORK: usize = 60_000;
@@ -36,14 +38,19 @@ pub(super) fn posterior(
 ) -> Option<Posterior> {
     let size_um2 = mean_square_um2(system, noise_um2, smoothness)?;
     let prior = Prior { noise_um2, size_um2 };
-    let models = models(system, prior, smoothness);
+    // Small waves that the readings hardly show are found, and weigh, only where small ones are expected.
+    let models: Vec<(Prior, Vec<f64>)> = WAVE_SIZES
+        .iter()
+        .map(|part| Prior { size_um2: size_um2 * part, ..prior })
+        .flat_map(|prior| models(system, prior, smoothness).into_iter().map(move |m| (prior, m)))
+        .collect();
     // Half decades are fine enough for a mean over all of them.
     let smoothness: Vec<f64> = smoothness.iter().copied().step_by(2).collect();
     let mut judged = Vec::new();
     for (level, smoothness) in smoothness.iter().enumerate() {
         let Some(smooth) = system.smooth(*smoothness) else { continue };
-        for (model, waves) in models.iter().enumerate() {
-            let found = fit(system, &smooth, prior, waves);
+        for (model, (prior, waves)) in models.iter().enumerate() {
+            let found = fit(system, &smooth, *prior, waves);
             judged.extend(found.map(|found| (found.misfit, level, model)));
         }
     }
@@ -61,7 +68,8 @@ pub(super) fn posterior(
         let smooth = system.smooth(*smoothness)?;
         let of_smooth = covariance_of_smooth(system, &smooth, noise_um2);
         for (weight, _, model) in models_here() {
-            let waves = fit(system, &smooth, prior, &models[*model])?;
+            let (prior, waves) = &models[*model];
+            let waves = fit(system, &smooth, *prior, waves)?;
             mixture.add(*weight, &smooth, &waves, &of_smooth);
         }
     }
@@ -167,7 +175,12 @@ impl<'a> Mixture<'a> {
             let each = row.iter().zip(&bar_um);
             each.map(|(square, other)| square / weights - bar_um[sample] * other).collect()
         };
-        let covariance_um2 = self.squares_um2.into_iter().enumerate().map(covariance).collect();
+        let mut covariance_um2: Vec<Vec<f64>> =
+            self.squares_um2.into_iter().enumerate().map(covariance).collect();
+        let lost_um2 = self.system.lost_in_noise(self.noise_um2);
+        for (place, row) in covariance_um2.iter_mut().enumerate() {
+            row[place] += lost_um2;
+        }
         Posterior { places_um, covariance_um2 }
     }
 }

@@ -65,6 +65,14 @@ impl<'a> System<'a> {
         self.equations.iter().map(value).collect()
     }
 
+    /// Mean square of a wave that is not told from the largest that noise alone makes at any of the
+    /// frequencies that places tell apart: `a²·g²·n/(4·σ²) = ln(places)`, g the mean gain of the probes.
+    pub(super) fn lost_in_noise(&self, noise_um2: f64) -> f64 {
+        let r = self.combined.spacing.ratio();
+        let gain = 1.0 + (1.0 + r) * (1.0 + r) + r * r;
+        2.0 * libm::log(number(self.places())) * noise_um2 / (number(self.z_um.len()) * gain)
+    }
+
     /// The equations with a smoothness weight; `None` when they cannot be solved.
     pub(super) fn smooth(&self, smoothness: f64) -> Option<Smooth> {
         let places = self.places();
