@@ -13,8 +13,9 @@ use anyhow::{Context, bail};
 use clap::{Args, ValueEnum};
 use helixlock_metrology::Error;
 use helixlock_metrology::screw::{
-    Characteristic, Curve, Estimate, Grading, ToleranceTable, Weighting, built_in_table,
-    evaluate_travel, grade, helical_characteristics, pitch_characteristics, without_reading_noise,
+    Characteristic, Curve, Doubt, Estimate, Grading, ToleranceTable, Weighting, built_in_table,
+    doubt, evaluate_travel, grade, helical_characteristics, pitch_characteristics,
+    without_reading_noise, without_wild,
 };
 use helixlock_traces::{Column, Table};
 
@@ -183,6 +184,8 @@ impl Screw {
                 (Some(file), noise_um)
             }
         };
+        let (doubt, wild_mm) = doubts(&curve, noise_um);
+        let file = file.map(|file| if doubt.is_some() { file.without_noise_known() } else { file });
         let mut estimates = self.estimates(&measured, noise_um, &characteristics);
         let sheet = file.map(|file| sheet_of(file, &measured, &estimates, noise_um)).transpose()?;
         if let Some(sheet) = &sheet {
@@ -193,6 +196,8 @@ impl Screw {
         Ok(Evaluation {
             path: self.data.clone(),
             left_out: travel.len() - whole.travel_mm().len(),
+            asked_mm: [self.from, self.to],
+            data_mm: [whole.first_mm(), whole.last_mm()],
             standard: table.standard,
             lead_mm: self.lead,
             mean_line: variation.mean_line,
@@ -201,6 +206,8 @@ impl Screw {
             gaps: variation.gaps,
             uncertainty_um: self.uncertainty,
             reading_noise_um: noise_um,
+            doubt,
+            wild_mm,
             characteristics,
             estimates,
             grading,
@@ -274,6 +281,13 @@ impl Answering for Screw {
         ]);
         Ok(answer.with_table("travel", travel))
     }
+}
+
+/// Why nothing is said without noise, and places of readings far off their neighbours, mm.
+fn doubts(curve: &Curve, noise_um: Option<f64>) -> (Option<Doubt>, Vec<f64>) {
+    let Some(noise_um) = noise_um else { return (None, Vec::new()) };
+    let (rest, wild_mm) = without_wild(curve, noise_um);
+    (doubt(&rest, noise_um), wild_mm)
 }
 
 fn write_files(

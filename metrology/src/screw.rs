@@ -7,6 +7,7 @@
 mod characteristic;
 pub mod coverage;
 mod curve;
+mod doubts;
 mod grade;
 mod helical;
 mod mean_line;
@@ -20,6 +21,7 @@ mod windows;
 
 pub use characteristic::{Characteristic, Missing, Reached};
 pub use curve::{Curve, Gap};
+pub use doubts::{Doubt, doubt, without_wild};
 pub use grade::{GradeVerdict, Grading, Judgement, grade};
 pub use helical::helical_characteristics;
 pub use mean_line::{MeanLine, Weighting, fit_mean_line};

@@ -67,6 +67,12 @@ pub(crate) const ZEROS: &str = "zeros of the probes";
 pub(crate) const FROM_READING_TO_READING: &str = "device, from reading to reading";
 
 impl SheetFile {
+    /// The same where readings contradict the noise that is told of them.
+    pub(crate) fn without_noise_known(mut self) -> Self {
+        self.missing.push("noise that is new at every reading");
+        self
+    }
+
     /// A sheet of which nothing is known.
     pub(crate) fn empty() -> Self {
         let head = HEAD.map(|(_, name)| (name, None)).into();

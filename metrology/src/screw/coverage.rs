@@ -26,19 +26,31 @@ pub enum Screw {
     Stepped,
     /// A long wave, and one of a turn that grows along the travel.
     Growing,
+    /// A wave of 80 mm, and one of a turn.
+    Medium,
+    /// A long wave, one of a turn, and one of 10 mm, the lead of the grinder's own screw.
+    Grinder,
+    /// A long wave, and one of a turn that swells and falls over 150 mm.
+    Swelling,
+    /// A long wave, one of a turn, and two bumps.
+    Bumps,
     /// Too long by up to 0.1 µm/mm, or too short, with the waves of the first.
     TooLong,
 }
 
 impl Screw {
     /// All kinds, in the order of the table.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 11] = [
         Self::Waves,
         Self::Wandering,
         Self::Bowed,
         Self::Smooth,
         Self::Stepped,
         Self::Growing,
+        Self::Medium,
+        Self::Grinder,
+        Self::Swelling,
+        Self::Bumps,
         Self::TooLong,
     ];
 
@@ -52,6 +64,10 @@ impl Screw {
             Self::Smooth => "one long wave, nothing within a turn",
             Self::Stepped => "a step of 1.5 µm, with a small wave of a turn",
             Self::Growing => "a wave of 470 mm, one of a turn that grows",
+            Self::Medium => "waves of 80 mm and of a turn",
+            Self::Grinder => "waves of 350 mm, 10 mm and of a turn",
+            Self::Swelling => "a wave of 470 mm, one of a turn that swells over 150 mm",
+            Self::Bumps => "waves of 470 mm and of a turn, two bumps of 1.5 µm",
             Self::TooLong => "too long or too short, with waves of 470 mm and of a turn",
         }
     }
@@ -59,6 +75,15 @@ impl Screw {
     fn drawn(self, random: &mut ChaCha8Rng) -> Curve {
         let travel_mm: Vec<f64> = (0..=800).map(|k| f64::from(k) * 0.75).collect();
         let [long, short] = [0, 1].map(|_| random.random_range(0.0..TAU));
+        let [more, other] = if matches!(self, Self::Grinder | Self::Swelling | Self::Bumps) {
+            [0, 1].map(|_| random.random_range(0.0..TAU))
+        } else {
+            [0.0; 2]
+        };
+        let wave = |x: f64, mm: f64, phase: f64| libm::sin(TAU * x / mm + phase);
+        // Somewhere in the middle 500 mm, two thirds of their height within 5 mm.
+        let bump =
+            |x: f64, at: f64| 1.5 * libm::exp(-((x - 50.0 - 500.0 * at / TAU) / 8.0).powi(2));
         let mut wandered = 0.0;
         let slope = if self == Self::TooLong { random.random_range(-0.1..0.1) } else { 0.0 };
         let deviation_um: Vec<f64> = travel_mm
@@ -68,6 +93,18 @@ impl Screw {
                 wandered += 0.1 * step;
                 let turn = libm::sin(TAU * x / 6.0 + short);
                 match self {
+                    Self::Medium => 1.5 * wave(*x, 80.0, long) + 0.5 * turn,
+                    Self::Grinder => {
+                        2.0 * wave(*x, 350.0, long) + 0.6 * wave(*x, 10.0, more) + 0.5 * turn
+                    }
+                    Self::Swelling => {
+                        let swell = 1.0 + 0.5 * wave(*x, 150.0, more);
+                        2.0 * wave(*x, 470.0, long) + 0.8 * swell * turn
+                    }
+                    Self::Bumps => {
+                        let both = bump(*x, more) + bump(*x, other);
+                        2.0 * wave(*x, 470.0, long) + 0.5 * turn + both
+                    }
                     Self::Waves | Self::TooLong => {
                         slope * x + 3.0 * libm::sin(TAU * x / 470.0 + long) + 0.8 * turn
                     }

@@ -105,6 +105,17 @@ impl Curve {
         Self { travel_mm: self.travel_mm.clone(), deviation_um }
     }
 
+    /// The curve without some of its rows; `None` where what is left has no length.
+    pub(super) fn without(&self, rows: &[usize]) -> Option<Self> {
+        let kept = |values: &[f64]| -> Vec<f64> {
+            let rest = values.iter().enumerate().filter(|(row, _)| !rows.contains(row));
+            rest.map(|(_, value)| *value).collect()
+        };
+        let rest =
+            Self { travel_mm: kept(&self.travel_mm), deviation_um: kept(&self.deviation_um) };
+        rest.long_enough().ok()
+    }
+
     /// The same travel, measured with a device whose lengths are too long by so many µm/m.
     #[must_use]
     pub fn stretched(&self, um_per_m: f64) -> Self {

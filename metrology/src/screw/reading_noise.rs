@@ -10,7 +10,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use super::true_curve::drawn;
-use super::{Characteristic, Curve};
+use super::{Characteristic, Curve, doubt, without_wild};
 use crate::number::mean;
 
 /// What is known of the size of a characteristic.
@@ -27,9 +27,9 @@ const DRAWS: usize = 256;
 
 /// Sizes of the characteristics without noise of `noise_um` (standard deviation of one reading,
 /// normal, independent from reading to reading), for a screw of `lead_mm`; `None` where a characteristic
-/// has no value.
+/// has no value, and for all where the readings contradict such noise ([`doubt`]).
 ///
-/// `characteristics` evaluates a curve. Equal seeds give equal estimates.
+/// Wild readings are left out of what is drawn. `characteristics` evaluates a curve. Equal seeds give equal estimates.
 pub fn without_reading_noise(
     curve: &Curve,
     noise_um: f64,
@@ -37,6 +37,11 @@ pub fn without_reading_noise(
     seed: u64,
     characteristics: &dyn Fn(&Curve) -> Vec<Characteristic>,
 ) -> Vec<Option<Estimate>> {
+    let measured = characteristics(curve);
+    let curve = &without_wild(curve, noise_um).0;
+    if doubt(curve, noise_um).is_some() {
+        return vec![None; measured.len()];
+    }
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let curves = if 0.0 < noise_um {
         drawn(curve, noise_um, lead_mm, DRAWS, &mut random)
@@ -45,17 +50,17 @@ pub fn without_reading_noise(
     };
     let all: Vec<Vec<Option<f64>>> =
         curves.iter().map(|curve| values(&characteristics(curve))).collect();
-    let measured = characteristics(curve);
+    let fitted = characteristics(curve);
     let of = |(index, one): (usize, &Characteristic)| {
         let drawn: Vec<f64> = all.iter().map(|values| values[index]).collect::<Option<_>>()?;
-        let measured_um = one.reached.ok()?.value_um;
+        let fitted_um = one.reached.ok()?.value_um;
         Some(if one.is_linear() {
-            Estimate { size_um: measured_um.abs(), ..estimate(drawn) }
+            Estimate { size_um: fitted_um.abs(), ..estimate(drawn) }
         } else {
             estimate(drawn.iter().map(|value_um| value_um.abs()).collect())
         })
     };
-    measured.iter().enumerate().map(of).collect()
+    fitted.iter().enumerate().map(of).collect()
 }
 
 fn values(characteristics: &[Characteristic]) -> Vec<Option<f64>> {
@@ -102,6 +107,20 @@ mod tests {
     #[test]
     fn what_wanders_steps_or_grows_is_told_from_noise() {
         is_taken_off_truly([Screw::Wandering, Screw::Stepped, Screw::Growing]);
+    }
+
+    /// A curve that bends by chance alone is rougher than these: it held 8 % of V300 with a wave of 80 mm, and
+    /// none of V2π with the lead of the grinder's own screw. With 20 records of each, 75 % is four standard
+    /// deviations below 95 %.
+    #[test]
+    fn waves_of_any_length_are_told_from_noise() {
+        for screw in [Screw::Medium, Screw::Grinder] {
+            for found in coverage(screw, 0.25, 20, 7) {
+                if found.symbol == "V300" || found.symbol == "V2π" {
+                    assert!(0.75 < found.held, "{screw:?}: {found:?}");
+                }
+            }
+        }
     }
 
     /// The rise of the mean line, and all that JB/T 2886 evaluates without one: with the line taken off,

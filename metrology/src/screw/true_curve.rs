@@ -2,9 +2,11 @@
 //!
 //! A cubic, waves of a turn, and what bends by chance: how often integrated, how strong, and with how many
 //! waves is not chosen. Each is weighed by how probable it makes the readings (Bayesian model averaging, Hoeting
-//! et al., *Statistical Science* 14, 1999, 382), and curves are drawn of all. What bends by chance has no steps:
-//! where they make the readings more probable, with all places that they might have, they are among what every
-//! curve has (de Jong and Penzer, *Diagnosing shocks in time series*, JASA 93, 1998, 796).
+//! et al., *Statistical Science* 14, 1999, 382), and curves are drawn of all. What bends by chance has no steps,
+//! waves or bumps: where they make the readings more probable, with all places that they might have, they are
+//! among what every curve has (de Jong and Penzer, *Diagnosing shocks in time series*, JASA 93, 1998, 796).
+
+mod features;
 
 use std::f64::consts::TAU;
 
@@ -28,8 +30,9 @@ const A_PAIR: usize = 2;
 const SAMPLES_A_WAVE: f64 = 2.5;
 /// A process is too weak to be seen whose deviation at the end is a tenth of what the mean of all readings leaves.
 const UNSEEN: f64 = 0.01;
-/// Steps of the logarithm of a strength, and finer ones about the most probable.
+/// Steps of the logarithm of a strength, rough ones to compare by, and finer ones about the most probable.
 const STEP: f64 = 2.0;
+const ROUGH_STEP: f64 = 4.0;
 const FINE_STEP: f64 = 0.15;
 const FINE_STEPS: i8 = 10;
 /// Most places by which the models are weighed. Of a longer record, means of neighbours are.
@@ -49,9 +52,9 @@ struct Readings {
     values: Vec<f64>,
     /// Variance of a value.
     variance: f64,
-    /// A cubic, steps, then two pairs of each wave: even, and growing.
+    /// A cubic, steps and other features, then two pairs of each wave: even, and growing.
     columns: Vec<Vec<f64>>,
-    /// What every curve has: the cubic and the steps.
+    /// What every curve has: the cubic and the features.
     every: usize,
     /// Variance of the readings about their mean line, which is what a bend or a wave may be.
     of_curve: f64,
@@ -65,7 +68,7 @@ pub(super) fn drawn(
     number_of_curves: usize,
     random: &mut ChaCha8Rng,
 ) -> Vec<Curve> {
-    let (readings, models) = Readings::of(curve, noise_um, lead_mm).with_steps();
+    let (readings, models) = Readings::of(curve, noise_um, lead_mm).with_features();
     let most = most_probable(&models).1;
     let models: Vec<(Model, f64)> =
         models.into_iter().map(|(model, log)| (model, libm::exp(log - most))).collect();
@@ -132,52 +135,6 @@ impl Readings {
         }
     }
 
-    /// The steps that make the readings more probable, one after the other, and the models beside them.
-    fn with_steps(self) -> (Self, Vec<(Model, f64)>) {
-        let mut few = self.means_of_neighbours();
-        let (mut readings, mut models) = (self, few.weighed());
-        let places = libm::log(number(few.values.len()));
-        while let Some((at, gain)) = few.likeliest_step(most_probable(&models).0) {
-            if 0.5 * gain < places {
-                break;
-            }
-            let stepped = readings.with_step(at);
-            let few_stepped = stepped.means_of_neighbours();
-            let others = few_stepped.weighed();
-            if evidence(&others) - places < evidence(&models) {
-                break;
-            }
-            (readings, few, models) = (stepped, few_stepped, others);
-        }
-        (readings, models)
-    }
-
-    fn with_step(&self, at: f64) -> Self {
-        let step = self.places.iter().map(|place| f64::from(u8::from(at <= *place))).collect();
-        let mut columns = self.columns.clone();
-        columns.insert(self.every, step);
-        Self {
-            places: self.places.clone(),
-            values: self.values.clone(),
-            columns,
-            every: self.every + 1,
-            ..*self
-        }
-    }
-
-    /// Place of the step that a model gains most by, and what twice its log likelihood gains.
-    fn likeliest_step(&self, model: Model) -> Option<(f64, f64)> {
-        let whitened = Whitened::of(self, model.process);
-        let beside = whitened.beside(model.pairs)?;
-        let gain_at = |place: &f64| {
-            let step: Vec<f64> =
-                self.places.iter().map(|other| f64::from(u8::from(place <= other))).collect();
-            let gain = whitened.gain(&beside, &whitened.white(&step));
-            (*place, gain)
-        };
-        self.places[1..].iter().map(gain_at).max_by(|one, other| one.1.total_cmp(&other.1))
-    }
-
     fn most_pairs(&self) -> usize {
         (self.columns.len() - self.every) / A_PAIR
     }
@@ -189,17 +146,32 @@ impl Readings {
         without.into_iter().chain(orders).collect()
     }
 
-    /// The models of one order, by steps of their strength, and by finer ones about the most probable.
-    fn of_order(&self, order: Order) -> Vec<(Model, f64)> {
+    /// The same by coarse steps of the strength, to compare readings with more columns and fewer.
+    fn roughly_weighed(&self) -> Vec<(Model, f64)> {
+        let without = self.evidence_of(None, 1.0);
+        let orders =
+            Order::ALL.into_iter().flat_map(|order| self.coarsely_of_order(order, ROUGH_STEP));
+        without.into_iter().chain(orders.flat_map(|(_, found)| found)).collect()
+    }
+
+    /// The models of one order by coarse steps of the logarithm of its strength.
+    fn coarsely_of_order(&self, order: Order, step: f64) -> Vec<(f64, Vec<(Model, f64)>)> {
         let (from, to) = self.range(order);
-        let steps = ((to - from) / STEP).ceil();
-        let at = |step: f64, share: f64| self.evidence_of(Some((order, libm::exp(step))), share);
+        let steps = ((to - from) / step).ceil();
+        let at = |log: f64, share: f64| self.evidence_of(Some((order, libm::exp(log))), share);
         let middles = std::iter::successors(Some(0.5), |step| Some(step + 1.0));
-        let coarse: Vec<(f64, Vec<(Model, f64)>)> = middles
+        middles
             .take_while(|step| *step < steps)
             .map(|step| from + (to - from) * step / steps)
             .map(|strength| (strength, at(strength, 1.0 / steps)))
-            .collect();
+            .collect()
+    }
+
+    /// The models of one order, by steps of their strength, and by finer ones about the most probable.
+    fn of_order(&self, order: Order) -> Vec<(Model, f64)> {
+        let (from, to) = self.range(order);
+        let at = |step: f64, share: f64| self.evidence_of(Some((order, libm::exp(step))), share);
+        let coarse = self.coarsely_of_order(order, STEP);
         let most = |found: &[(Model, f64)]| most_probable(found).1;
         let best = coarse.iter().fold((f64::NEG_INFINITY, from), |best, (strength, found)| {
             if best.0 < most(found) { (most(found), *strength) } else { best }
@@ -281,7 +253,7 @@ struct Whitened<'a> {
     squares: Vec<Vec<f64>>,
 }
 
-/// Cubic, steps and waves beside a process.
+/// Cubic, features and waves of a turn beside a process.
 struct Beside {
     best: Vec<f64>,
     precision: Factor,
@@ -344,13 +316,36 @@ impl<'a> Whitened<'a> {
         Some(Beside { best, precision, evidence: -0.5 * (left + logs) })
     }
 
-    /// What twice the log likelihood gains by a column beside others.
-    fn gain(&self, beside: &Beside, column: &[f64]) -> f64 {
-        let shared: Vec<f64> =
-            self.columns.iter().take(beside.best.len()).map(|one| dot(one, column)).collect();
-        let along = dot(column, &self.values) - dot(&beside.best, &shared);
-        let own = dot(column, column) - dot(&beside.precision.solve(&shared), &shared);
-        along * along / (own + 1.0 / self.readings.of_curve)
+    /// What twice the log likelihood gains by columns beside others, up to two.
+    fn gain(&self, beside: &Beside, columns: &[Vec<f64>]) -> f64 {
+        let width = columns.len();
+        let mut own = Banded::zeros(width, width.saturating_sub(1));
+        let mut along = vec![0.0; width];
+        for (row, column) in columns.iter().enumerate() {
+            let others = self.columns.iter().take(beside.best.len());
+            let shared: Vec<f64> = others.map(|one| dot(one, column)).collect();
+            along[row] = dot(column, &self.values) - dot(&beside.best, &shared);
+            let told = beside.precision.solve(&shared);
+            for (place, other) in columns.iter().take(row + 1).enumerate() {
+                let others = self.columns.iter().take(beside.best.len());
+                let by_others: f64 =
+                    others.zip(&told).map(|(one, told)| dot(one, other) * told).sum();
+                let size = if place == row { 1.0 / self.readings.of_curve } else { 0.0 };
+                own.add(row, place, dot(column, other) - by_others + size);
+            }
+        }
+        own.factor().map_or(0.0, |own| dot(&own.solve(&along), &along))
+    }
+
+    /// What a model leaves of the readings.
+    fn left(&self, beside: &Beside) -> Vec<f64> {
+        let mut left = self.values.clone();
+        for (column, size) in self.columns.iter().zip(&beside.best) {
+            for (value, part) in left.iter_mut().zip(column) {
+                *value -= size * part;
+            }
+        }
+        left
     }
 }
 

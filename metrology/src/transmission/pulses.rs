@@ -15,7 +15,8 @@ const RATIO_TOLERANCE: f64 = 0.01;
 pub struct Pulses {
     input_s: Vec<f64>,
     output_s: Vec<f64>,
-    tick_s: f64,
+    /// Tick of what captured them, s.
+    tick: f64,
 }
 
 impl Pulses {
@@ -30,8 +31,8 @@ impl Pulses {
         check(&output_s, "output pulse")?;
         missing_pulses::check(&input_s, &output_s, "input pulse")?;
         missing_pulses::check(&output_s, &input_s, "output pulse")?;
-        let tick_s = common_step_s(&input_s, &output_s).unwrap_or(0.0);
-        Ok(Self { input_s, output_s, tick_s })
+        let tick = common_step_s(&input_s, &output_s).unwrap_or(0.0);
+        Ok(Self { input_s, output_s, tick })
     }
 
     /// Instants of the input pulses, s.
@@ -50,7 +51,7 @@ impl Pulses {
     /// where they have none in common.
     #[must_use]
     pub fn tick_s(&self) -> f64 {
-        self.tick_s
+        self.tick
     }
 
     /// Refuses trains that cannot come from these lines and this ratio.
