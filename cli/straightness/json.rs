@@ -45,7 +45,7 @@ keys! {
     }
 
     RejectedJson(one: &Rejected, position_mm: &[f64]) {
-        repeat: usize = one.repeat,
+        repeat: usize = one.repeat + 1,
         position_mm: f64 = position_mm[one.sample],
         distance_um: f64 = one.distance_um,
     }
