@@ -357,10 +357,10 @@ fn long_thread(noise_um: f64, shared: f64) -> String {
 fn noise_takes_nothing_off_a_thread_that_is_too_long() {
     let folder = tempfile::tempdir().expect("a folder");
     let sheet = folder.path().join("sheet.toml");
-    let known = "[device]\ncalibration = \"0.5 um/m\"\nmisalignment = \"0 mm\"\n\
+    let known = "[device]\ncalibration = { expanded = \"0.5 um/m\" }\nmisalignment = \"0 mm\"\n\
                  at_each_reading = { standard = \"0.25 um\" }\n[object]\ntemperature = \"20 degC\"\n\
-                 temperature_uncertainty = \"0 K\"\nexpansion = \"11.5 ppm/K\"\n\
-                 expansion_uncertainty = \"0 ppm/K\"\n[environment]\nvariation = \"0 um\"\n\
+                 temperature_uncertainty = { standard = \"0 K\" }\nexpansion = \"11.5 ppm/K\"\n\
+                 expansion_uncertainty = { standard = \"0 ppm/K\" }\n[environment]\nvariation = { range = \"0 um\" }\n\
                  [tolerance]\ne = \"16 um\"\n";
     #[expect(clippy::disallowed_methods, reason = "input of a test")]
     std::fs::write(&sheet, known).expect("the file is written");
