@@ -57,6 +57,7 @@ impl ImportError {
 /// A cell or line as a message shows it: at most forty characters.
 pub(crate) fn quoted(text: &str) -> String {
     const LONGEST: usize = 40;
-    let line: String = text.chars().take(LONGEST).flat_map(char::escape_debug).collect();
+    // As a whole: a bar above a letter stays there.
+    let line = text.chars().take(LONGEST).collect::<String>().escape_debug().to_string();
     if text.chars().nth(LONGEST).is_some() { format!("`{line}…`") } else { format!("`{line}`") }
 }

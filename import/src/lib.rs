@@ -31,6 +31,7 @@ pub mod recipe;
 mod rules;
 mod runs;
 mod samples;
+mod statistic;
 mod steps;
 mod stopwatch;
 mod text;

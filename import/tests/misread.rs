@@ -39,6 +39,71 @@ fn a_column_without_a_number_is_the_run_before_the_second() {
     same(column(&counted, "error_um")[43], 2.3);
 }
 
+/// Means and scatter stand on every sheet of ISO 230-2, and are no runs, whatever they are called.
+#[test]
+fn columns_that_sum_runs_up_are_left_out() {
+    let runs = "Target [mm];1↑ [µm];1↓ [µm];2↑ [µm];2↓ [µm];3↑ [µm];3↓ [µm]";
+    let row = |row: u32| {
+        let at = f64::from(row);
+        let up = [1.0, 1.4, 0.9].map(|um| um + 0.1 * libm::sin(at * (um + 2.0)) + at / 5.0);
+        let down = up.map(|um| um - 0.8 - um / 9.0);
+        let mean = |um: [f64; 3]| um.iter().sum::<f64>() / 3.0;
+        let s = |um: [f64; 3]| {
+            (um.iter().map(|one| (one - mean(um)).powi(2)).sum::<f64>() / 2.0).sqrt()
+        };
+        let each = (0..3).map(|run| format!("{:.2};{:.2}", up[run], down[run]));
+        let each: Vec<String> = each.collect();
+        (format!("{};{}", 50.0 * at, each.join(";")), [mean(up), mean(down), s(up), s(down)])
+    };
+    let alone = read(&file(runs, |at| row(at).0));
+    assert_eq!(alone.table.rows(), 240);
+    for (ways, sums) in [
+        (["↑", "↓"], ["x̄", "s"]),
+        (["↑", "↓"], ["Mean ", "Sigma "]),
+        (["fwd", "rev"], ["Average ", "std dev "]),
+        (["↑", "↓"], ["mean deviation ", "4s"]),
+        (["↑", "↓"], ["Mittel ", "Streuung "]),
+        // Named as nobody knows: what it holds says it.
+        (["↑", "↓"], ["Quuux ", "Quux "]),
+    ] {
+        let [means, s] = sums.map(|sum| ways.map(|way| format!("{sum}{way} [µm]")).join(";"));
+        let header = format!("{runs};{means};{s};B [µm]");
+        let text = file(&header, |at| {
+            let (runs, sums) = row(at);
+            let sums: Vec<String> = sums.iter().map(|um| format!("{um:.3}")).collect();
+            format!("{runs};{};{:.2}", sums.join(";"), 0.8)
+        });
+        let found = read(&text);
+        assert!(found.table.columns == alone.table.columns, "{header}");
+        let first = format!("first `{}{} [µm]`", sums[0], ways[0]);
+        let note = format!("5 columns sum the runs up and are left out, {first}");
+        assert!(found.notes.contains(&note), "{:?}", found.notes);
+    }
+}
+
+/// A sheet of means alone: they were measured, their scatter was not.
+#[test]
+fn means_are_the_run_where_no_other_is() {
+    let found =
+        read(&file("Target [mm];Mean ↑ [µm];Mean ↓ [µm];s ↑ [µm];s ↓ [µm]", |row| {
+            format!("{row},0;1,{row};0,{row};0,25;0,26")
+        }));
+    assert_eq!(found.table.rows(), 80);
+    assert_eq!(found.notes.len(), 1, "{:?}", found.notes);
+}
+
+/// What an instrument writes below its table is no target.
+#[test]
+fn rows_that_sum_a_sheet_up_are_left_out() {
+    for sums in ["x̄↑;1,5;2,5\ns↑;0,1;0,2\n", "Mean;1,5;2,5\nStreuung;0,1;0,2\n"] {
+        let table =
+            file("Target [mm];1↑ [µm];2↑ [µm]", |row| format!("{row},0;1,{row};2,{row}"));
+        let found = read(&format!("{table}{sums}"));
+        assert_eq!(found.table.rows(), 80, "{sums}");
+        assert!(found.notes.iter().any(|note| note.ends_with("it sums the table up")));
+    }
+}
+
 /// Target and actual beside an error show its sign, whatever it is called.
 #[test]
 fn the_sign_of_an_error_is_the_one_its_rows_show() {

@@ -2,40 +2,7 @@
 
 use super::{Look, Looks};
 use crate::number::number;
-
-/// What rows that sum a table up begin with.
-const SUMMARIES: [&str; 30] = [
-    "mean",
-    "average",
-    "avg",
-    "median",
-    "min",
-    "minimum",
-    "max",
-    "maximum",
-    "sum",
-    "total",
-    "range",
-    "std",
-    "std dev",
-    "stdev",
-    "standard deviation",
-    "mittelwert",
-    "mittel",
-    "durchschnitt",
-    "summe",
-    "spannweite",
-    "standardabweichung",
-    "平均",
-    "平均值",
-    "最大",
-    "最大值",
-    "最小",
-    "最小值",
-    "标准差",
-    "合计",
-    "极差",
-];
+use crate::statistic;
 
 /// How near to the mean of a column a mean is that was rounded, as part of the column's range.
 const ROUNDED: f64 = 0.005;
@@ -54,8 +21,7 @@ impl Looks<'_> {
     /// A word such as `Mittelwert` in a column of other things than words.
     fn sums_up(&self, row: usize, body: usize) -> bool {
         self.first_filled(row).is_some_and(|(at, cell)| {
-            let word = cell.trim_end_matches([':', '：', '.']).to_lowercase();
-            SUMMARIES.contains(&word.as_str()) && self.look(self.grid.cell(body, at)) != Look::Words
+            statistic::begins_with(cell) && self.look(self.grid.cell(body, at)) != Look::Words
         })
     }
 

@@ -1,5 +1,7 @@
 //! Columns that each hold a run.
 
+mod summaries;
+
 use super::{Candidate, NONE, difference};
 use crate::decide::Decisions;
 use crate::error::quoted;
@@ -19,7 +21,7 @@ pub(super) fn run_columns(candidates: &mut [Candidate<'_>], decisions: &mut Deci
         candidate.header.bare.parse::<i64>().ok().filter(|number| (0..10_000).contains(number))
     };
     let indexed = |candidate: &Candidate<'_>| index_of(&candidate.header.bare);
-    let mut found: Vec<Found> = Vec::new();
+    let (mut found, mut summaries): (Vec<Found>, Vec<usize>) = Default::default();
     for (index, candidate) in candidates.iter().enumerate().filter(|(_, c)| open(c)) {
         let run = candidate.header.run.filter(|_| {
             !["pass", "direction"].contains(&candidate.meaning())
@@ -33,10 +35,13 @@ pub(super) fn run_columns(candidates: &mut [Candidate<'_>], decisions: &mut Deci
             .or_else(|| bare_number(candidate))
             .or_else(|| indexed(candidate));
         let direction = run.and_then(|run| run.direction);
-        if number.is_some() || direction.is_some() {
+        if number.is_none() && summaries::is_one(candidate) {
+            summaries.push(index);
+        } else if number.is_some() || direction.is_some() {
             found.push((index, number, direction));
         }
     }
+    summaries::part(candidates, &mut found, &summaries, decisions);
     found.extend(first_run(candidates, &found, decisions));
     if found.len() < 2 {
         return candidates.iter().any(|candidate| candidate.rule.pass.is_some());
@@ -69,6 +74,7 @@ fn first_run(
             && candidate.header.run.is_none()
             && candidate.samples.holds == Holds::Numbers
             && candidate.rule.pass.is_none()
+            && !candidate.is(NONE)
             && !candidate.given
     };
     let is_error = |at: &usize| candidates[*at].meaning().ends_with("error");
