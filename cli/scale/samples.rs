@@ -20,8 +20,9 @@ pub(crate) fn read_samples(
     detector: &Detector,
 ) -> anyhow::Result<Vec<ErrorSample>> {
     let series = Series::read_all(path)?;
+    refuse_angles(path, &series)?;
     let position = series.column("position_mm")?;
-    let error = match (series.optional("error_um"), series.optional("adc_code")) {
+    let error = match (series.optional("error_um")?, series.optional("adc_code")?) {
         (Some(error), _) => error,
         (None, Some(codes)) => decoded(&series, &codes, detector)?,
         (None, None) => bail!(
@@ -30,8 +31,8 @@ pub(crate) fn read_samples(
             series.names()
         ),
     };
-    let direction = series.optional("direction");
-    let idle = series.optional("idle");
+    let direction = series.optional("direction")?;
+    let idle = series.optional("idle")?;
     let mut samples = Vec::with_capacity(position.len());
     for row in 0..position.len() {
         let way = direction.as_ref().map_or(1.0, |direction| direction[row]);
@@ -46,6 +47,20 @@ pub(crate) fn read_samples(
         }
     }
     Ok(samples)
+}
+
+/// What turns has the same figures in another unit, which `import` cannot change.
+fn refuse_angles(path: &Path, series: &Series) -> anyhow::Result<()> {
+    let has = |name| series.optional(name).map(|column| column.is_some());
+    if has("position_mm")? || !has("angle_rev")? {
+        return Ok(());
+    }
+    bail!(
+        "{}: `angle_rev` of an axis that turns, expected `position_mm` of one that goes straight\n\n\
+         hint: ISO 230-2 has the same figures for both: with degrees as `position_mm` and \
+         arc-seconds as `error_um`, every µm printed is an arc-second",
+        path.display()
+    )
 }
 
 fn direction_of(way: f64) -> Option<Direction> {

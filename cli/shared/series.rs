@@ -42,10 +42,14 @@ impl Series {
         Ok(self.rows.iter().map(|row| values[*row]).collect())
     }
 
-    /// A column that may be there.
-    pub(crate) fn optional(&self, name: &str) -> Option<Vec<f64>> {
-        let values = self.table.column(name)?;
-        Some(self.rows.iter().map(|row| values[*row]).collect())
+    /// A column that may be there; one that is, and holds words, is refused with the first of them: what
+    /// it says would be lost.
+    pub(crate) fn optional(&self, name: &str) -> anyhow::Result<Option<Vec<f64>>> {
+        if let Some(text) = self.table.text.iter().find(|text| text.name == name) {
+            return Err(text.refused().into());
+        }
+        let Some(values) = self.table.column(name) else { return Ok(None) };
+        Ok(Some(self.rows.iter().map(|row| values[*row]).collect()))
     }
 
     /// Names of all columns.
@@ -70,6 +74,9 @@ impl Series {
 
 fn rows_of_pass(table: &Table, pass: Option<f64>) -> anyhow::Result<Vec<usize>> {
     let refused = |why: Refusal| Err(why.context(At::file(&table.path)));
+    if let Some(text) = table.text.iter().find(|text| text.name == "pass") {
+        return Err(text.refused().into());
+    }
     let Some(passes) = table.column("pass") else {
         return match pass {
             None => Ok((0..table.rows()).collect()),

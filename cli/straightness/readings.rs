@@ -17,7 +17,7 @@ pub(crate) fn read_readings(path: &Path) -> anyhow::Result<Readings> {
     let series = Series::read_all(path)?;
     let position_mm = series.column("position_mm")?;
     let probes = [series.column(PROBES[0])?, series.column(PROBES[1])?, series.column(PROBES[2])?];
-    let repeat = series.optional("repeat");
+    let repeat = series.optional("repeat")?;
     let mut runs: BTreeMap<u64, Vec<usize>> = BTreeMap::new();
     for row in 0..position_mm.len() {
         let run = repeat.as_ref().map_or(0.0, |repeat| repeat[row]);

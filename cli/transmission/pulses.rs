@@ -52,10 +52,10 @@ fn dump(path: &Path, input: Input, names: &Names<'_>) -> anyhow::Result<(Vec<f64
 
 fn table(input: Input, names: &Names<'_>) -> anyhow::Result<(Vec<f64>, Vec<f64>)> {
     let series = Series::all_of(input)?;
-    if let (Some(time), Some(channel)) = (series.optional("time_s"), series.optional("channel")) {
+    if let (Some(time), Some(channel)) = (series.optional("time_s")?, series.optional("channel")?) {
         return by_channel(&series, &time, &channel);
     }
-    if let Some(time) = series.optional("time_s") {
+    if let Some(time) = series.optional("time_s")? {
         let level = |name: Option<&str>, usual: &str| series.column(name.unwrap_or(usual));
         let (input, output) = (level(names.input, "input")?, level(names.output, "output")?);
         return Ok((rises(&time, &input), rises(&time, &output)));
