@@ -75,7 +75,7 @@ fn of_axes(out: &mut impl Write) -> Printed {
     writeln!(out, "| axis | drift | | {} |", shown.join(" | "))?;
     writeln!(out, "|---|---|---|{}", "---|".repeat(shown.len()))?;
     for (axis, condition, variation_um) in drawn_axes() {
-        let found = iso230::coverage::coverage((axis, condition), variation_um, 1000, 1)?;
+        let found = iso230::coverage::coverage((axis, condition), variation_um, 100, 1)?;
         let held = |symbol: &&str| {
             let share = found.iter().find(|(name, _)| name == symbol).map_or(0.0, |one| one.1);
             format!("{:.1} %", 100.0 * share)
@@ -87,15 +87,22 @@ fn of_axes(out: &mut impl Write) -> Printed {
     Ok(writeln!(out)?)
 }
 
-/// Every axis as usual with little and much drift, then three under every other condition.
+/// Every axis as usual with little and much drift, then three under other conditions, and one where the
+/// axis drifts itself or the drift cycles.
 fn drawn_axes() -> Vec<(Axis, Condition, f64)> {
     let usual = Axis::ALL
         .iter()
         .flat_map(|axis| [0.1, 0.5].map(|variation_um| (*axis, Condition::Usual, variation_um)));
     let others = Condition::ALL.iter().skip(1).flat_map(|condition| {
-        // What drifts is not to make half of the scatter.
-        let variation_um = if *condition == Condition::Still { 0.05 } else { 0.5 };
-        [Axis::Rising, Axis::Waves, Axis::Flat].map(|axis| (axis, *condition, variation_um))
+        let (axes, variation_um) = match condition {
+            // What drifts is not to make half of the scatter.
+            Condition::Still => (3, 0.05),
+            Condition::OwnRuns | Condition::Growing => (1, 0.2),
+            condition if condition.cycles() => (1, 0.5),
+            _ => (3, 0.5),
+        };
+        let axes = [Axis::Rising, Axis::Waves, Axis::Flat].into_iter().take(axes);
+        axes.map(move |axis| (axis, *condition, variation_um))
     });
     usual.chain(others).collect()
 }

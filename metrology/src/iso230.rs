@@ -7,6 +7,7 @@ use crate::Error;
 use crate::number::{mean, number};
 
 pub mod coverage;
+mod cycles;
 mod drift;
 mod figures;
 mod noise;

@@ -1,17 +1,18 @@
-//! How a drift of the readings went, as far as the approaches tell.
+//! How a drift of the readings may have gone, as far as the approaches tell.
 //!
 //! What the device shows of a machine that stands has a range; whether it is new at every reading,
-//! one of a run, or creeps from the first reading to the last, the range does not say. The runs do:
-//! each approaches all targets forward and then back again, as figure 1 of ISO 230-2 has it, and the
-//! mean of a run over all targets and both ways hardly scatters. A straight line through these means
-//! is what creeps, and what they scatter about it more than the approaches make them is of the runs.
-//! Ranges add: what is left of the one that was told is new at every reading.
+//! one of a run, or creeps from the first reading to the last, the range does not say. The runs tell
+//! a part of it: each approaches all targets forward and then back again, as figure 1 of ISO 230-2 has
+//! it, and the mean of a run over all targets and both ways hardly scatters. But the axis itself may
+//! differ from run to run, and grow as it warms; what goes beyond the range told is its own, and within
+//! it nothing tells the two apart. So the drift is drawn each way that it may have gone, and no way
+//! takes more off than errors within the range can have made.
 
 use super::Target;
 use crate::chance::beyond_chance;
 use crate::number::{mean, number};
 
-/// What drifted, as is most probable, and how well that is known.
+/// What drifted in one way that it may have gone, and how well that is known.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Drift {
     /// What creeps from a run to the next, µm.
@@ -26,6 +27,10 @@ pub(super) struct Drift {
     pub(super) runs_standard_um: f64,
     /// What is new at every reading, as a standard deviation, µm.
     pub(super) new_um: f64,
+    /// What the means of the runs differ from the mean of all, with all that drifted, µm.
+    pub(super) means_um: Vec<f64>,
+    /// Whole range told: more than that nothing creeps, and nothing of a run is off by more than half.
+    pub(super) range_um: f64,
     /// Variance of an approach about the mean of its target and its run, over all, µm².
     pub(super) scatter_um2: f64,
     /// Degrees of freedom as which that counts for one target.
@@ -96,9 +101,60 @@ impl Drift {
         (self.alike * self.scatter_um2 + squares_um2) / (self.alike + freedom)
     }
 
-    /// Finds it; `range_um` is told of the whole drift, none where nothing is.
-    pub(super) fn of(targets: &[Target], range_um: f64) -> Option<Self> {
-        let found = Runs::new(targets)?;
+    /// What is new at every reading alone, as a standard deviation, µm.
+    pub(super) fn of_device(targets: &[Target], new_um: f64) -> Option<Self> {
+        Some(Self { new_um, ..Self::none(&Runs::new(targets)?) })
+    }
+
+    /// Every way in which a drift of this range may have gone: as the runs have it, all new at every
+    /// reading, all of runs, creeping one way or the other. None when targets have not as many
+    /// approaches each.
+    pub(super) fn ways(targets: &[Target], range_um: f64) -> Vec<Self> {
+        let Some(found) = Runs::new(targets) else { return Vec::new() };
+        let none = Self { range_um, ..Self::none(&found) };
+        let ways = [
+            Self { new_um: range_um / 12.0_f64.sqrt(), ..none.clone() },
+            Self { range_um, ..Self::as_found(&found, range_um) },
+            Self { range_um, ..Self::of_runs(&found, range_um) },
+        ];
+        let creeping = [-1.0, 1.0].map(|way| {
+            let creep_um = way * range_um / number(found.means_um.len());
+            Self { creep_um, ..none.clone() }
+        });
+        let told = if 0.0 < range_um { 5 } else { 1 };
+        ways.into_iter().chain(creeping).take(told).collect()
+    }
+
+    fn none(found: &Runs) -> Self {
+        Self {
+            creep_um: 0.0,
+            creep_standard_um: 0.0,
+            degrees_of_freedom: f64::INFINITY,
+            runs_um: vec![0.0; found.means_um.len()],
+            runs_standard_um: 0.0,
+            new_um: 0.0,
+            means_um: found.means_um.clone(),
+            range_um: f64::INFINITY,
+            scatter_um2: found.variance_um2,
+            alike: found.alike,
+        }
+    }
+
+    /// All of runs: of what their means differ by as much as the range told can have made.
+    fn of_runs(found: &Runs, range_um: f64) -> Self {
+        let (of_mean_um2, most_um2) =
+            (found.variance_um2 / found.cells, range_um * range_um / 12.0);
+        let chance = most_um2 / (most_um2 + of_mean_um2).max(f64::MIN_POSITIVE);
+        let share = chance * within(&found.means_um, range_um);
+        Self {
+            runs_um: found.means_um.iter().map(|um| share * um).collect(),
+            runs_standard_um: (chance * of_mean_um2).sqrt(),
+            ..Self::none(found)
+        }
+    }
+
+    /// As the means of the runs have it, as far as the range told goes.
+    fn as_found(found: &Runs, range_um: f64) -> Self {
         let runs = number(found.means_um.len());
         let of_mean_um2 = found.variance_um2 / found.cells;
         let order: Vec<f64> =
@@ -118,19 +174,19 @@ impl Drift {
         let freedom = (found.cells - 1.0) * (runs - 1.0);
         let fourth = of_mean_um2.powi(2) / freedom + of_run_um2.powi(2) / (runs - 2.0).max(1.0);
         let share = if 0.0 < of_run_um2 { of_run_um2 / mean_um2 } else { 0.0 };
+        // What they differ by beyond the range is the axis itself.
+        let its_share = share * within(&off_line_um, range_um);
         let mut drift = Self {
             creep_um: slope_um,
             creep_standard_um: (mean_um2 / squares).sqrt(),
             degrees_of_freedom: if 0.0 < fourth { mean_um2.powi(2) / fourth } else { freedom },
-            runs_um: off_line_um.iter().map(|um| share * um).collect(),
+            runs_um: off_line_um.iter().map(|um| its_share * um).collect(),
             runs_standard_um: (share * of_mean_um2).sqrt(),
-            new_um: 0.0,
-            scatter_um2: found.variance_um2,
-            alike: found.alike,
+            ..Self::none(found)
         };
         let of_runs_um = (12.0 * (off_um2 - SURE * SURE * of_mean_um2).max(0.0)).sqrt();
         drift.as_far_as_told(range_um, of_runs_um, runs);
-        Some(drift)
+        drift
     }
 
     /// What creeps farther than was told, and than chance makes it seem, is the axis itself. Where the
@@ -150,6 +206,13 @@ impl Drift {
             if unsure_um < creeps_um { creeps_um - unsure_um.powi(2) / creeps_um } else { 0.0 };
         self.new_um = (range_um - sure_um - of_runs_um).max(0.0) / 12.0_f64.sqrt();
     }
+}
+
+/// The part of what runs differ by that has a range, all of it at most.
+fn within(runs_um: &[f64], range_um: f64) -> f64 {
+    let highest = runs_um.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let lowest = runs_um.iter().copied().fold(f64::INFINITY, f64::min);
+    if range_um < highest - lowest { range_um / (highest - lowest) } else { 1.0 }
 }
 
 /// So many standard deviations are more than chance.
@@ -179,7 +242,7 @@ mod tests {
     #[test]
     fn what_creeps_is_found_and_leaves_nothing_new() {
         let creeping = targets(&|run, at| 0.5 * number(8 * run + at));
-        let drift = Drift::of(&creeping, 20.0).unwrap();
+        let drift = &Drift::ways(&creeping, 20.0)[1];
         assert!((drift.creep_um - 4.0).abs() < 0.1, "{drift:?}");
         assert!(drift.new_um < 0.05, "{drift:?}");
     }
@@ -187,7 +250,7 @@ mod tests {
     #[test]
     fn what_is_of_a_run_is_found() {
         let of_run_um = [3.0, -2.0, -2.0, -2.0, 3.0];
-        let drift = Drift::of(&targets(&|run, _| of_run_um[run]), 10.0).unwrap();
+        let drift = &Drift::ways(&targets(&|run, _| of_run_um[run]), 10.0)[1];
         for (found_um, expected_um) in drift.runs_um.iter().zip(of_run_um) {
             assert!((found_um - expected_um).abs() < 0.2, "{drift:?}");
         }
@@ -196,7 +259,7 @@ mod tests {
 
     #[test]
     fn without_any_all_that_was_told_may_be_new() {
-        let drift = Drift::of(&targets(&|_, _| 0.0), 1.2).unwrap();
+        let drift = &Drift::ways(&targets(&|_, _| 0.0), 1.2)[1];
         assert!((drift.new_um - 1.2 / 12.0_f64.sqrt()).abs() < 0.1, "{drift:?}");
         assert!(drift.creep_um.abs() < 0.1, "{drift:?}");
     }

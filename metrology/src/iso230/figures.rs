@@ -1,7 +1,7 @@
 //! Every figure of an axis by name, and what errors of the instrument do to them.
 
 use super::{AxisResult, Target, Vdi3441, axis_of, evaluate_axis, evaluate_target};
-use crate::number::mean;
+use crate::number::{mean, number};
 use crate::uncertainty::{Added, Readings, Source};
 
 /// One figure.
@@ -85,6 +85,28 @@ impl Approaches {
         mean(&squares.map(|s_um| s_um * s_um).collect::<Vec<_>>()).sqrt()
     }
 
+    /// Two approaches that are the same at every target and each way, where by how often others are the
+    /// same at one this is no chance: rows that are there twice.
+    #[must_use]
+    pub fn copied(&self) -> Option<[usize; 2]> {
+        /// Less probable than this is no chance.
+        const CHANCE: f64 = 0.01;
+        let cells = self.targets.iter().flat_map(|t| [&t.forward_um, &t.backward_um]);
+        let cells: Vec<&Vec<f64>> = cells.filter(|cell| !cell.is_empty()).collect();
+        let runs = cells.iter().map(|cell| cell.len()).min()?;
+        let alike = |[one, other]: [usize; 2]| {
+            cells.iter().filter(|cell| cell[one].to_bits() == cell[other].to_bits()).count()
+        };
+        let pairs = (0..runs).flat_map(|one| (one + 1..runs).map(move |other| [one, other]));
+        let each: Vec<([usize; 2], usize)> = pairs.map(|pair| (pair, alike(pair))).collect();
+        let first = each.iter().find(|(_, alike)| *alike == cells.len())?.0;
+        // Coarse readings are often the same, and all of them may be.
+        let often = mean(&each.iter().map(|(_, alike)| number(*alike)).collect::<Vec<_>>());
+        let chance = libm::pow(often / number(cells.len()), number(cells.len()));
+        let all = each.iter().all(|(_, alike)| *alike == cells.len());
+        (1 < cells.len() && (all || chance * number(each.len()) < CHANCE)).then_some(first)
+    }
+
     /// From the first target to the last, mm.
     #[must_use]
     pub fn length_mm(&self) -> f64 {
@@ -94,10 +116,10 @@ impl Approaches {
 }
 
 impl Readings for Approaches {
-    fn as_may_be(&self, sources: &[Source]) -> Vec<Box<dyn Readings>> {
+    fn as_may_be(&self, sources: &[Source]) -> Vec<Vec<Box<dyn Readings>>> {
         let drawn = super::noise::without_noise(&self.targets, sources).into_iter();
         let boxed = |targets| Self::new(targets).ok().map(|one| Box::new(one) as Box<dyn Readings>);
-        drawn.filter_map(boxed).collect()
+        drawn.map(|way| way.into_iter().filter_map(boxed).collect()).collect()
     }
 
     fn places(&self) -> usize {

@@ -10,6 +10,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use super::Target;
+use super::cycles::without_cycles;
 use super::drift::Drift;
 use crate::drawn::normal;
 use crate::number::{mean, number};
@@ -17,6 +18,8 @@ use crate::uncertainty::{Acts, Source, student};
 
 /// Sets of errors that are drawn: a standard deviation of theirs is known to 4 %.
 const DRAWS: usize = 300;
+/// Sets for each cycle, of which there are many.
+const DRAWS_OF_CYCLE: usize = 30;
 const SEED: u64 = 1;
 
 /// What is told of the readings, as standard deviations, µm.
@@ -50,15 +53,38 @@ impl Told {
     }
 }
 
-/// The approaches without errors of single readings, as they may have been; none when there are not
-/// as many of each target, so that no run can be told.
-pub(super) fn without_noise(targets: &[Target], sources: &[Source]) -> Vec<Vec<Target>> {
+/// The approaches without errors of single readings, as they may have been, drawn for each way in which
+/// the drift may have gone; none when there are not as many of each target, so that no run can be told.
+///
+/// Nothing tells these ways apart for sure, as the axis itself may differ from run to run and creep:
+/// the range told may be new at every reading, of the runs, creep either way, or be in all of these as
+/// the means of the runs have it; and it may cycle.
+pub(super) fn without_noise(targets: &[Target], sources: &[Source]) -> Vec<Vec<Vec<Target>>> {
     let told = Told::new(sources);
-    let Some(mut drift) = Drift::of(targets, told.drift_range_um) else { return Vec::new() };
-    drift.new_um = libm::hypot(drift.new_um, told.at_each_reading_um);
-    let errors = Errors::new(targets, &drift, told.at_each_place_um);
+    let ways = Drift::ways(targets, told.drift_range_um);
     let mut chance = ChaCha8Rng::seed_from_u64(SEED);
-    (0..DRAWS).map(|_| errors.taken_off(&mut chance)).collect()
+    let mut drawn: Vec<Vec<Vec<Target>>> = Vec::new();
+    for mut drift in ways {
+        drift.new_um = libm::hypot(drift.new_um, told.at_each_reading_um);
+        let errors = Errors::new(targets, &drift, told.at_each_place_um);
+        let draws = if errors.are_certain() { 1 } else { DRAWS };
+        drawn.push((0..draws).map(|_| errors.taken_off(&mut chance)).collect());
+    }
+    if drawn.is_empty() {
+        return drawn;
+    }
+    // What the device adds is in a cycle as well; where it adds nothing one draw is all of them.
+    let still = libm::hypot(told.at_each_reading_um, told.at_each_place_um) <= 0.0;
+    for cycled in without_cycles(targets, told.drift_range_um) {
+        let Some(drift) = Drift::of_device(&cycled, told.at_each_reading_um).filter(|_| !still)
+        else {
+            drawn.push(vec![cycled]);
+            continue;
+        };
+        let errors = Errors::new(&cycled, &drift, told.at_each_place_um);
+        drawn.push((0..DRAWS_OF_CYCLE).map(|_| errors.taken_off(&mut chance)).collect());
+    }
+    drawn
 }
 
 /// Approaches, and how far their readings may be off.
@@ -104,13 +130,24 @@ impl<'a> Errors<'a> {
         }
     }
 
+    /// True when nothing is by chance, so that one draw is all of them.
+    fn are_certain(&self) -> bool {
+        let drift = self.drift;
+        drift.new_um + drift.creep_standard_um + drift.runs_standard_um + self.place_um <= 0.0
+    }
+
     /// The approaches without errors as they may have been.
     fn taken_off(&self, chance: &mut ChaCha8Rng) -> Vec<Target> {
         let (drift, places) = (self.drift, self.targets.len());
         let wider = student(drift.degrees_of_freedom) / 2.0;
         let creep_um = drift.creep_um + wider * drift.creep_standard_um * normal(chance);
-        let runs_um: Vec<f64> =
-            drift.runs_um.iter().map(|um| um + drift.runs_standard_um * normal(chance)).collect();
+        let most_um = drift.range_um / number(drift.runs_um.len());
+        let creep_um = creep_um.clamp(-most_um, most_um);
+        let of_run = |um: &f64| um + drift.runs_standard_um * normal(chance);
+        let mut runs_um: Vec<f64> = drift.runs_um.iter().map(of_run).collect();
+        let half_um = drift.range_um / 2.0;
+        runs_um.iter_mut().for_each(|um| *um = um.clamp(-half_um, half_um));
+        let left_um = self.left_of_runs_um(creep_um, &runs_um);
         let (middles_um, reversals_um) =
             (self.middles.drawn_um(chance), self.reversals.drawn_um(chance));
         let target = |(place, target): (usize, &Target)| {
@@ -126,24 +163,43 @@ impl<'a> Errors<'a> {
             let half_um = reversals_um[place] / 2.0;
             Target {
                 at_mm: target.at_mm,
-                forward_um: self.narrowed(&forward_um, both_um + half_um, chance),
-                backward_um: self.narrowed(&backward_um, both_um - half_um, chance),
+                forward_um: self.narrowed(&forward_um, both_um + half_um, &left_um, chance),
+                backward_um: self.narrowed(&backward_um, both_um - half_um, &left_um, chance),
             }
         };
         self.targets.iter().enumerate().map(target).collect()
     }
 
-    /// Approaches of one way less what their mean is off by, each less its own part of the scatter.
-    fn narrowed(&self, approaches_um: &[f64], off_um: f64, chance: &mut ChaCha8Rng) -> Vec<f64> {
+    /// What runs differ by as a whole without what drifted: the axis does that itself, and single
+    /// readings do not.
+    fn left_of_runs_um(&self, creep_um: f64, runs_um: &[f64]) -> Vec<f64> {
+        let each = self.drift.means_um.iter().zip(runs_um).enumerate();
+        let left = each.map(|(run, (um, of_run_um))| um - creep_um * number(run) - of_run_um);
+        let left_um: Vec<f64> = left.collect();
+        let mean_um = mean(&left_um);
+        left_um.iter().map(|um| um - mean_um).collect()
+    }
+
+    /// Approaches of one way less what their mean is off by, each less its own part of the scatter
+    /// beside what is of the runs.
+    fn narrowed(
+        &self,
+        approaches_um: &[f64],
+        off_um: f64,
+        of_runs_um: &[f64],
+        chance: &mut ChaCha8Rng,
+    ) -> Vec<f64> {
         let mean_um = mean(approaches_um);
         let read_um2 = self.drift.new_um.powi(2);
         let share = share_of(read_um2, self.drift.variance_um2(approaches_um));
         let left_um = (read_um2 * (1.0 - share)).sqrt();
         let drawn: Vec<f64> = approaches_um.iter().map(|_| left_um * normal(chance)).collect();
         let drawn_mean_um = mean(&drawn);
-        let each = approaches_um.iter().zip(&drawn);
-        each.map(|(um, drawn)| um - off_um - share * (um - mean_um) - (drawn - drawn_mean_um))
-            .collect()
+        let each = approaches_um.iter().zip(of_runs_um).zip(&drawn);
+        each.map(|((um, of_run_um), drawn)| {
+            um - off_um - share * (um - mean_um - of_run_um) - (drawn - drawn_mean_um)
+        })
+        .collect()
     }
 }
 

@@ -91,12 +91,17 @@ pub fn budgets(readings: &dyn Readings, sources: &[Source]) -> Vec<Budget> {
     let changes: Vec<Vec<f64>> =
         sources.iter().map(|source| changes_um(readings, source, &values_um)).collect();
     let drawn = readings.as_may_be(sources);
-    let drawn_um: Vec<Vec<f64>> = drawn.iter().map(|one| one.figures_um(Added::Nothing)).collect();
+    let figures_um = |one: &Box<dyn Readings>| one.figures_um(Added::Nothing);
+    let drawn_um: Vec<Vec<Vec<f64>>> =
+        drawn.iter().map(|way| way.iter().map(figures_um).collect()).collect();
     let noise = |figure: usize| {
-        let each: Vec<f64> = drawn_um.iter().map(|figures_um| figures_um[figure]).collect();
-        if each.is_empty() { Noise::even(0.0) } else { Noise::of(&each, values_um[figure]) }
+        let of_way = |way: &Vec<Vec<f64>>| {
+            let each: Vec<f64> = way.iter().map(|figures_um| figures_um[figure]).collect();
+            Noise::of(&each, values_um[figure])
+        };
+        Noise::of_any(&drawn_um.iter().map(of_way).collect::<Vec<_>>())
     };
-    let lengths = Lengths::new(readings, &drawn, sources);
+    let lengths = Lengths::new(readings, drawn.first().map_or(&[], Vec::as_slice), sources);
     let budget = |(figure, value_um): (usize, &f64)| {
         let each = sources.iter().zip(&changes);
         let contributions: Vec<Contribution> =

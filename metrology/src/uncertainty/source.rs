@@ -98,8 +98,28 @@ impl Noise {
             return Self { shift_um, below_um, above_um };
         }
         let squares = drawn_um.iter().map(|um| (um - found_um - shift_um).powi(2)).sum::<f64>();
-        let standard_um = (squares / (number(drawn_um.len()) - 1.0)).sqrt();
+        // One alone is what it is for sure.
+        let standard_um = (squares / (number(drawn_um.len()) - 1.0).max(1.0)).sqrt();
         Self { shift_um, ..Self::even(standard_um) }
+    }
+
+    /// From the lowest to the highest that any of several ways may have made: nothing tells which it was.
+    pub(super) fn of_any(ways: &[Self]) -> Self {
+        let first = match ways {
+            [] => return Self::even(0.0),
+            [only] => return *only,
+            [first, ..] => first,
+        };
+        let lowest = |one: &Self| one.shift_um - 2.0 * one.below_um;
+        let highest = |one: &Self| one.shift_um + 2.0 * one.above_um;
+        let shift_um = first.shift_um;
+        let lowest_um = ways.iter().map(lowest).fold(f64::INFINITY, f64::min);
+        let highest_um = ways.iter().map(highest).fold(f64::NEG_INFINITY, f64::max);
+        Self {
+            shift_um,
+            below_um: (shift_um - lowest_um) / 2.0,
+            above_um: (highest_um - shift_um) / 2.0,
+        }
     }
 
     /// With something independent of it, normal, of this standard uncertainty, µm.
@@ -118,9 +138,10 @@ pub trait Readings {
     fn readings(&self) -> usize;
     /// All figures, µm, always in the same order, with an error added to the readings.
     fn figures_um(&self, added: Added) -> Vec<f64>;
-    /// The readings without the errors of single ones as they may have been, drawn given what was read;
-    /// none where nothing but the contributions tells of these errors.
-    fn as_may_be(&self, _sources: &[Source]) -> Vec<Box<dyn Readings>> {
+    /// The readings without the errors of single ones as they may have been, drawn given what was read,
+    /// for each way in which these errors may have gone that nothing tells from the others; none where
+    /// nothing but the contributions tells of these errors.
+    fn as_may_be(&self, _sources: &[Source]) -> Vec<Vec<Box<dyn Readings>>> {
         Vec::new()
     }
 }
@@ -153,11 +174,12 @@ impl Readings for Told {
         self.figures_um.clone()
     }
 
-    fn as_may_be(&self, _: &[Source]) -> Vec<Box<dyn Readings>> {
+    fn as_may_be(&self, _: &[Source]) -> Vec<Vec<Box<dyn Readings>>> {
         let boxed = |figures_um: &Vec<f64>| -> Box<dyn Readings> {
             Box::new(Self::new(figures_um.clone(), Vec::new()))
         };
-        self.drawn_um.iter().map(boxed).collect()
+        let drawn: Vec<Box<dyn Readings>> = self.drawn_um.iter().map(boxed).collect();
+        if drawn.is_empty() { Vec::new() } else { vec![drawn] }
     }
 }
 
