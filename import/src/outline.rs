@@ -138,7 +138,7 @@ impl Looks<'_> {
                 kinds[at] != Look::Number || self.look(self.grid.cell(row, at)) != Look::Words
             })
         };
-        let first = wide.iter().copied().find(|row| fits(*row))?;
+        let first = wide.iter().copied().find(|row| fits(*row) && !self.numbers_runs(*row))?;
         let header = self.header_above(first, (last, self.filled(&wide)), &kinds);
         let top = header.first().copied().unwrap_or_else(|| wide[0].min(first));
         let named = header.iter().any(|row| last < self.grid.used_width(*row));
@@ -181,7 +181,7 @@ impl Looks<'_> {
             if self.grid.is_blank(row) && header.is_empty() || self.is_rule(row) {
                 continue;
             }
-            let names = self.is_names(row, widths, kinds);
+            let names = self.is_names(row, widths, kinds) || self.numbers_runs(row);
             if header.len() == MOST || !names || self.is_repeated(row, &header) {
                 // A broken row of data right under the header is data.
                 if header.is_empty() && self.grid.used_width(row) == widths.0 && self.has_digit(row)
@@ -251,6 +251,18 @@ impl Looks<'_> {
         let Some(above) = row.checked_sub(1) else { return false };
         let cells = self.grid.cells_of(above).filter(|cell| !cell.is_empty());
         2 < width && 1 < cells.filter(|cell| runs::run_of(cell).is_some()).count()
+    }
+
+    /// True for numbers of runs below a row that groups them, `forward` and `backward` over 1 to 5 each:
+    /// no reading, as nothing stands where its target would.
+    fn numbers_runs(&self, row: usize) -> bool {
+        let mut cells = self.grid.cells_of(row);
+        let empty = cells.next().is_some_and(str::is_empty);
+        let numbers: Vec<&str> = cells.filter(|cell| !cell.is_empty()).collect();
+        let numbers: Option<Vec<u16>> = numbers.iter().map(|cell| cell.parse().ok()).collect();
+        let Some(numbers) = numbers.filter(|numbers| 1 < numbers.len()) else { return false };
+        let counted = numbers.windows(2).all(|pair| [numbers[0], pair[0] + 1].contains(&pair[1]));
+        empty && numbers[0] <= 1 && counted && self.group_above(row, self.grid.width(row))
     }
 
     /// A line of dashes, as under the header of a Markdown table.

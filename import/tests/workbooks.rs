@@ -111,6 +111,45 @@ fn cells_are_read_as_they_are_meant() {
     }
 }
 
+/// A form of ISO 230-2: each way over its runs, which are numbered below; a title is above all of it.
+#[test]
+fn a_heading_merged_over_columns_is_that_of_each() {
+    let gap = |cells: usize| "<c/>".repeat(cells);
+    let title = text("Axis X") + &gap(6);
+    let ways =
+        text("Target [mm]") + &text("forward [µm]") + &gap(2) + &text("backward [µm]") + &gap(2);
+    let runs: String = [1.0, 2.0, 3.0].map(|run| number(run, 0)).concat();
+    let row = |row: u32| {
+        let read: String = (0..6).map(|run| number(f64::from(row % 7 + 10 * run), 0)).collect();
+        number(f64::from(100 * row), 0) + &read
+    };
+    let head = [title, ways, format!("<c/>{runs}{runs}")];
+    let rows: Vec<String> = head.into_iter().chain((0..9).map(row)).collect();
+    let merged = ["A1:G1", "A2:A3", "B2:D2", "E2:G2"];
+    let merged = merged.map(|cells| format!("<mergeCell ref=\"{cells}\"/>")).concat();
+    for behind in [format!("<mergeCells>{merged}</mergeCells>"), String::new()] {
+        let bytes = workbook(&rows, &behind);
+        let found = propose(&[Source { name: "book.xlsx", bytes: &bytes }], &Recipe::default())
+            .unwrap_or_else(|error| panic!("{error}"));
+        assert!(found.questions.is_empty(), "{:?}", found.questions);
+        let names: Vec<&str> = found.table.names().collect();
+        assert_eq!(names, ["position_mm", "error_um", "pass", "direction"]);
+        assert_eq!(found.table.rows(), 6 * 9);
+        let column = |name| found.table.column(name).expect(name);
+        let at = |pass: f64, way: f64| {
+            let mut rows = 0..found.table.rows();
+            rows.find(|row| {
+                let near = |name, value: f64| (column(name)[*row] - value).abs() < 0.5;
+                near("position_mm", 200.0) && near("pass", pass) && near("direction", way)
+            })
+        };
+        for (pass, way, error_um) in [(1.0, 1.0, -2.0), (3.0, 1.0, -22.0), (2.0, -1.0, -42.0)] {
+            let row = at(pass, way).expect("such a row");
+            assert!((column("error_um")[row] - error_um).abs() < 1e-9, "{pass} {way}");
+        }
+    }
+}
+
 #[test]
 fn a_column_of_formulas_that_were_never_computed_is_named() {
     let error = sheet(&["Position [mm]", "Error [um]"], |row| number(f64::from(row), 0), "")
