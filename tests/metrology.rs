@@ -309,6 +309,16 @@ fn what_a_file_gets_wrong_is_said_with_its_place() {
     let scale = ["scale", "iso230", "DATA"];
     let error = refused(&scale, "position_mm,error_um,direction\n0,0,2\n");
     assert_eq!(error, "helixlock: DATA:2: direction 2, expected 1 or -1\n");
+    let words = "position_mm,error_um,direction\n0,0,forward\n0,1,forward\n0,0,backward\n";
+    for command in [&scale[..], &["scale", "build", "DATA", "-o", "none.hex"]] {
+        let error = refused(command, words);
+        let found = "DATA:2:5: column `direction`: found `forward`, expected a number";
+        assert!(error.contains(found) && error.contains("helixlock import"), "{error}");
+    }
+    let idle = words.replace("direction", "idle").replace("ward", "");
+    assert!(refused(&scale, &idle).contains("column `idle`: found `for`"));
+    let error = refused(&scale, "angle_rev,error_arcsec\n0,0\n0,1\n");
+    assert!(error.contains("`angle_rev`") && error.contains("with degrees as `position_mm`"));
     let pulses = ["transmission", "DATA", "--input-lines", "1", "--output-lines", "1"];
     let error = refused(&pulses, "time_s,channel\n0,1\n1,3\n");
     assert_eq!(error, "helixlock: DATA:3: channel 3, expected 1 (input) or 2 (output)\n");
@@ -436,6 +446,23 @@ fn a_table_of_an_instrument_is_answered_with_its_import() {
     let typo = "position_mm,error_um\n1,2\n2,x\n";
     let error = refused(&["compare", "sg7430-6mm/machine.toml", "DATA"], typo);
     assert!(!error.contains("import"), "{error}");
+}
+
+/// Rows that are there twice make a scatter smaller; readings that are coarse are equal by chance.
+#[test]
+fn approaches_that_are_there_twice_are_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let row = |row: u32| format!("{},{}.{},1\n", row % 6 * 10, row % 5, row * 37 % 100);
+    let rows: Vec<String> = (0..18).map(row).collect();
+    let header = "position_mm,error_um,direction\n";
+    let evaluated =
+        |text: String| run(&["scale", "iso230", &file(&folder, &text).to_string_lossy()]).1;
+    let note = "note: approaches 1 and 2 of all 6 targets are the same: are rows there twice?";
+    let doubled: Vec<String> = rows.iter().flat_map(|row| [row.clone(), row.clone()]).collect();
+    assert!(evaluated(format!("{header}{}", doubled.concat())).contains(note));
+    assert!(!evaluated(format!("{header}{}", rows.concat())).contains("there twice"));
+    let coarse: Vec<String> = (0..30).map(|row| format!("{},{},1\n", row % 6, row / 25)).collect();
+    assert!(!evaluated(format!("{header}{}", coarse.concat())).contains("there twice"));
 }
 
 /// Numbers in notes are read aloud: no `2th` place, and no `1 runs`.

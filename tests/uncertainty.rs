@@ -88,6 +88,9 @@ fn what_is_not_told_gives_no_uncertainty() {
     let why = "note: no uncertainty is given: nothing is told of `environment.variation`\n";
     assert!(run.stdout.contains(why), "{}", run.stdout);
     assert!(!run.stdout.contains("U ="), "{}", run.stdout);
+    // Within its tolerance as read, and yet nothing is proven.
+    assert!(run.stdout.contains("A: limit 9.2 µm kept, without U: nothing is proven"));
+    assert_eq!(run.status, 1, "{}", run.stdout);
     // Readings that vary as much as the axis scatters say nothing of the axis.
     let sheet = changed(folder.path(), "inductosyn-scale", "\"0.12 um\"", "\"0.4 um\"");
     let run = helixlock(&[AXIS, &["--sheet", &sheet]].concat());

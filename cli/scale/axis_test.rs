@@ -13,6 +13,8 @@ pub(crate) struct AxisTest {
     pub(crate) sheet: Sheet,
     /// True when a file told of the measurement.
     pub(crate) told: bool,
+    /// What a reader of the result must know.
+    pub(crate) notes: Vec<String>,
 }
 
 impl AxisTest {

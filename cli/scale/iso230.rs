@@ -84,6 +84,7 @@ impl Iso230 {
             sheet: self.sheet_of(&approaches)?,
             found: approaches.found().clone(),
             told: self.sheet.is_some(),
+            notes: copied(&approaches),
         })
     }
 
@@ -125,6 +126,19 @@ impl Answering for Iso230 {
     fn answer(&self) -> anyhow::Result<Answer> {
         Answer::new(&AxisTestJson::new(&self.test()?))
     }
+}
+
+/// Approaches that are the same at every target: rows that are there twice make a scatter smaller.
+fn copied(approaches: &Approaches) -> Vec<String> {
+    let of = |[one, other]: [usize; 2]| {
+        let places = approaches.found().targets.len();
+        format!(
+            "approaches {} and {} of all {places} targets are the same: are rows there twice?",
+            one + 1,
+            other + 1
+        )
+    };
+    approaches.copied().map(of).into_iter().collect()
 }
 
 /// What adds to every reading on its own, as a standard uncertainty, µm.

@@ -59,6 +59,8 @@ keys! {
         #[serde(skip_serializing_if = "Option::is_none")]
         sheet: Option<SheetJson<'a>> = test.told.then(|| SheetJson::new(&test.sheet)),
         targets: Vec<TargetJson> = test.found.targets.iter().map(TargetJson::new).collect(),
+        #[serde(skip_serializing_if = "<[String]>::is_empty")]
+        notes: &'a [String] = &test.notes,
     }
 
     AxisJson(found: &AxisResult) {

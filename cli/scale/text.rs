@@ -79,5 +79,8 @@ pub(crate) fn print_axis(out: &mut impl Write, test: &AxisTest) -> anyhow::Resul
     {
         writeln!(out, "note: {why}")?;
     }
+    for note in &test.notes {
+        writeln!(out, "note: {note}")?;
+    }
     Ok(())
 }

@@ -24,6 +24,8 @@ pub(crate) enum Subject {
 #[derive(Default)]
 pub(crate) struct SheetFile {
     path: PathBuf,
+    /// True when there is one.
+    pub(crate) told: bool,
     /// What is printed, or to be filled in.
     pub(crate) head: Vec<(&'static str, Option<String>)>,
     /// What may be wrong with the measurement.
@@ -95,7 +97,7 @@ impl SheetFile {
             "the file",
             &["sheet", "device", "object", "environment", "tolerance"],
         )?;
-        let mut file = Self { path: path.to_owned(), ..Self::default() };
+        let mut file = Self { path: path.to_owned(), told: true, ..Self::default() };
         let head = reader.table(root, "sheet", &HEAD.map(|(key, _)| key))?;
         for (key, name) in HEAD {
             file.head.push((name, reader.text(head, key)?));

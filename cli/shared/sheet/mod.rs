@@ -24,6 +24,8 @@ pub(crate) struct Line {
     pub(crate) budget: Option<Budget>,
     /// What it may be at most, µm.
     pub(crate) tolerance_um: Option<f64>,
+    /// True when a file told of the measurement, so that a tolerance is proven or not.
+    told: bool,
 }
 
 /// A sheet.
@@ -48,17 +50,23 @@ impl Line {
         Some(conformity(value_um.abs(), tolerance_um, ends_um))
     }
 
-    /// True when the tolerance is kept; proven so where the uncertainty is known.
+    /// True when the tolerance is kept; proven so where the uncertainty is known or was asked for.
     pub(crate) fn holds(&self) -> bool {
-        let kept = self.tolerance_um.is_none_or(|most| self.named.value_um.abs() <= most);
-        self.conformity().map_or(kept, |found| found == Conformity::Proven)
+        let asked = self.told && self.tolerance_um.is_some();
+        self.conformity().map_or(!asked && self.is_kept(), |found| found == Conformity::Proven)
+    }
+
+    /// True when the figure as read is within its tolerance.
+    fn is_kept(&self) -> bool {
+        self.tolerance_um.is_none_or(|most| self.named.value_um.abs() <= most)
     }
 
     /// What is said of the tolerance.
     fn verdict(&self) -> String {
         match self.conformity() {
             Some(decision) => format!("by ISO 14253-1: conformity {}", decision.name()),
-            None => words::held(self.holds()).into(),
+            None if self.told => self.decision().into(),
+            None => words::held(self.is_kept()).into(),
         }
     }
 
@@ -69,7 +77,7 @@ impl Line {
             (Some(_), Some(Conformity::Proven)) => "conforms",
             (Some(_), Some(Conformity::Disproven)) => "does not conform",
             (Some(_), Some(Conformity::Open)) => "no decision: within U of the tolerance",
-            (Some(_), None) if self.holds() => "kept, without U: nothing is proven",
+            (Some(_), None) if self.is_kept() => "kept, without U: nothing is proven",
             (Some(_), None) => "exceeded, without U: nothing is proven",
         }
     }
@@ -89,13 +97,14 @@ impl Sheet {
         let line = |named: Named| Line {
             tolerance_um: file.tolerance_um(&named.key),
             budget: budgets.next(),
+            told: file.told,
             named,
         };
         let lines = named.into_iter().map(line).collect();
         Ok(Self { lines, head: file.head, missing: file.missing })
     }
 
-    /// True when every tolerance is kept.
+    /// True when every tolerance is kept, and proven to be where a file told of the measurement.
     pub(crate) fn holds(&self) -> bool {
         self.lines.iter().all(Line::holds)
     }
