@@ -96,9 +96,8 @@ impl<'a> Court<'a> {
     fn suspect(&self, one: Hypothesis) -> Suspect {
         let both = self.problem.residual().into_iter().zip(one.mended.residual());
         let change = both.map(|(before, after)| before - after).collect();
-        // A mistake is one of a list, as the name is in whose place it stands.
-        let price = self.price(&one) - self.looks;
-        Suspect { doubt: one.doubt(), change, price, mended: one.mended }
+        let (price, listed) = (self.price(&one) - self.looks, self.looks);
+        Suspect { doubt: one.doubt(), change, price, listed, mended: one.mended }
     }
 
     fn view(&self, noises: &[crate::noise::Noise]) -> View {

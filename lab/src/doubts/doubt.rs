@@ -30,8 +30,10 @@ pub(crate) struct Suspect {
     pub(crate) mended: Problem,
     /// By what that changes the prediction, against the observations as they were read.
     pub(crate) change: Vec<f64>,
-    /// What it pays for its numbers and looks.
+    /// What it pays for its numbers and where it was looked for.
     pub(crate) price: f64,
+    /// What it pays for being one of a list; nothing in the place of a name, which is one of a list, too.
+    pub(crate) listed: f64,
 }
 
 /// Evidence of rows that each say so by accident no oftener than every second time.

@@ -18,7 +18,7 @@ pub(crate) struct Suspected {
     pub(crate) witnesses: Vec<(usize, String)>,
 }
 
-/// Holds mistakes against the effects of a model, each in the place of one, of several and of all.
+/// Holds mistakes against the effects of a model, each in the place of none, of one, of several and of all.
 ///
 /// All that the data hold has been searched for by now: a mistake that leaves more than noise is told of no one.
 #[must_use]
@@ -75,10 +75,12 @@ fn best_in_place(court: &Court<'_>, suspect: &Suspect, mended: &Problem) -> Opti
         let fewer = court.state.without(&in_place_of);
         let state = State::settled(mended, fewer, &court.state.fit.noises)?;
         let state = polished(mended, state);
-        let ahead = court.ahead(&in_place_of, &state.fit) - suspect.price;
+        let listed = if in_place_of.is_empty() { suspect.listed } else { 0.0 };
+        let ahead = court.ahead(&in_place_of, &state.fit) - suspect.price - listed;
         Some(Mended { ahead, beaten: in_place_of, state })
     };
-    let all = groups(court.state.components.len());
-    let all = all.into_iter().filter(|group| !group.is_empty());
-    all.filter_map(of).max_by(|a, b| a.ahead.total_cmp(&b.ahead))
+    groups(court.state.components.len())
+        .into_iter()
+        .filter_map(of)
+        .max_by(|a, b| a.ahead.total_cmp(&b.ahead))
 }
