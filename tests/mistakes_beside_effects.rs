@@ -105,3 +105,20 @@ fn a_larger_second_harmonic_of_the_screw_is_no_unit_of_the_position() {
         assert_eq!(names(&found), ["screw-periodic"], "{seed}");
     }
 }
+
+/// The error under the position's name and the other way round, in a log that has a clock.
+#[test]
+fn an_exchange_of_position_and_error_is_doubted() {
+    let machine = known();
+    let mut table = table((0..600).map(|row| 3.0 * libm::sin(0.37 * f64::from(row))).collect());
+    for column in &mut table.columns {
+        let other = match column.name.as_str() {
+            "position_mm" => "error_um",
+            "error_um" => "position_mm",
+            _ => continue,
+        };
+        other.clone_into(&mut column.name);
+    }
+    let says = doubted(&diagnose(&problem(&machine, &table)));
+    assert!(says.contains("`error_um` and `position_mm` are exchanged"), "{says}");
+}

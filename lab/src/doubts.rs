@@ -54,6 +54,9 @@ pub(crate) fn doubts_and_suspects(problem: &Problem) -> (Vec<Doubt>, Vec<Suspect
     if let Some(doubt) = along::runs_along(problem) {
         return (vec![doubt], Vec::new());
     }
+    if let Some(doubt) = swap::place_for_error(problem) {
+        return (vec![doubt], Vec::new());
+    }
     let contradicting = contradicting(problem);
     if !contradicting.is_empty() {
         return (contradicting, Vec::new());

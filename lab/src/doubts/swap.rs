@@ -4,11 +4,14 @@ use helixlock_plant::prediction::Sensor;
 use helixlock_plant::{Bridging, LOGGED_COLUMNS, LoggedColumn, Part};
 
 use super::column::physics;
+use super::doubt::{Doubt, said_by};
 use super::hypothesis::{Hypothesis, Words};
-use super::law::usualness;
-use crate::measurement::sensor_column;
+use crate::measurement::{Measurement, sensor_column};
 use crate::model::Problem;
-use crate::policy::mistakes::RARER_THAN_A_SIGN;
+use crate::numerics::count;
+use crate::policy::mistakes::{
+    DOUBT, GOES_BY_THE_CLOCK, NEAR_A_SPEED, RARER_THAN_A_SIGN, STANDS_BY_THE_CLOCK,
+};
 
 /// Every exchange of two readings of instruments, and of the errors.
 pub(super) fn swaps(problem: &Problem) -> Vec<Hypothesis> {
@@ -20,7 +23,6 @@ pub(super) fn swaps(problem: &Problem) -> Vec<Hypothesis> {
             all.extend(exchanged(problem, one, other));
         }
     }
-    all.extend(place_for_error(problem));
     all.extend(another_sensor(problem));
     all
 }
@@ -72,19 +74,36 @@ fn another_sensor(problem: &Problem) -> Option<Hypothesis> {
     Some(Hypothesis { usual: 2.0 * libm::log(RARER_THAN_A_SIGN), ..one })
 }
 
-/// The error under the position's name: told by the travel and the speed alone, for what such a
-/// file was read as is no record of the machine.
-fn place_for_error(problem: &Problem) -> Option<Hypothesis> {
+/// The doubt, where the error goes as the clock says that the travel does, and the position does not.
+pub(super) fn place_for_error(problem: &Problem) -> Option<Doubt> {
     let measurement = &problem.measurement;
     let (&sensor, values) = measurement.observations.iter().next()?;
-    if measurement.rotary || !measurement.timed || values.iter().any(|value| !value.is_finite()) {
+    if !measurement.timed {
         return None;
     }
-    let lead_mm = problem.model.workpiece.lead.mm();
-    let mut mended = measurement.clone();
-    mended.samples.position_mm = values.clone();
-    mended.samples.angle_rev = values.iter().map(|place| place / lead_mm).collect();
-    let words = words(sensor_column(sensor, false), "position_mm");
-    let usual = usualness(&mended, &problem.model) - usualness(measurement, &problem.model);
-    Some(Hypothesis { usual, ..Hypothesis::new(words, problem.clone()) })
+    let (place, a_turn) = if measurement.rotary {
+        ("angle_rev", 1.0)
+    } else {
+        ("position_mm", problem.model.workpiece.lead.mm())
+    };
+    let turns: Vec<f64> = values.iter().map(|value| value / a_turn).collect();
+    let nominal = problem.model.spindle.speed_rpm;
+    let [error, own] = [&turns, &measurement.angle_rev]
+        .map(|turns| rows_by_the_clock(measurement, nominal, turns));
+    let rows = count(measurement.len());
+    let is_so = GOES_BY_THE_CLOCK * rows < count(error) && count(own) < STANDS_BY_THE_CLOCK * rows;
+    let (what, says, mend) = words(sensor_column(sensor, measurement.rotary), place);
+    let evidence = said_by(error);
+    (is_so && DOUBT < evidence).then_some(Doubt { what, evidence, says, mend })
+}
+
+/// Rows that are so far from the one before as the axis goes at its speed meanwhile.
+fn rows_by_the_clock(measurement: &Measurement, nominal_rpm: f64, turns: &[f64]) -> usize {
+    let (time_s, pass) = (&measurement.time_s, &measurement.pass);
+    let is_so = |&row: &usize| {
+        let rpm = 60.0 * (turns[row] - turns[row - 1]).abs() / (time_s[row] - time_s[row - 1]);
+        let off = libm::log(rpm / measurement.told_rpm(row, nominal_rpm)).abs();
+        pass[row] == pass[row - 1] && off < NEAR_A_SPEED
+    };
+    (1..turns.len()).filter(is_so).count()
 }

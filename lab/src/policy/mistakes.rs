@@ -138,6 +138,19 @@ pub(crate) const DENIED_ROWS: usize = 20;
 /// fifty has such a factor by accident, and not one in a hundred.
 pub(crate) const AT_A_UNIT: f64 = 0.01;
 
+/// Share of rows from which on a column goes by the clock as the travel does, and below which the position does not.
+///
+/// Chosen: an axis that turns back or dwells now and then goes by it in nine rows of ten, and an error, which knows
+/// nothing of the speed, in one of ten. Doubled: none does, and a travel that does would be held for an error.
+pub(crate) const GOES_BY_THE_CLOCK: f64 = 0.85;
+pub(crate) const STANDS_BY_THE_CLOCK: f64 = 0.5;
+
+/// Logarithm by which a row may be off the speed that it was told.
+///
+/// Chosen: a tenth; places are rounded and clocks read late. Doubled: errors go by the clock in twice as many rows,
+/// one of five.
+pub(crate) const NEAR_A_SPEED: f64 = 0.1;
+
 /// That by which half of the rows may be off.
 ///
 /// Chosen: times and places are rounded. Doubled: where an axis dwells for a tenth of its time it may be
