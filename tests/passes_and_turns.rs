@@ -15,6 +15,9 @@ gear = [{ name = "rotor poles", order = 50 }]
 grating = { lines = 4096, diameter = "20 mm" }
 "#;
 
+/// A line of the grating on the workpiece.
+const LINE_UM: f64 = 8000.0 / 13906.0;
+
 /// A joint whose wheel turns once in a turn and a quarter.
 const JOINT: &str = r#"
 output.rotary = true
@@ -97,6 +100,46 @@ fn an_effect_that_passes_disagree_on_is_told() {
     assert_eq!(moved.verdict, Verdict::Unexplained);
     let told = moved.residual.iter().any(|one| one.along == "passes");
     assert!(told, "{:?}", moved.residual);
+}
+
+/// Three passes at three speeds, 200 rows each, with noise of 0.1 µm on what is there at every time; what is found.
+fn over_three_speeds(error_um: impl Fn(f64) -> f64) -> Diagnosis {
+    let [pass, time, position, error] = columns([3, 200], 0.1, |pass, row| {
+        let at_mm = 1.5 * f64::from(row);
+        let time_s = 120.0 * f64::from(pass) + at_mm / (4.0 - f64::from(pass) / 2.0);
+        [f64::from(pass), time_s, at_mm, error_um(time_s)]
+    });
+    let (pass, time) = (("pass", pass), ("time_s", time));
+    diagnosed(vec![pass, time, ("position_mm", position), ("error_um", error)])
+}
+
+/// A relay that was late between 120 and 240 s is no vibration, which has one phase throughout.
+#[test]
+fn a_vibration_keeps_time() {
+    let late = |by_rad: f64| {
+        over_three_speeds(|time_s| {
+            let late_rad = if (120.0..240.0).contains(&time_s) { by_rad } else { 0.0 };
+            0.5 * libm::sin(TAU * 0.31 * time_s - late_rad)
+        })
+    };
+    assert_eq!(names(&late(0.0)), ["vibration"]);
+    let unsteady = late(1.0);
+    assert_eq!((names(&unsteady), unsteady.verdict), (vec![], Verdict::Unexplained));
+}
+
+/// A window that was opened, and whose step a slip of the grating would have had; but a slip does not come back.
+#[test]
+fn a_slip_stays() {
+    let jumped = |within_s: f64| {
+        over_three_speeds(|time_s| {
+            let since_s = time_s - 150.0;
+            if since_s < 0.0 { 0.0 } else { 2.0 * LINE_UM * libm::exp(-since_s / within_s) }
+        })
+    };
+    let stayed = jumped(f64::INFINITY);
+    assert_eq!((names(&stayed), stayed.verdict), (vec!["grating-slip"], Verdict::Explained));
+    let gone = jumped(40.0);
+    assert_eq!((names(&gone), gone.verdict), (vec![], Verdict::Unexplained));
 }
 
 /// A warming-up that is over after a tenth of the record shows in no row that may be held out.

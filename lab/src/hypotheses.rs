@@ -36,7 +36,7 @@ mod uneven_slowness;
 mod unfolding;
 mod waves;
 
-pub(crate) use agreement::disagreements;
+pub(crate) use agreement::{Disagreement, disagreements};
 pub(crate) use calibration::chance as chance_in_noise;
 pub(crate) use candidates::{
     Candidate, as_it_stands, candidate, candidates, however_begun, of_known_size, turn_scan,

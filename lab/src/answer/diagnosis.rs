@@ -9,8 +9,8 @@ use super::far_readings::{FarReadings, far_readings};
 use super::searched::{Searched, search_on_all_rows, without_dropped};
 use crate::doubts::{Doubt, Suspect, doubts_and_suspects};
 use crate::hypotheses::{
-    Likelihood, Structure, disagreements, no_all_clear, no_larger_than, samples_a_pass,
-    slow_without, structures, waves_left,
+    Disagreement, Likelihood, Structure, disagreements, no_all_clear, no_larger_than,
+    samples_a_pass, slow_without, structures, waves_left,
 };
 use crate::model::{
     Component, JointCovariance, Judged, Problem, State, holdout_rms, told_covariances,
@@ -262,13 +262,15 @@ fn answered(searched: Searched, suspects: &[Suspect], rows: usize) -> Diagnosis 
     if residual.is_empty() {
         residual.extend(slow_without(&small, last, tried_beside(&steps)));
     }
-    residual.extend(disagreements(&small, last));
     confuse(&mut found, heard.witnesses.into_iter().chain(suspected.witnesses));
     let problems = (&problem, &small);
     if let Some(winner) = heard.winner {
         found = take_out(problems, (&mut steps, &mut states), (&winner.beaten, BEATEN), found);
         residual.push(winner.shown);
     }
+    let differing;
+    (found, differing) = without_denied(problems, (&mut steps, &mut states), found);
+    residual.extend(differing);
     let not_told = not_told(&small, &steps, &residual);
     let last = &steps[steps.len() - 1].state;
     residual.extend(not_told.iter().filter_map(|&index| untold(&small, last, index)));
@@ -366,6 +368,30 @@ fn take_out(
     steps.push(step);
     states.push(state);
     found
+}
+
+/// Goes on without effects that what they themselves leave denies, until none of those that stay is; how these and
+/// those differ.
+fn without_denied(
+    problems: (&Problem, &Problem),
+    (steps, states): (&mut Vec<Step>, &mut Vec<State>),
+    mut found: Vec<Rivals>,
+) -> (Vec<Rivals>, Vec<Structure>) {
+    let mut told = Vec::new();
+    loop {
+        let (small, last) = (problems.1, &steps[steps.len() - 1].state);
+        let (denied, others): (Vec<_>, Vec<_>) =
+            disagreements(small, last).into_iter().partition(|one| one.is_denied);
+        let out: Vec<usize> = denied.iter().map(|one| one.index).collect();
+        let shown = out.iter().filter_map(|&index| untold(small, last, index));
+        told.extend(denied.into_iter().map(|one| one.differs).chain(shown));
+        let before = steps.len();
+        found = take_out(problems, (steps, states), (&out, NOT_TOLD), found);
+        if steps.len() == before {
+            told.extend(others.into_iter().map(|one: Disagreement| one.differs));
+            return (found, told);
+        }
+    }
 }
 
 /// Places of the effects of a state that another one has no more.

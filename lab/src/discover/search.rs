@@ -322,7 +322,7 @@ impl Now {
         if is_named && left.is_empty() {
             left.extend(slow_without(small, &self.state, tried_beside(steps)));
         }
-        left.extend(disagreements(small, &self.state));
+        left.extend(disagreements(small, &self.state).into_iter().map(|one| one.differs));
         // Of so many shapes one follows slow noise: beside it none is believed to be noise.
         let slow = match (is_named, left.is_empty()) {
             (true, _) => no_all_clear(small, &self.state, &left),

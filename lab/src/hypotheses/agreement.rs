@@ -1,12 +1,17 @@
-//! Whether an effect that was found is the same in every pass, and each way.
+//! Whether an effect that was found is the same in every pass, each way, and a wave in time in every part of the
+//! record.
 
-use helixlock_plant::Column;
+use helixlock_plant::{Column, Parameter, Search};
 
 use super::probes::{ROUNDING, Structure, asked, is_large, varies_inside_a_pass};
-use crate::model::{Problem, State};
-use crate::numerics::{count, mean};
+use crate::model::{Columns, Component, Problem, State, plain_noises, settle};
+use crate::noise::rms;
+use crate::numerics::{chi_squared_tail, count, mean};
 use crate::policy::chance::DISAGREES;
-use crate::policy::extent::COLUMNS_OF_PASSES;
+use crate::policy::extent::{COLUMNS_OF_PASSES, PARTS_OF_A_RECORD};
+
+/// Shares of what follows a jump within which it may die away to a third.
+const FADES: [f64; 5] = [0.02, 0.05, 0.12, 0.3, 0.7];
 
 /// What an effect may differ between: a part of the record for each row.
 struct Parts {
@@ -15,21 +20,90 @@ struct Parts {
     of_rows: Vec<usize>,
 }
 
-/// Effects of which some passes show another size or phase than others, or one way than the other, each with its
-/// chance.
+/// An effect that is not the same all through a record.
+pub(crate) struct Disagreement {
+    /// Its place in the model.
+    pub(crate) index: usize,
+    /// How it differs, with the chance of that.
+    pub(crate) differs: Structure,
+    /// True for what it cannot be then: a wave in time that is not steady, a jump that does not stay.
+    pub(crate) is_denied: bool,
+}
+
+/// Effects of which some passes show another size or phase than others, or one way than the other, or of a wave in
+/// time one part of the record, and jumps that do not stay.
 ///
 /// Of such an effect the one value that all were given is that of none: a worm's wave after the telescope has been
-/// turned over, a drift that has changed its way, a wheel that bears on one flank only.
+/// turned over, a drift that has changed its way, a wheel that bears on one flank only, a relay that keeps no time.
 #[must_use]
-pub(crate) fn disagreements(problem: &Problem, state: &State) -> Vec<Structure> {
-    let all = [passes(problem), ways(problem)];
+pub(crate) fn disagreements(problem: &Problem, state: &State) -> Vec<Disagreement> {
+    let all = [passes(problem), ways(problem), stretches(problem)];
     let looks = count(all.len() * state.components.len());
     let of = |index: usize| {
-        let found =
-            all.iter().filter_map(|parts| disagreement(problem, state, index, (parts, looks)));
-        found.min_by(|a, b| a.p_value.total_cmp(&b.p_value))
+        let component = &state.components[index];
+        let is_of_the_clock = is_of_the_clock(component);
+        let parts = if is_of_the_clock { &all[..] } else { &all[..2] };
+        let differ = parts.iter().filter_map(|one| differing(problem, state, index, (one, looks)));
+        let fading =
+            moment_s(component).and_then(|at_s| fading(problem, state, (index, at_s), looks));
+        let is_denied = is_of_the_clock || fading.is_some();
+        let differs = differ.chain(fading).min_by(|a, b| a.p_value.total_cmp(&b.p_value))?;
+        Some(Disagreement { index, differs, is_denied })
     };
     (0..state.components.len()).filter_map(of).collect()
+}
+
+/// True for a wave of a frequency in time.
+fn is_of_the_clock(component: &Component) -> bool {
+    let term = &component.term;
+    term.is_wave() && term.parameters.iter().any(Parameter::is_frequency)
+}
+
+/// When a whole number of something jumps, of an effect that does.
+fn moment_s(component: &Component) -> Option<f64> {
+    let term = &component.term;
+    let at = term.parameters.iter().position(|what| what.search == Search::Time)?;
+    let counts = (0..term.parameters.len()).any(|parameter| component.is_counted(parameter));
+    counts.then_some(term.values[at])
+}
+
+/// A jump that dies away behind its moment, in the place of one that stays.
+///
+/// A noise that was fitted to a jump that stays has taken the rest for slow: each is held under the noise of
+/// either.
+fn fading(
+    problem: &Problem,
+    state: &State,
+    (index, at_s): (usize, f64),
+    looks: f64,
+) -> Option<Structure> {
+    let (used, from) = state.coefficients(index);
+    let own = &state.columns.raw[from..from + used.len()];
+    let time_s = &problem.record.time_s;
+    let range_s = time_s.iter().fold(0.0_f64, |most, time| most.max(time - at_s));
+    let fewer = Columns::of_model(problem, &state.without(&[index])).ok()?;
+    let dying = |share: f64| {
+        let left = |&sample: &usize| libm::exp((at_s - time_s[sample]) / (share * range_s));
+        let fading = |column: &Column| -> Column {
+            column
+                .iter()
+                .zip(&problem.samples)
+                .map(|(value, sample)| value * left(sample))
+                .collect()
+        };
+        let columns = fewer.and(&Columns::free(own.iter().map(fading)));
+        settle(problem, &columns, &plain_noises(problem, &state.fit.left))
+    };
+    let best = FADES.into_iter().map(dying);
+    let best = best.max_by(|a, b| a.log_likelihood.total_cmp(&b.log_likelihood))?;
+    let staying = settle(problem, &state.columns, &best.noises).log_likelihood;
+    let gain = 2.0 * (best.log_likelihood - staying.max(state.fit.log_likelihood));
+    let p_value = looks * count(FADES.len()) * chi_squared_tail(gain, count(used.len()));
+    let moved: Vec<f64> = state.fit.left.iter().zip(&best.left).map(|(a, b)| a - b).collect();
+    let rms_um = rms(&problem.layout, &moved);
+    let shape = format!("{} that dies away", state.components[index].term.name);
+    (p_value < DISAGREES && is_large(problem, &best, rms_um))
+        .then(|| Structure::without_place("time", &shape, rms_um, p_value))
 }
 
 fn passes(problem: &Problem) -> Parts {
@@ -44,7 +118,13 @@ fn ways(problem: &Problem) -> Parts {
     Parts { along: "direction", differs: "each way", of_rows }
 }
 
-fn disagreement(
+fn stretches(problem: &Problem) -> Parts {
+    let rows = problem.record.time_s.len();
+    let of_rows = problem.samples.iter().map(|sample| sample * PARTS_OF_A_RECORD / rows).collect();
+    Parts { along: "time", differs: "from one part of the record to the next", of_rows }
+}
+
+fn differing(
     problem: &Problem,
     state: &State,
     index: usize,

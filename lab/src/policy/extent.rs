@@ -259,6 +259,12 @@ pub(crate) const BEND_OF_A_PASS: usize = 3;
 /// targets there and back are not compared.
 pub(crate) const ROWS_BESIDE_A_BEND: usize = 11;
 
+/// Parts of a record, of as many rows each, that a wave in time is to have one size and phase in.
+///
+/// Chosen: six numbers more than the wave has, and a burst or a lost beat fills one part. Doubled: fourteen, and a
+/// wave of five standard errors a part is asked in parts that hardly show it.
+pub(crate) const PARTS_OF_A_RECORD: usize = 4;
+
 /// Columns of all passes together that their own smooth curves may have.
 ///
 /// Chosen. Doubled: eight passes may have curves of eight columns each.
