@@ -14,6 +14,7 @@ pub(crate) fn page(data: &Path, test: &AxisTest) -> Page {
     let found = &test.found;
     let mut parts = sheet::parts(&test.sheet);
     let signatures = parts.pop();
+    parts.extend(test.notes.iter().cloned().map(Part::Note));
     parts.push(Part::Picture {
         svg: figure(test).svg(),
         caption: "Means of the approaches from either side; thin lines are two standard \
