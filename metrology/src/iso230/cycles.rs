@@ -108,7 +108,9 @@ impl Order {
             (0..self.runs).flat_map(|run| (0..self.cells).map(move |cell| of(run, cell))).collect();
         for run in all.chunks_exact_mut(self.cells) {
             let mean_um = mean(run);
-            run.iter_mut().for_each(|um| *um -= mean_um);
+            for um in run {
+                *um -= mean_um;
+            }
         }
         for cell in 0..self.cells {
             let each: Vec<f64> = all.iter().skip(cell).step_by(self.cells).copied().collect();

@@ -67,8 +67,8 @@ pub(super) fn without_noise(targets: &[Target], sources: &[Source]) -> Vec<Vec<V
     for mut drift in ways {
         drift.new_um = libm::hypot(drift.new_um, told.at_each_reading_um);
         let errors = Errors::new(targets, &drift, told.at_each_place_um);
-        let draws = if errors.are_certain() { 1 } else { DRAWS };
-        drawn.push((0..draws).map(|_| errors.taken_off(&mut chance)).collect());
+        let sets = if errors.are_certain() { 1 } else { DRAWS };
+        drawn.push((0..sets).map(|_| errors.taken_off(&mut chance)).collect());
     }
     if drawn.is_empty() {
         return drawn;
@@ -146,7 +146,9 @@ impl<'a> Errors<'a> {
         let of_run = |um: &f64| um + drift.runs_standard_um * normal(chance);
         let mut runs_um: Vec<f64> = drift.runs_um.iter().map(of_run).collect();
         let half_um = drift.range_um / 2.0;
-        runs_um.iter_mut().for_each(|um| *um = um.clamp(-half_um, half_um));
+        for um in &mut runs_um {
+            *um = um.clamp(-half_um, half_um);
+        }
         let left_um = self.left_of_runs_um(creep_um, &runs_um);
         let (middles_um, reversals_um) =
             (self.middles.drawn_um(chance), self.reversals.drawn_um(chance));
