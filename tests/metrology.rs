@@ -404,16 +404,15 @@ fn noise_that_neighbours_share_is_not_taken_off() {
 #[test]
 fn less_than_a_turn_tells_named_shafts_alone() {
     let folder = tempfile::tempdir().expect("a folder");
-    let rows: String = (0..3650)
-        .map(|k| {
-            let input_s = 1e-4 * f64::from(k);
-            // Ten input pulses for one of the output; 400 of these, of 720 a turn.
-            let output =
-                if k < 365 { format!("{}", 1e-3 * f64::from(k) + 5e-5) } else { String::new() };
-            format!("{input_s},{output}\n")
-        })
-        .collect();
-    let data = file(&folder, &format!("input_s,output_s\n{rows}"));
+    let row = |k: u16| {
+        let input_s = 1e-4 * f64::from(k);
+        // Ten input pulses for one of the output; 400 of these, of 720 a turn.
+        let output =
+            if k < 365 { format!("{}", 1e-3 * f64::from(k) + 5e-5) } else { String::new() };
+        format!("{input_s},{output}")
+    };
+    let rows = (0..3650).map(row).collect::<Vec<String>>().join("\n");
+    let data = file(&folder, &format!("input_s,output_s\n{rows}\n"));
     let lines =
         ["--input-lines", "200", "--output-lines", "720", "--ratio", "36", "--shaft", "table=1"];
     let data = data.to_string_lossy();

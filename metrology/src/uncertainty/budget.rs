@@ -91,9 +91,10 @@ pub fn budgets(readings: &dyn Readings, sources: &[Source]) -> Vec<Budget> {
     let changes: Vec<Vec<f64>> =
         sources.iter().map(|source| changes_um(readings, source, &values_um)).collect();
     let drawn = readings.as_may_be(sources);
-    let figures_um = |one: &Box<dyn Readings>| one.figures_um(Added::Nothing);
-    let drawn_um: Vec<Vec<Vec<f64>>> =
-        drawn.iter().map(|way| way.iter().map(figures_um).collect()).collect();
+    let drawn_um: Vec<Vec<Vec<f64>>> = drawn
+        .iter()
+        .map(|way| way.iter().map(|one| one.figures_um(Added::Nothing)).collect())
+        .collect();
     let noise = |figure: usize| {
         let of_way = |way: &Vec<Vec<f64>>| {
             let each: Vec<f64> = way.iter().map(|figures_um| figures_um[figure]).collect();
