@@ -6,8 +6,9 @@ use helixlock_plant::{Column, Parameter, Search};
 use super::probes::{ROUNDING, Structure, asked, is_large, varies_inside_a_pass};
 use crate::model::{Columns, Component, Problem, State, plain_noises, settle};
 use crate::noise::rms;
-use crate::numerics::{chi_squared_tail, count, mean};
+use crate::numerics::{chi_squared_tail, count, mean, spread};
 use crate::policy::chance::DISAGREES;
+use crate::policy::evidence::WAVES_A_PASS;
 use crate::policy::extent::{COLUMNS_OF_PASSES, PARTS_OF_A_RECORD};
 
 /// Shares of what follows a jump within which it may die away to a third.
@@ -40,12 +41,15 @@ pub(crate) fn disagreements(problem: &Problem, state: &State) -> Vec<Disagreemen
     let all = [passes(problem), ways(problem), stretches(problem)];
     let looks = count(all.len() * state.components.len());
     let of = |index: usize| {
-        let component = &state.components[index];
-        let is_of_the_clock = is_of_the_clock(component);
+        let is_of_the_clock = hertz(&state.components[index]).is_some();
         let parts = if is_of_the_clock { &all[..] } else { &all[..2] };
-        let differ = parts.iter().filter_map(|one| differing(problem, state, index, (one, looks)));
-        let fading =
-            moment_s(component).and_then(|at_s| fading(problem, state, (index, at_s), looks));
+        let near = beating_slowly(problem, state, index);
+        let fewer = (!near.is_empty()).then(|| without(problem, state, &near)).flatten();
+        let model = fewer.as_ref().unwrap_or(state);
+        let place = index - near.iter().filter(|other| **other < index).count();
+        let differ = parts.iter().filter_map(|one| differing(problem, model, place, (one, looks)));
+        let fading = moment_s(&state.components[index])
+            .and_then(|at_s| fading(problem, state, (index, at_s), looks));
         let is_denied = is_of_the_clock || fading.is_some();
         let differs = differ.chain(fading).min_by(|a, b| a.p_value.total_cmp(&b.p_value))?;
         Some(Disagreement { index, differs, is_denied })
@@ -53,10 +57,28 @@ pub(crate) fn disagreements(problem: &Problem, state: &State) -> Vec<Disagreemen
     (0..state.components.len()).filter_map(of).collect()
 }
 
-/// True for a wave of a frequency in time.
-fn is_of_the_clock(component: &Component) -> bool {
+/// The frequency of a wave in time.
+fn hertz(component: &Component) -> Option<f64> {
     let term = &component.term;
-    term.is_wave() && term.parameters.iter().any(Parameter::is_frequency)
+    let place = term.parameters.iter().position(Parameter::is_frequency)?;
+    term.is_wave().then_some(term.values[place])
+}
+
+/// Other waves in time whose beat with one hardly comes round: together they are one wave of changing size or phase,
+/// and each by itself is asked whether it is that wave.
+fn beating_slowly(problem: &Problem, state: &State, index: usize) -> Vec<usize> {
+    let Some(own) = hertz(&state.components[index]) else { return Vec::new() };
+    let range_s = spread(&problem.record.time_s);
+    let is_near = |other: &usize| {
+        *other != index
+            && hertz(&state.components[*other])
+                .is_some_and(|hertz| (hertz - own).abs() * range_s < WAVES_A_PASS)
+    };
+    (0..state.components.len()).filter(is_near).collect()
+}
+
+fn without(problem: &Problem, state: &State, others: &[usize]) -> Option<State> {
+    State::of(problem, state.without(others), &state.fit.noises)
 }
 
 /// When a whole number of something jumps, of an effect that does.
