@@ -2,11 +2,9 @@
 
 use crate::runs;
 
-/// Words for what sums readings up, at the beginning of a row or in the name of a column.
-pub(crate) const SUMMARIES: [&str; 42] = [
+/// Words for what sums readings up, at the beginning of a row or within the name of a column, in letters alone.
+const WORDS: [&str; 26] = [
     "mean",
-    "mean deviation",
-    "mean value",
     "average",
     "avg",
     "median",
@@ -14,75 +12,49 @@ pub(crate) const SUMMARIES: [&str; 42] = [
     "minimum",
     "max",
     "maximum",
-    "sum",
-    "total",
     "range",
     "spread",
     "sigma",
     "std",
-    "std dev",
-    "std. dev",
     "stddev",
     "stdev",
-    "standard deviation",
-    "standard uncertainty",
     "reversal",
-    "reversal error",
     "mittelwert",
     "mittel",
-    "mittlere abweichung",
     "durchschnitt",
-    "summe",
     "spannweite",
     "streuung",
     "standardabweichung",
     "umkehrspanne",
     "平均",
     "平均值",
+    "标准差",
+    "极差",
+];
+
+/// More of them that a row may begin with.
+const OF_ROWS: [&str; 16] = [
+    "mean deviation",
+    "mean value",
+    "sum",
+    "total",
+    "std dev",
+    "std. dev",
+    "standard deviation",
+    "standard uncertainty",
+    "reversal error",
+    "mittlere abweichung",
+    "summe",
     "最大",
     "最大值",
     "最小",
     "最小值",
-    "标准差",
     "合计",
-    "极差",
 ];
 
-/// Words of them that say so within a longer name, in letters alone.
-const WITHIN: [&str; 32] = [
-    "mean",
-    "average",
-    "avg",
-    "median",
-    "min",
-    "minimum",
-    "max",
-    "maximum",
-    "range",
-    "spread",
-    "sigma",
-    "std",
-    "stddev",
-    "stdev",
-    "standard",
-    "reversal",
-    "repeatability",
-    "mittel",
-    "mittelwert",
-    "mittlere",
-    "durchschnitt",
-    "spannweite",
-    "streuung",
-    "standardabweichung",
-    "umkehrspanne",
-    "umkehrfehler",
-    "wiederholpräzision",
-    "平均",
-    "平均值",
-    "标准差",
-    "极差",
-    "反向差值",
-];
+/// More of them within the name of a column.
+const OF_COLUMNS: [&str; 6] =
+    ["standard", "repeatability", "mittlere", "umkehrfehler", "wiederholpräzision", "反向差值"];
 
 /// Signs of ISO 230-2 and VDI/DGQ 3441 for what a target or an axis has.
 const SIGNS: [&str; 15] =
@@ -91,7 +63,7 @@ const SIGNS: [&str; 15] =
 /// True for what a row begins with that sums the rows above it up.
 pub(crate) fn begins_with(cell: &str) -> bool {
     let plain = cell.trim_end_matches([':', '：', '.']).to_lowercase();
-    if SUMMARIES.contains(&plain.as_str()) {
+    if WORDS.iter().chain(&OF_ROWS).any(|word| *word == plain) {
         return true;
     }
     // One letter alone may be anything; with an arrow or a bar it is of the standard.
@@ -115,7 +87,7 @@ pub(crate) fn names(text: &str) -> bool {
     }
     let letters = |c: char| !c.is_alphabetic();
     let words: Vec<&str> = lower.split(letters).filter(|word| !word.is_empty()).collect();
-    if words.iter().any(|word| WITHIN.contains(word)) {
+    if words.iter().any(|word| WORDS.contains(word) || OF_COLUMNS.contains(word)) {
         return true;
     }
     let mut left = words.iter().filter(|word| runs::run_of(word).is_none());

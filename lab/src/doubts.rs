@@ -51,10 +51,8 @@ pub fn doubts(problem: &Problem) -> Vec<Doubt> {
 /// The same, and where nothing is doubted, what may yet be a mistake.
 #[must_use]
 pub(crate) fn doubts_and_suspects(problem: &Problem) -> (Vec<Doubt>, Vec<Suspect>) {
-    if let Some(doubt) = along::runs_along(problem) {
-        return (vec![doubt], Vec::new());
-    }
-    if let Some(doubt) = swap::place_for_error(problem) {
+    let misplaced = along::runs_along(problem).or_else(|| swap::place_for_error(problem));
+    if let Some(doubt) = misplaced {
         return (vec![doubt], Vec::new());
     }
     let contradicting = contradicting(problem);

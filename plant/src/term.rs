@@ -157,6 +157,13 @@ impl Term {
         self.parameters.iter().any(|what| what.role == Role::Phase)
     }
 
+    /// Its frequency in time, Hz, if it has one.
+    #[must_use]
+    pub fn frequency_hz(&self) -> Option<f64> {
+        let place = self.parameters.iter().position(Parameter::is_frequency)?;
+        Some(self.values[place])
+    }
+
     /// Values of the nonlinear parameters, in their order.
     #[must_use]
     pub fn nonlinear(&self) -> Vec<f64> {

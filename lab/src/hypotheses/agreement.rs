@@ -1,7 +1,7 @@
 //! Whether an effect that was found is the same in every pass, each way, and a wave in time in every part of the
 //! record.
 
-use helixlock_plant::{Column, Parameter, Search};
+use helixlock_plant::{Column, Search};
 
 use super::probes::{ROUNDING, Structure, asked, is_large, varies_inside_a_pass};
 use crate::model::{Columns, Component, Problem, State, plain_noises, settle};
@@ -59,9 +59,7 @@ pub(crate) fn disagreements(problem: &Problem, state: &State) -> Vec<Disagreemen
 
 /// The frequency of a wave in time.
 fn hertz(component: &Component) -> Option<f64> {
-    let term = &component.term;
-    let place = term.parameters.iter().position(Parameter::is_frequency)?;
-    term.is_wave().then_some(term.values[place])
+    component.term.frequency_hz().filter(|_| component.term.is_wave())
 }
 
 /// Other waves in time whose beat with one hardly comes round: together they are one wave of changing size or phase,

@@ -2,8 +2,6 @@
 
 use std::ops::Range;
 
-use helixlock_plant::Parameter;
-
 use super::likeness;
 use super::refusal::Refusal;
 use crate::hypotheses::{gain_at, turn_scan};
@@ -20,7 +18,7 @@ const STEPS: usize = 16;
 /// In one pass at one speed the two are one: such a line is nobody's until the speed is changed, or the axis
 /// turns back.
 pub(super) fn turns_as_well(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
-    judged.component.term.parameters.iter().position(Parameter::is_frequency)?;
+    judged.component.term.frequency_hz()?;
     let (order, ahead) = ahead_of_orders(problem, now, judged)?;
     (ahead <= TIME_LOCK).then_some(Refusal::Angle { order, ahead })
 }
@@ -110,11 +108,10 @@ fn stretches(problem: &Problem) -> Vec<Range<usize>> {
 
 /// What a frequency in time is as an order at the record's own speed.
 fn order_of_a_frequency(problem: &Problem, judged: &Judged, turns: &[f64]) -> Option<f64> {
-    let term = &judged.component.term;
-    let hertz = term.parameters.iter().position(Parameter::is_frequency)?;
+    let hertz = judged.component.term.frequency_hz()?;
     let passes = problem.record.passes();
     let of = |values: &[f64]| passes.iter().map(|rows| spread(&values[rows.clone()])).sum::<f64>();
-    let order = term.values[hertz] * of(&problem.record.time_s) / of(turns);
+    let order = hertz * of(&problem.record.time_s) / of(turns);
     order.is_finite().then_some(order)
 }
 

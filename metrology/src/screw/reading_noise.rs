@@ -37,10 +37,10 @@ pub fn without_reading_noise(
     seed: u64,
     characteristics: &dyn Fn(&Curve) -> Vec<Characteristic>,
 ) -> Vec<Option<Estimate>> {
-    let measured = characteristics(curve);
     let curve = &without_wild(curve, noise_um).0;
+    let fitted = characteristics(curve);
     if doubt(curve, noise_um).is_some() {
-        return vec![None; measured.len()];
+        return vec![None; fitted.len()];
     }
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let curves = if 0.0 < noise_um {
@@ -50,7 +50,6 @@ pub fn without_reading_noise(
     };
     let all: Vec<Vec<Option<f64>>> =
         curves.iter().map(|curve| values(&characteristics(curve))).collect();
-    let fitted = characteristics(curve);
     let of = |(index, one): (usize, &Characteristic)| {
         let drawn: Vec<f64> = all.iter().map(|values| values[index]).collect::<Option<_>>()?;
         let fitted_um = one.reached.ok()?.value_um;
