@@ -1,5 +1,6 @@
 //! What crosses crates; one module a subject.
 
+mod agreed_and_chosen;
 mod bad_data;
 mod bad_input;
 mod blocks_apart;

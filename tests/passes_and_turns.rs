@@ -68,6 +68,17 @@ fn a_detent_is_named_without_its_poles() {
     assert_eq!((names(&found), found.verdict), (vec!["gear-error"], Verdict::Explained));
 }
 
+/// A pawl that falls in eight times a turn makes waves of eight, sixteen and twenty-four: no circle is divided so.
+#[test]
+fn what_falls_in_several_times_a_turn_is_no_division() {
+    let pawl = |at: f64| 60.0 * libm::exp(3.0 * (libm::cos(TAU * 8.0 * at) - 1.0));
+    let found = motor(4.0, pawl);
+    assert!(names(&found).is_empty(), "{:?}", names(&found));
+    assert_eq!(found.verdict, Verdict::Unexplained);
+    let comb = found.residual.iter().find(|one| one.shape.starts_with("comes again evenly"));
+    assert_eq!(comb.and_then(|one| one.at), Some(8.0), "{:?}", found.residual.len());
+}
+
 /// On half a turn waves of 1.3 and 2.1 a turn are followed by whole ones that are not there.
 #[test]
 fn whole_waves_a_turn_need_a_whole_turn() {

@@ -20,7 +20,7 @@ pub(crate) use chi_squared::chi_squared_tail;
 pub(crate) use golden_section::golden_maximum;
 pub(crate) use looks::Looks;
 pub(crate) use random_effects::drawn_sizes_gain;
-pub(crate) use sampling::{highest_frequency, may_resolve, resolves, usual_rate};
+pub(crate) use sampling::{highest_frequency, may_resolve, nearly_even_rate, resolves, usual_rate};
 pub(crate) use summary::{
     count, deviation, longest, mean, median, one_in, rms_about_means, spread, weighted_median,
 };

@@ -164,6 +164,18 @@ impl Term {
         Some(self.values[place])
     }
 
+    /// Of a wave that is a whole harmonic of its part's turn: which.
+    #[must_use]
+    pub fn harmonic(&self) -> Option<u32> {
+        let place = self.parameters.iter().position(|what| what.search == Search::Whole)?;
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a whole number of waves a turn"
+        )]
+        self.is_wave().then(|| self.values[place].round() as u32)
+    }
+
     /// Values of the nonlinear parameters, in their order.
     #[must_use]
     pub fn nonlinear(&self) -> Vec<f64> {

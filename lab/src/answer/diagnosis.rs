@@ -20,7 +20,7 @@ use crate::numerics::least_squares::covariance_rows;
 use crate::policy::chance::{AT_AN_END, STANDARD_ERRORS};
 use crate::policy::extent::{COARSER, COMPARED_ROWS, FEWEST_COARSE, SEARCHED_ROWS};
 use crate::search::{
-    Dropped, Refusal, Rivals, Step, hear, nobodys, not_told, pruned, rivals, suspected,
+    Dropped, Refusal, Rivals, Step, hear, nobodys, not_told, one_comb, pruned, rivals, suspected,
     tried_beside, untold,
 };
 
@@ -271,10 +271,7 @@ fn answered(searched: Searched, suspects: &[Suspect], rows: usize) -> Diagnosis 
     let differing;
     (found, differing) = without_denied(problems, (&mut steps, &mut states), found);
     residual.extend(differing);
-    let not_told = not_told(&small, &steps, &residual);
-    let last = &steps[steps.len() - 1].state;
-    residual.extend(not_told.iter().filter_map(|&index| untold(&small, last, index)));
-    found = take_out(problems, (&mut steps, &mut states), (&not_told, NOT_TOLD), found);
+    found = without_untold(problems, (&mut steps, &mut states), &mut residual, found);
     let last = &steps[steps.len() - 1].state;
     let experiments = experiment::advice(&small, last, &found);
     let state = &states[states.len() - 1];
@@ -337,6 +334,9 @@ fn confuse(found: &mut [Rivals], witnesses: impl Iterator<Item = (usize, String)
 /// Why an effect is taken out in whose place a shape without a name explains more.
 const BEATEN: &str = "a shape without a name explains more in its place";
 
+/// Why waves are taken out of which one shape has all.
+const ONE_COMB: &str = "harmonics of one shape that comes again evenly";
+
 /// Why an effect is taken out that is not needed beside what is left.
 const NOT_TOLD: &str = "not told from what is left";
 
@@ -392,6 +392,25 @@ fn without_denied(
             return (found, told);
         }
     }
+}
+
+/// Goes on without waves that are those of one shape, and without effects that are not told from what is left; what
+/// they show is left too.
+fn without_untold(
+    problems: (&Problem, &Problem),
+    (steps, states): (&mut Vec<Step>, &mut Vec<State>),
+    residual: &mut Vec<Structure>,
+    mut found: Vec<Rivals>,
+) -> Vec<Rivals> {
+    let small = problems.1;
+    if let Some((waves, shape)) = one_comb(small, &steps[steps.len() - 1].state) {
+        found = take_out(problems, (steps, states), (&waves, ONE_COMB), found);
+        residual.push(shape);
+    }
+    let not_told = not_told(small, steps, residual);
+    let last = &steps[steps.len() - 1].state;
+    residual.extend(not_told.iter().filter_map(|&index| untold(small, last, index)));
+    take_out(problems, (steps, states), (&not_told, NOT_TOLD), found)
 }
 
 /// Places of the effects of a state that another one has no more.

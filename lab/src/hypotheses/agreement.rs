@@ -1,11 +1,13 @@
-//! Whether an effect that was found is the same in every pass, each way, and a wave in time in every part of the
-//! record.
+//! Whether an effect that was found is the same in every pass, each way and at every reversal, and a wave in time in
+//! every part of the record.
+
+use std::ops::Range;
 
 use helixlock_plant::{Column, Search};
 
 use super::probes::{ROUNDING, Structure, asked, is_large, varies_inside_a_pass};
 use crate::model::{Columns, Component, Problem, State, plain_noises, settle};
-use crate::noise::rms;
+use crate::noise::{Block, rms};
 use crate::numerics::{chi_squared_tail, count, mean, spread};
 use crate::policy::chance::DISAGREES;
 use crate::policy::evidence::WAVES_A_PASS;
@@ -31,15 +33,15 @@ pub(crate) struct Disagreement {
     pub(crate) is_denied: bool,
 }
 
-/// Effects of which some passes show another size or phase than others, or one way than the other, or of a wave in
-/// time one part of the record, and jumps that do not stay.
+/// Effects of which some passes show another size or phase than others, one way than the other, one reversal than
+/// another, or of a wave in time one part of the record, and jumps that do not stay.
 ///
 /// Of such an effect the one value that all were given is that of none: a worm's wave after the telescope has been
 /// turned over, a drift that has changed its way, a wheel that bears on one flank only, a relay that keeps no time.
 #[must_use]
 pub(crate) fn disagreements(problem: &Problem, state: &State) -> Vec<Disagreement> {
     let all = [passes(problem), ways(problem), stretches(problem)];
-    let looks = count(all.len() * state.components.len());
+    let looks = count((all.len() + 1) * state.components.len());
     let of = |index: usize| {
         let is_of_the_clock = hertz(&state.components[index]).is_some();
         let parts = if is_of_the_clock { &all[..] } else { &all[..2] };
@@ -51,7 +53,9 @@ pub(crate) fn disagreements(problem: &Problem, state: &State) -> Vec<Disagreemen
         let fading = moment_s(&state.components[index])
             .and_then(|at_s| fading(problem, state, (index, at_s), looks));
         let is_denied = is_of_the_clock || fading.is_some();
-        let differs = differ.chain(fading).min_by(|a, b| a.p_value.total_cmp(&b.p_value))?;
+        let turning = at_reversals(problem, state, index, looks);
+        let differs =
+            differ.chain(fading).chain(turning).min_by(|a, b| a.p_value.total_cmp(&b.p_value))?;
         Some(Disagreement { index, differs, is_denied })
     };
     (0..state.components.len()).filter_map(of).collect()
@@ -156,14 +160,67 @@ fn differing(
     }
     let (used, from) = state.coefficients(index);
     let raw = part_by_part(problem, &state.columns.raw[from..from + used.len()], &parts.of_rows);
-    if raw.is_empty() || COLUMNS_OF_PASSES < raw.len() || component.term.nature().is_setting() {
+    if component.term.nature().is_setting() {
+        return None;
+    }
+    let shape = format!("{} of another size or phase {}", component.term.name, parts.differs);
+    other_sizes(problem, state, &raw, (looks, parts.along, shape))
+}
+
+/// What columns of an effect's parts show beside the whole of it, where that is beyond chance.
+fn other_sizes(
+    problem: &Problem,
+    state: &State,
+    parts: &[Column],
+    (looks, along, shape): (f64, &str, String),
+) -> Option<Structure> {
+    if parts.is_empty() || COLUMNS_OF_PASSES < parts.len() {
         return None;
     }
     let model = (&state.columns, &state.fit);
-    let (rms_um, p_value) = asked(problem, model, &raw, (looks, DISAGREES));
-    let shape = format!("{} of another size or phase {}", component.term.name, parts.differs);
+    let (rms_um, p_value) = asked(problem, model, parts, (looks, DISAGREES));
     (p_value < DISAGREES && is_large(problem, &state.fit, rms_um))
-        .then(|| Structure::without_place(parts.along, &shape, rms_um, p_value))
+        .then(|| Structure::without_place(along, &shape, rms_um, p_value))
+}
+
+/// What an effect that acts when the axis turns back shows of another size at some reversals.
+fn at_reversals(problem: &Problem, state: &State, index: usize, looks: f64) -> Option<Structure> {
+    if !state.components[index].term.nature().at_reversal {
+        return None;
+    }
+    let (used, from) = state.coefficients(index);
+    let strokes = strokes(problem);
+    let behind = |stroke: &(usize, Range<usize>)| -> Vec<Column> {
+        let own = state.columns.raw[from..from + used.len()].iter();
+        own.map(|column| since(problem, column, stroke)).collect()
+    };
+    let shown = |stroke: &Vec<Column>| stroke.iter().any(|own| varies_inside_a_pass(problem, own));
+    let raw: Vec<Column> = strokes.iter().map(behind).filter(shown).skip(1).flatten().collect();
+    let what = format!("{} of another size at some reversals", state.components[index].term.name);
+    other_sizes(problem, state, &raw, (looks, "direction", what))
+}
+
+/// Rows of every stroke with which a pass goes on after another, and the block of that pass.
+fn strokes(problem: &Problem) -> Vec<(usize, Range<usize>)> {
+    let direction = |row: usize| problem.record.direction[problem.samples[row]];
+    let of = |(place, block): (usize, &Block)| -> Vec<(usize, Range<usize>)> {
+        let turns =
+            block.rows.clone().skip(1).filter(|&row| direction(row) * direction(row - 1) < 0.0);
+        let ends: Vec<usize> = turns.chain([block.rows.end]).collect();
+        ends.windows(2).map(|two| (place, two[0]..two[1])).collect()
+    };
+    problem.layout.blocks.iter().enumerate().flat_map(of).collect()
+}
+
+/// What a column has changed by since a stroke began, and keeps behind it.
+fn since(problem: &Problem, column: &Column, (block, stroke): &(usize, Range<usize>)) -> Column {
+    let before = column[stroke.start - 1];
+    let end = problem.layout.blocks[*block].rows.end;
+    let mut own = vec![0.0; column.len()];
+    for row in stroke.start..end {
+        own[row] = column[row.min(stroke.end - 1)] - before;
+    }
+    own.into()
 }
 
 /// The columns of an effect in each part by itself, but for the first part that shows it.

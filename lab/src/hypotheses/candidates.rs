@@ -52,6 +52,19 @@ pub(crate) fn candidates(stage: &Stage<'_>, found: &[Component]) -> Vec<Candidat
     all
 }
 
+/// Those of them that are the same effect as one, of the file if that is.
+#[must_use]
+pub(crate) fn candidates_like(
+    stage: &Stage<'_>,
+    found: &[Component],
+    term: &Term,
+) -> Vec<Candidate> {
+    let mut all = candidates_of(stage, found, |other| other.name == term.name);
+    all.extend(corrections(stage, found));
+    all.retain(|one| one.term.name == term.name && one.term.instead_of == term.instead_of);
+    all
+}
+
 /// Those of them whose size physics fixes.
 #[must_use]
 pub(crate) fn of_known_size(stage: &Stage<'_>, found: &[Component]) -> Vec<Candidate> {
@@ -67,7 +80,7 @@ pub(crate) fn of_known_size(stage: &Stage<'_>, found: &[Component]) -> Vec<Candi
 fn candidates_of(
     stage: &Stage<'_>,
     found: &[Component],
-    is_wanted: fn(&Term) -> bool,
+    is_wanted: impl Fn(&Term) -> bool,
 ) -> Vec<Candidate> {
     let problem = stage.problem;
     CATALOGUE

@@ -1,10 +1,10 @@
 //! Lines in time above what the samples resolve: at the comparisons of two speeds one frequency
-//! shows at two places, and only itself at both.
+//! shows at two places, and only itself at both; where rows come nearly evenly its aliases lose a part of it.
 
 use rayon::prelude::*;
 
 use crate::model::Problem;
-use crate::numerics::count;
+use crate::numerics::{count, nearly_even_rate};
 use crate::policy::evidence::MARGIN;
 use crate::policy::size::ANOTHER_SPEED;
 use crate::spectrum::Scan;
@@ -20,8 +20,8 @@ const SPEEDS: usize = 8;
 const SETTLED: usize = 8;
 
 /// The frequency beyond a scan that explains a whitened residual better than its strongest lines,
-/// as they are, by the margin; `None` at one speed, which cannot tell it from them, and where a loop
-/// swings at half of every rate.
+/// as they are, by the margin; `None` at one speed where rows come evenly, which cannot tell it from them, and where
+/// a loop swings at half of every rate.
 #[must_use]
 pub(crate) fn unfolded(
     problem: &Problem,
@@ -29,9 +29,12 @@ pub(crate) fn unfolded(
     white: &[f64],
     lines: &[f64],
 ) -> Option<f64> {
-    let rates = comparison_rates_hz(problem);
-    if rates.len() < 2 || 0.0 < problem.hunting_um {
+    if 0.0 < problem.hunting_um {
         return None;
+    }
+    let mut rates = comparison_rates_hz(problem);
+    if rates.len() < 2 {
+        rates = vec![nearly_even_rate(scan.turns)?];
     }
     let lines = &lines[..lines.len().min(LINES)];
     let as_they_are = lines.iter().map(|line| scan.settled(white, *line).1).fold(0.0, f64::max);

@@ -53,12 +53,33 @@ fn is_told_below(coordinate: &[f64], frequency: f64, alike: f64) -> bool {
     returns.is_none() && 1.999 * frequency <= looked_at
 }
 
+/// The rate by whose multiples frequencies of a large wave are told from their aliases, where smaller ones are not:
+/// the spectral window of nearly even places is highest there.
+#[must_use]
+pub(crate) fn nearly_even_rate(coordinate: &[f64]) -> Option<f64> {
+    let rate = usual_rate(coordinate);
+    let near = |frequency: f64| (WINDOW_FROM..2.0 - WINDOW_FROM).contains(&(frequency / rate));
+    let (window, _) = window(coordinate, 2.0 * rate)?;
+    let returns = window.into_iter().filter(|(frequency, _)| near(*frequency));
+    let (frequency, size) = returns.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    (ALIKE_WINDOW..SAME_WINDOW).contains(&size).then_some(frequency)
+}
+
 /// First frequency up to `end` at which the spectral window of places that come at a usual rate
 /// comes back to `alike`, and how far was looked: at nothing where there are hardly any places.
 fn first_return(coordinate: &[f64], (rate, end): (f64, f64), alike: f64) -> (Option<f64>, f64) {
+    let Some((window, looked_at)) = window(coordinate, end) else { return (None, 0.0) };
+    let from = WINDOW_FROM * rate;
+    let returns = window.into_iter().find(|(frequency, size)| from < *frequency && alike < *size);
+    (returns.map(|(frequency, _)| frequency), looked_at)
+}
+
+/// Spectral window of places by frequencies up to `end`, and how far that is; `None` where there are hardly any
+/// places.
+fn window(coordinate: &[f64], end: f64) -> Option<(Vec<(f64, f64)>, f64)> {
     let range = spread(coordinate);
     if range <= 0.0 || coordinate.len() < 3 {
-        return (None, 0.0);
+        return None;
     }
     let step = 0.25 / range;
     let points = (end / step).clamp(4.0, MOST_POINTS);
@@ -67,14 +88,9 @@ fn first_return(coordinate: &[f64], (rate, end): (f64, f64), alike: f64) -> (Opt
         clippy::cast_sign_loss,
         reason = "clamped to small positive numbers"
     )]
-    let window = fourier::sizes(coordinate, &vec![1.0; coordinate.len()], step, points as usize);
-    let from = WINDOW_FROM * rate;
-    let returns = window
-        .iter()
-        .enumerate()
-        .map(|(index, size)| (step * count(index), size / count(coordinate.len())))
-        .find(|(frequency, size)| from < *frequency && alike < *size);
-    (returns.map(|(frequency, _)| frequency), step * points)
+    let sizes = fourier::sizes(coordinate, &vec![1.0; coordinate.len()], step, points as usize);
+    let of = |(index, size): (usize, f64)| (step * count(index), size / count(coordinate.len()));
+    Some((sizes.into_iter().enumerate().map(of).collect(), step * points))
 }
 
 #[cfg(test)]
@@ -105,6 +121,16 @@ mod tests {
         let highest = highest_frequency(&places);
         assert!((highest - 4.0 * usual_rate(&places)).abs() < 1e-9, "{highest}");
         assert!(resolves(&places, 1.5 * highest));
+    }
+
+    /// A logger whose clock is off by up to a sixth of its interval either way.
+    #[test]
+    fn nearly_even_places_have_a_rate_and_even_ones_none() {
+        let off = |i: u32| 0.3 * (f64::from(i * i % 97) / 96.0 - 0.5);
+        let places: Vec<f64> = (0..97_u32).map(|i| 2.7 * (f64::from(i) + off(i))).collect();
+        let rate = nearly_even_rate(&places).expect("a rate");
+        assert!((2.7 * rate - 1.0).abs() < 0.002, "{rate}");
+        assert_eq!(nearly_even_rate(&(0..97).map(f64::from).collect::<Vec<_>>()), None);
     }
 
     /// Targets of ISO 230-2, a fifth of their distance off an even row.

@@ -187,6 +187,24 @@ pub(crate) const SURE_ON_MEANS: f64 = 10.0;
 /// Chosen: half. Doubled: nothing has.
 pub(crate) const OWN_SHAPE: f64 = 0.5;
 
+/// Waves of one name from which on they are the harmonics of one shape.
+///
+/// Chosen: of two, one is a multiple of the other oftener than not. Doubled: pulses a fifth of their distance wide
+/// are three or four divisions.
+pub(crate) const FEWEST_TEETH: usize = 3;
+
+/// Multiples below the last that may be missing among them.
+///
+/// Chosen: one may be too small, as the second of a shape that is as long up as down. Doubled: three of five, as two
+/// in five of any three numbers are.
+pub(crate) const MISSING_TEETH: usize = 1;
+
+/// Gain in twice the log likelihood below which no effect is named beside what nobody explains.
+///
+/// Measured: of 48 names of less than eight standard errors beside `unexplained`, in 1027 records of three generators
+/// made apart from the program, 16 were right; of larger ones two in three. Doubled: of eleven.
+pub(crate) const BESIDE_THE_REST: f64 = 64.0;
+
 /// Least that a number costs which few rows tell of, as what a pass began with.
 ///
 /// Derived: noise gives a free number a gain of 1 on average; with twice that it is no gain (Akaike 1974).

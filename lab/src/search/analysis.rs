@@ -1,6 +1,7 @@
 //! The search for what a model lacks: round by round, until what is left is noise.
 
 use super::acceptance::refusal;
+use super::chosen_again::{chosen_again, known_beside_other_values};
 use super::court::shape_beside;
 use super::judging::tried;
 use super::known_together::known_together;
@@ -109,6 +110,10 @@ fn with_all(problem: &mut Problem, all: &Together) -> Option<Vec<Step>> {
 
 fn go_on(problem: &mut Problem, steps: &mut Vec<Step>) {
     for _ in 0..MOST_ROUNDS {
+        if let Some(step) = chosen_again(problem, &steps[steps.len() - 1].state) {
+            problem.mark_outliers(&step.state.fit.left);
+            steps.push(step);
+        }
         let last = steps.len() - 1;
         let now = &steps[last].state;
         let mut tried = tried(problem, now);
@@ -127,10 +132,13 @@ fn go_on(problem: &mut Problem, steps: &mut Vec<Step>) {
         let next = next(problem, now, best.as_ref(), &tried);
         steps[last].tried = tried;
         steps[last].refused = refused;
-        if next.is_empty() {
-            break;
+        if !next.is_empty() {
+            steps.extend(next);
+            continue;
         }
-        steps.extend(next);
+        let Some(step) = known_beside_other_values(problem, &steps[last].state) else { break };
+        problem.mark_outliers(&step.state.fit.left);
+        steps.push(step);
     }
 }
 

@@ -7,6 +7,8 @@
 //! one that is smaller than such a structure and has for most part its shape: what made the larger may have
 //! made it all. A line is no such structure: beside an effect of the same frequency it is that effect's own
 //! swelling. Nor is a shape beside a wave that is larger: it is the others of its harmonics.
+//!
+//! Whatever is left, the noise was fitted to it too, and is no judge of something faint: that keeps no name.
 
 use std::collections::BTreeSet;
 
@@ -20,14 +22,14 @@ use crate::hypotheses::Structure;
 use crate::model::{Columns, Problem, State};
 use crate::noise::rms;
 use crate::numerics::chi_squared_tail;
-use crate::policy::evidence::OWN_SHAPE;
+use crate::policy::evidence::{BESIDE_THE_REST, OWN_SHAPE};
 use crate::policy::size::SHARE_OF_AN_EFFECT;
 
 /// Places of the effects of a model that something left of it explains as well.
 #[must_use]
 pub(crate) fn not_told(problem: &Problem, steps: &[Step], left: &[Structure]) -> Vec<usize> {
     let state = &steps[steps.len() - 1].state;
-    if state.components.is_empty() {
+    if state.components.is_empty() || left.is_empty() {
         return Vec::new();
     }
     let is_drawn = |one: &&Structure| one.line.is_none() && !one.drawn_by.is_empty();
@@ -47,19 +49,26 @@ pub(crate) fn not_told(problem: &Problem, steps: &[Step], left: &[Structure]) ->
         places.extend(parts(problem, state, rest));
         places
     };
-    rests.par_iter().flat_map_iter(beside).collect::<BTreeSet<usize>>().into_iter().collect()
+    let beaten: BTreeSet<usize> = rests.par_iter().flat_map_iter(beside).collect();
+    let is_faint =
+        |index: &usize| gain(problem, state, *index).is_some_and(|gain| gain < BESIDE_THE_REST);
+    (0..state.components.len()).filter(|index| beaten.contains(index) || is_faint(index)).collect()
+}
+
+/// What an effect takes out of twice the log likelihood.
+pub(super) fn gain(problem: &Problem, state: &State, index: usize) -> Option<f64> {
+    let fewer = State::of(problem, state.without(&[index]), &state.fit.noises)?;
+    Some(2.0 * (state.fit.log_likelihood - fewer.fit.log_likelihood))
 }
 
 /// What an effect shows that is not told from what is left, beyond chance in what it is taken out of.
 #[must_use]
 pub(crate) fn untold(problem: &Problem, state: &State, index: usize) -> Option<Structure> {
     let component = &state.components[index];
-    let fewer = State::of(problem, state.without(&[index]), &state.fit.noises)?;
-    let gain = 2.0 * (state.fit.log_likelihood - fewer.fit.log_likelihood);
     let size_um = component.size_um(problem, state.coefficients(index).0);
     let shape =
         format!("a curve like that of {}, not told from what else is left", component.term.name);
-    let chance = chi_squared_tail(gain, component.freedom());
+    let chance = chi_squared_tail(gain(problem, state, index)?, component.freedom());
     Some(Structure::without_place("travel and time", &shape, size_um, chance))
 }
 

@@ -6,11 +6,15 @@ use rayon::prelude::*;
 
 use super::likeness;
 use super::starts::worth_alone;
-use crate::hypotheses::{Candidate, Trial, candidates, setting_trials, try_candidate};
+use helixlock_plant::Term;
+
+use crate::hypotheses::{
+    Candidate, Trial, candidates, candidates_like, setting_trials, try_candidate,
+};
 use crate::model::{
     Columns, Judged, Problem, Stage, State, holdout_rms, noises_of, plain_noises, settle_beside,
 };
-use crate::noise::rms;
+use crate::noise::{Noise, rms};
 use crate::numerics::{chi_squared_tail, count};
 use crate::policy::extent::{NEAR_THE_BEST, SHORTLIST};
 
@@ -41,13 +45,37 @@ pub(crate) fn tried(problem: &Problem, now: &State) -> Vec<Judged> {
     all
 }
 
-/// The strongest trials under a stage's noise and all that come near them, largest gain first, and
-/// how many there were.
+/// The best of the candidates that are the same effect as one, on what a model leaves; where to look is told by the
+/// noise that is left with such an effect.
+#[must_use]
+pub(crate) fn tried_of(
+    problem: &Problem,
+    now: &State,
+    (term, noises): (&Term, &[Noise]),
+) -> Option<Judged> {
+    let stages = [noises, &plain_noises(problem, &now.fit.left)];
+    let lists = stages.map(|noises| {
+        let stage = Stage::new(problem, &now.columns, noises);
+        strongest(&stage, &candidates_like(&stage, &now.components, term), None)
+    });
+    judged_shortlist(problem, now, &lists).into_iter().next()
+}
+
+/// The strongest trials under a stage's noise of all there are.
 fn trials(stage: &Stage<'_>, now: &State) -> (Vec<Trial>, usize) {
-    let all = candidates(stage, &now.components);
+    strongest(stage, &candidates(stage, &now.components), setting_trials(stage))
+}
+
+/// The strongest trials of candidates and of a setting, and all that come near them, largest gain first, and how
+/// many there were.
+fn strongest(
+    stage: &Stage<'_>,
+    all: &[Candidate],
+    of_setting: Option<Trial>,
+) -> (Vec<Trial>, usize) {
     let of = |candidate| Some((Some(candidate), try_candidate(stage, candidate)?));
     let mut trials: Vec<(Option<&Candidate>, Trial)> = all.par_iter().filter_map(of).collect();
-    trials.extend(setting_trials(stage).map(|trial| (None, trial)));
+    trials.extend(of_setting.map(|trial| (None, trial)));
     trials.sort_by(|a, b| b.1.gain.total_cmp(&a.1.gain));
     let tried = trials.len();
     let best = trials.first().map_or(0.0, |(_, trial)| trial.gain);

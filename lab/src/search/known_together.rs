@@ -1,5 +1,8 @@
 //! Effects of known size that show only together.
 
+use helixlock_plant::Term;
+
+use super::judging::tried_of;
 use crate::hypotheses::of_known_size;
 use crate::model::{
     Columns, Component, Judged, Problem, Stage, State, noises_of, plain_noises, with_noise,
@@ -8,6 +11,20 @@ use crate::numerics::count;
 use crate::policy::chance::NAMED;
 use crate::policy::evidence::SET_MARGIN;
 use crate::policy::extent::KNOWN_IN_SETS;
+
+/// Effects of known size that a model lacks, as many as sets are made of.
+fn missing(problem: &Problem, now: &State) -> Vec<Term> {
+    let coloured = Stage::new(problem, &now.columns, &now.fit.noises);
+    let known = of_known_size(&coloured, &now.components).into_iter().map(|one| one.term);
+    let is_new = |term: &Term| now.components.iter().all(|other| other.term.name != term.name);
+    known.filter(is_new).take(KNOWN_IN_SETS).collect()
+}
+
+/// Each of them on what the model leaves, however little it explains there: how large it is, is known.
+pub(super) fn of_known_size_alone(problem: &Problem, now: &State) -> Vec<Judged> {
+    let terms = missing(problem, now);
+    terms.iter().filter_map(|term| tried_of(problem, now, (term, &now.fit.noises))).collect()
+}
 
 /// Several effects of known size that together beat every single effect.
 ///
@@ -21,17 +38,9 @@ pub(super) fn known_together(
     now: &State,
     tried: &[Judged],
 ) -> Option<Vec<Component>> {
-    let coloured = Stage::new(problem, &now.columns, &now.fit.noises);
-    let is_new =
-        |one: &Component| now.components.iter().all(|other| other.term.name != one.term.name);
-    let known: Vec<Component> = of_known_size(&coloured, &now.components)
-        .into_iter()
-        .map(|candidate| Component::new(candidate.term))
-        .filter(is_new)
-        .collect();
+    let known: Vec<Component> = missing(problem, now).into_iter().map(Component::new).collect();
     let price = problem.price_of_a_number();
     let single = tried.first().map_or(0.0, |best| best.evidence);
-    let known = &known[..known.len().min(KNOWN_IN_SETS)];
     let sets = (1_usize..1 << known.len()).filter(|set| 1 < set.count_ones());
     let looks = 2.0 * libm::log(count(sets.clone().count().max(1)));
     let (_, gain, members) = sets

@@ -7,6 +7,7 @@ use helixlock_plant::{CATALOGUE, Parameter, Search, Term};
 
 use super::acceptance::{is_of_whole_waves, refusal, worth};
 use super::judging::tried;
+use super::known_together::of_known_size_alone;
 use crate::hypotheses::chance_in_noise;
 use crate::model::{Columns, Component, Judged, Problem, State};
 use crate::numerics::count;
@@ -125,7 +126,10 @@ pub(super) fn together(problem: &Problem, now: &State, single: &[Judged]) -> Opt
     if SWALLOWED <= worth(problem, &now.fit) {
         return None;
     }
-    let firsts = single.iter().take(FIRST_OF_PAIRS);
+    let firsts = &single[..single.len().min(FIRST_OF_PAIRS)];
+    let known = of_known_size_alone(problem, now);
+    let is_new = |one: &&Judged| !firsts.iter().any(|first| imitate(one, first));
+    let firsts = firsts.iter().chain(known.iter().filter(is_new));
     let ones: Vec<Start> = firsts.filter_map(|one| Start::with(problem, now, &[], one)).collect();
     clear_winner(problem, now, single, &ones).or_else(|| {
         let twos = ones.iter().filter_map(|one| one.and_the_best(problem, now));
