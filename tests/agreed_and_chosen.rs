@@ -114,7 +114,7 @@ fn what_is_faint_has_no_name_beside_what_nobody_explains() {
         }
         diagnosed(columns.into())
     };
-    for (size_um, named) in [(0.15, &["gear-error"][..]), (0.06, &[][..])] {
+    for (size_um, named) in [(0.15, &["gear-error"][..]), (0.055, &[][..])] {
         let found = beside_switching(size_um);
         assert_eq!((names(&found), found.verdict), (named.to_vec(), Verdict::Unexplained));
     }

@@ -117,11 +117,7 @@ fn go_on(problem: &mut Problem, steps: &mut Vec<Step>) {
         let last = steps.len() - 1;
         let now = &steps[last].state;
         let mut tried = tried(problem, now);
-        let refused: Vec<Refusal> =
-            tried.iter().map_while(|judged| refusal(problem, now, judged)).collect();
-        for (judged, why) in tried.iter_mut().zip(&refused) {
-            judged.p_value = why.chance().unwrap_or(judged.p_value);
-        }
+        let mut refused = first_refused(problem, now, &mut tried, 0);
         let best = tried.get(refused.len()).cloned();
         if let Some(members) = known_together(problem, now, &tried) {
             steps[last].tried = tried;
@@ -129,7 +125,14 @@ fn go_on(problem: &mut Problem, steps: &mut Vec<Step>) {
             add_together(problem, steps, members);
             continue;
         }
-        let next = next(problem, now, best.as_ref(), &tried);
+        let mut next = next(problem, now, best.as_ref(), &tried);
+        if next.is_empty() && best.is_some() {
+            // What is dropped at once stands before no other.
+            refused.push(Refusal::AtOnce);
+            refused.extend(first_refused(problem, now, &mut tried, refused.len()));
+            let second = tried.get(refused.len());
+            next.extend(second.and_then(|one| with_one_more(problem, now, one)));
+        }
         steps[last].tried = tried;
         steps[last].refused = refused;
         if !next.is_empty() {
@@ -140,6 +143,22 @@ fn go_on(problem: &mut Problem, steps: &mut Vec<Step>) {
         problem.mark_outliers(&step.state.fit.left);
         steps.push(step);
     }
+}
+
+/// Why the first of the effects tried from a place on are not taken; those have the chance of it.
+fn first_refused(
+    problem: &Problem,
+    now: &State,
+    tried: &mut [Judged],
+    from: usize,
+) -> Vec<Refusal> {
+    let rest = &mut tried[from..];
+    let refused: Vec<Refusal> =
+        rest.iter().map_while(|judged| refusal(problem, now, judged)).collect();
+    for (judged, why) in rest.iter_mut().zip(&refused) {
+        judged.p_value = why.chance().unwrap_or(judged.p_value);
+    }
+    refused
 }
 
 /// The steps to the model with the best effect more, or with several where they explain what it bends to, or where

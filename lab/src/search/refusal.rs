@@ -43,6 +43,8 @@ pub(crate) enum Refusal {
     Play,
     /// It is in the model already, and a sum of such shapes imitates anything.
     Again,
+    /// In the model it is superfluous at once.
+    AtOnce,
     /// A line over the angle of the spindle explains as much as one in time.
     Angle { order: f64, ahead: f64 },
     /// One sample alone speaks for it, and the tails of the noise reach as far.
@@ -131,6 +133,7 @@ impl fmt::Display for Refusal {
             Self::OneTarget => f.write_str("it shows at one target alone, where it has no shape"),
             Self::Play => f.write_str("a play wider than every move of the motor"),
             Self::Again => f.write_str("it is in the model already"),
+            Self::AtOnce => f.write_str("superfluous as soon as it is in the model"),
             Self::Angle { order, ahead } => {
                 write!(
                     f,
