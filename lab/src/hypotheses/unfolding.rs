@@ -34,7 +34,9 @@ pub(crate) fn unfolded(
     }
     let mut rates = comparison_rates_hz(problem);
     if rates.len() < 2 {
-        rates = vec![nearly_even_rate(scan.turns)?];
+        let blocks = scan.layout.blocks.iter();
+        let passes: Vec<&[f64]> = blocks.map(|block| &scan.turns[block.rows.clone()]).collect();
+        rates = vec![nearly_even_rate(&passes)?];
     }
     let lines = &lines[..lines.len().min(LINES)];
     let as_they_are = lines.iter().map(|line| scan.settled(white, *line).1).fold(0.0, f64::max);

@@ -54,12 +54,12 @@ fn is_told_below(coordinate: &[f64], frequency: f64, alike: f64) -> bool {
 }
 
 /// The rate by whose multiples frequencies of a large wave are told from their aliases, where smaller ones are not:
-/// the spectral window of nearly even places is highest there.
+/// the spectral window of nearly even places is highest there. What lies between stretches tells nothing.
 #[must_use]
-pub(crate) fn nearly_even_rate(coordinate: &[f64]) -> Option<f64> {
-    let rate = usual_rate(coordinate);
+pub(crate) fn nearly_even_rate(stretches: &[&[f64]]) -> Option<f64> {
+    let rate = usual_rate(&stretches.concat());
     let near = |frequency: f64| (WINDOW_FROM..2.0 - WINDOW_FROM).contains(&(frequency / rate));
-    let (window, _) = window(coordinate, 2.0 * rate)?;
+    let (window, _) = window(stretches, 2.0 * rate)?;
     let returns = window.into_iter().filter(|(frequency, _)| near(*frequency));
     let (frequency, size) = returns.max_by(|a, b| a.1.total_cmp(&b.1))?;
     (ALIKE_WINDOW..SAME_WINDOW).contains(&size).then_some(frequency)
@@ -68,17 +68,18 @@ pub(crate) fn nearly_even_rate(coordinate: &[f64]) -> Option<f64> {
 /// First frequency up to `end` at which the spectral window of places that come at a usual rate
 /// comes back to `alike`, and how far was looked: at nothing where there are hardly any places.
 fn first_return(coordinate: &[f64], (rate, end): (f64, f64), alike: f64) -> (Option<f64>, f64) {
-    let Some((window, looked_at)) = window(coordinate, end) else { return (None, 0.0) };
+    let Some((window, looked_at)) = window(&[coordinate], end) else { return (None, 0.0) };
     let from = WINDOW_FROM * rate;
     let returns = window.into_iter().find(|(frequency, size)| from < *frequency && alike < *size);
     (returns.map(|(frequency, _)| frequency), looked_at)
 }
 
-/// Spectral window of places by frequencies up to `end`, and how far that is; `None` where there are hardly any
-/// places.
-fn window(coordinate: &[f64], end: f64) -> Option<(Vec<(f64, f64)>, f64)> {
-    let range = spread(coordinate);
-    if range <= 0.0 || coordinate.len() < 3 {
+/// Spectral window of places, stretch by stretch, by frequencies up to `end`, and how far that is; `None` where there
+/// are hardly any places.
+fn window(stretches: &[&[f64]], end: f64) -> Option<(Vec<(f64, f64)>, f64)> {
+    let places = stretches.concat();
+    let range = spread(&places);
+    if range <= 0.0 || places.len() < 3 {
         return None;
     }
     let step = 0.25 / range;
@@ -88,8 +89,13 @@ fn window(coordinate: &[f64], end: f64) -> Option<(Vec<(f64, f64)>, f64)> {
         clippy::cast_sign_loss,
         reason = "clamped to small positive numbers"
     )]
-    let sizes = fourier::sizes(coordinate, &vec![1.0; coordinate.len()], step, points as usize);
-    let of = |(index, size): (usize, f64)| (step * count(index), size / count(coordinate.len()));
+    let number = points as usize;
+    let mut sizes = vec![0.0; number];
+    for stretch in stretches {
+        let own = fourier::sizes(stretch, &vec![1.0; stretch.len()], step, number);
+        sizes.iter_mut().zip(own).for_each(|(all, own)| *all += own);
+    }
+    let of = |(index, size): (usize, f64)| (step * count(index), size / count(places.len()));
     Some((sizes.into_iter().enumerate().map(of).collect(), step * points))
 }
 
@@ -128,9 +134,10 @@ mod tests {
     fn nearly_even_places_have_a_rate_and_even_ones_none() {
         let off = |i: u32| 0.3 * (f64::from(i * i % 97) / 96.0 - 0.5);
         let places: Vec<f64> = (0..97_u32).map(|i| 2.7 * (f64::from(i) + off(i))).collect();
-        let rate = nearly_even_rate(&places).expect("a rate");
+        let rate = nearly_even_rate(&[&places]).expect("a rate");
         assert!((2.7 * rate - 1.0).abs() < 0.002, "{rate}");
-        assert_eq!(nearly_even_rate(&(0..97).map(f64::from).collect::<Vec<_>>()), None);
+        let even: Vec<f64> = (0..97).map(f64::from).collect();
+        assert_eq!(nearly_even_rate(&[&even[..50], &even[60..]]), None);
     }
 
     /// Targets of ISO 230-2, a fifth of their distance off an even row.

@@ -9,7 +9,7 @@ use super::analysis::Step;
 use super::judging::tried_of;
 use super::known_together::of_known_size_alone;
 use super::pruning::{Dropped, pruned};
-use crate::model::{Judged, Problem, State};
+use crate::model::{Judged, Problem, State, settle_beside};
 use crate::policy::evidence::MARGIN;
 
 /// Why an effect is taken out that comes again with other values.
@@ -45,9 +45,17 @@ fn with_other_values(problem: &Problem, now: &State, first: usize) -> Option<(us
     if now.components.len() < 2 {
         return None;
     }
+    // Of several of one name the next that is found is another choice already.
+    let name = |index: usize| &now.components[index].term.name;
+    let is_one = |index: &usize| {
+        (0..now.components.len()).all(|other| other == *index || name(other) != name(*index))
+    };
     let of = |index: usize| Some((index, chosen(problem, now, index)?));
     let log_likelihood = |one: &(usize, State)| one.1.fit.log_likelihood;
-    (0..first).filter_map(of).max_by(|a, b| log_likelihood(a).total_cmp(&log_likelihood(b)))
+    (0..first)
+        .filter(is_one)
+        .filter_map(of)
+        .max_by(|a, b| log_likelihood(a).total_cmp(&log_likelihood(b)))
 }
 
 /// A model with an effect more, and with other values of one that it had beside which that one is accepted.
@@ -66,7 +74,9 @@ fn chosen(problem: &Problem, now: &State, index: usize) -> Option<State> {
     let fewer = State::settled(problem, now.without(&[index]), &now.fit.noises)?;
     let best = tried_of(problem, &fewer, (&own.term, &now.fit.noises))?;
     let state = State::settled(problem, fewer.with(&best.component), &best.fit.noises)?;
+    // Outliers have been marked since the model was fitted.
+    let as_it_is = settle_beside(problem, &now.columns, &now.fit.noises, &best.fit.noises);
     let saved = own.price(problem) - best.component.price(problem);
-    let ahead = 2.0 * (state.fit.log_likelihood - now.fit.log_likelihood) + saved;
+    let ahead = 2.0 * (state.fit.log_likelihood - as_it_is.log_likelihood) + saved;
     (MARGIN < ahead && refusal(problem, &fewer, &best).is_none()).then_some(state)
 }
