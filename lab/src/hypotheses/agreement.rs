@@ -190,9 +190,9 @@ fn at_reversals(problem: &Problem, state: &State, index: usize, looks: f64) -> O
     }
     let (used, from) = state.coefficients(index);
     let strokes = strokes(problem);
-    let behind = |stroke: &(usize, Range<usize>)| -> Vec<Column> {
+    let behind = |stroke: &(Range<usize>, usize)| -> Vec<Column> {
         let own = state.columns.raw[from..from + used.len()].iter();
-        own.map(|column| since(problem, column, stroke)).collect()
+        own.map(|column| since(column, stroke)).collect()
     };
     let shown = |stroke: &Vec<Column>| stroke.iter().any(|own| varies_inside_a_pass(problem, own));
     let raw: Vec<Column> = strokes.iter().map(behind).filter(shown).skip(1).flatten().collect();
@@ -200,24 +200,23 @@ fn at_reversals(problem: &Problem, state: &State, index: usize, looks: f64) -> O
     other_sizes(problem, state, &raw, (looks, "direction", what))
 }
 
-/// Rows of every stroke with which a pass goes on after another, and the block of that pass.
-fn strokes(problem: &Problem) -> Vec<(usize, Range<usize>)> {
+/// Rows of every stroke with which a pass goes on after another, and where that pass ends.
+fn strokes(problem: &Problem) -> Vec<(Range<usize>, usize)> {
     let direction = |row: usize| problem.record.direction[problem.samples[row]];
-    let of = |(place, block): (usize, &Block)| -> Vec<(usize, Range<usize>)> {
+    let of = |block: &Block| -> Vec<(Range<usize>, usize)> {
         let turns =
             block.rows.clone().skip(1).filter(|&row| direction(row) * direction(row - 1) < 0.0);
         let ends: Vec<usize> = turns.chain([block.rows.end]).collect();
-        ends.windows(2).map(|two| (place, two[0]..two[1])).collect()
+        ends.windows(2).map(|two| (two[0]..two[1], block.rows.end)).collect()
     };
-    problem.layout.blocks.iter().enumerate().flat_map(of).collect()
+    problem.layout.blocks.iter().flat_map(of).collect()
 }
 
 /// What a column has changed by since a stroke began, and keeps behind it.
-fn since(problem: &Problem, column: &Column, (block, stroke): &(usize, Range<usize>)) -> Column {
+fn since(column: &Column, (stroke, end): &(Range<usize>, usize)) -> Column {
     let before = column[stroke.start - 1];
-    let end = problem.layout.blocks[*block].rows.end;
     let mut own = vec![0.0; column.len()];
-    for row in stroke.start..end {
+    for row in stroke.start..*end {
         own[row] = column[row.min(stroke.end - 1)] - before;
     }
     own.into()

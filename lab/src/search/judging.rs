@@ -2,12 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use helixlock_plant::Term;
 use rayon::prelude::*;
 
 use super::likeness;
 use super::starts::worth_alone;
-use helixlock_plant::Term;
-
 use crate::hypotheses::{
     Candidate, Trial, candidates, candidates_like, setting_trials, try_candidate,
 };
