@@ -111,8 +111,7 @@ fn with_all(problem: &mut Problem, all: &Together) -> Option<Vec<Step>> {
 fn go_on(problem: &mut Problem, steps: &mut Vec<Step>) {
     for _ in 0..MOST_ROUNDS {
         if let Some(step) = chosen_again(problem, &steps[steps.len() - 1].state) {
-            problem.mark_outliers(&step.state.fit.left);
-            steps.push(step);
+            take(problem, steps, step);
         }
         let last = steps.len() - 1;
         let now = &steps[last].state;
@@ -140,9 +139,14 @@ fn go_on(problem: &mut Problem, steps: &mut Vec<Step>) {
             continue;
         }
         let Some(step) = known_beside_other_values(problem, &steps[last].state) else { break };
-        problem.mark_outliers(&step.state.fit.left);
-        steps.push(step);
+        take(problem, steps, step);
     }
+}
+
+/// Goes to another model of the same record, beside which other readings may be outliers.
+fn take(problem: &mut Problem, steps: &mut Vec<Step>, step: Step) {
+    problem.mark_outliers(&step.state.fit.left);
+    steps.push(step);
 }
 
 /// Why the first of the effects tried from a place on are not taken; those have the chance of it.
