@@ -9,6 +9,7 @@ pub(crate) mod fourier;
 mod golden_section;
 pub(crate) mod least_squares;
 mod looks;
+mod parallel;
 pub(crate) mod quasi_newton;
 mod random_effects;
 mod sampling;
@@ -19,6 +20,7 @@ pub(crate) use axes::{by_factors, evenly, product};
 pub(crate) use chi_squared::chi_squared_tail;
 pub(crate) use golden_section::golden_maximum;
 pub(crate) use looks::Looks;
+pub(crate) use parallel::in_parallel;
 pub(crate) use random_effects::drawn_sizes_gain;
 pub(crate) use sampling::{highest_frequency, may_resolve, nearly_even_rate, resolves, usual_rate};
 pub(crate) use summary::{

@@ -1,9 +1,8 @@
 //! A search on few rows, and what it has found on all.
 
-use rayon::prelude::*;
-
 use crate::hypotheses::{Structure, at_targets, is_left};
 use crate::model::{Problem, State};
+use crate::numerics::in_parallel;
 use crate::search::{
     Dropped, Step, own_errors, polished, pruned_in_doubt, search, take_for_a_shape,
 };
@@ -64,7 +63,7 @@ fn on_all_rows(problem: &Problem, small: &Problem, steps: &[Step]) -> (Problem, 
         State::of(&whole, step.state.components.clone(), &last.fit.noises)
             .unwrap_or_else(|| State::bare(&whole))
     };
-    let states = steps.par_iter().map(near).collect();
+    let states = in_parallel(steps, near);
     (whole, states)
 }
 

@@ -2,14 +2,12 @@
 //!
 //! The clock's zero is none of this: time counts from the start of a record, whatever its clock says.
 
-use rayon::prelude::*;
-
 use super::hypothesis::{Hypothesis, Words};
 use super::law::follows_from_clock;
 use crate::measurement::Measurement;
 use crate::model::{Columns, Gain, Problem, Stage};
 use crate::noise::{Noise, rms};
-use crate::numerics::{count, golden_maximum};
+use crate::numerics::{count, golden_maximum, in_parallel};
 use crate::policy::mistakes::{A_PLACE, NEAR_THE_BEST_DOUBT, SHIFT_TURNS, WORTH_A_FIT};
 
 /// Places looked at, a turn of the spindle: each shortest wave of a screw more than four times.
@@ -85,7 +83,7 @@ pub(super) fn best(
     let evidence =
         |shift: f64| moved(shift).map_or(f64::NEG_INFINITY, |moved| evidence(stage, moved));
     let places: Vec<f64> = (-most..=most).map(f64::from).collect();
-    let said: Vec<f64> = places.par_iter().map(|place| evidence(place * step)).collect();
+    let said = in_parallel(&places, |place| evidence(place * step));
     let highest = said.iter().copied().fold(0.0, f64::max);
     let is_top = |&at: &usize| {
         let near = &said[at.saturating_sub(1)..(at + 2).min(said.len())];
@@ -97,11 +95,11 @@ pub(super) fn best(
     let looks = count(places.len()) / count(tops.len().max(1));
     tops.sort_by(|a, b| b.1.total_cmp(&a.1));
     tops.truncate(TOPS);
-    let refined = tops.into_par_iter().map(|(at, _)| {
+    let refined = in_parallel(tops, |(at, _)| {
         let (from, to) = ((places[at] - 1.0) * step, (places[at] + 1.0) * step);
         golden_maximum(&mut |shift| evidence(shift), (from, to), STEPS)
     });
-    Some((nearest_of_the_best(refined.collect())?, looks))
+    Some((nearest_of_the_best(refined)?, looks))
 }
 
 /// Distance of the places of a grid, in turns of the spindle, and how many there are either way; `None` where

@@ -4,12 +4,11 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use helixlock_plant::{Column, EffectError, Entry, Parameter, Term};
-use rayon::prelude::*;
 
 use super::dimension::Dimension;
 use super::expression::{Expression, Function, Unknown, call};
 use crate::model::{Columns, Problem, Stage};
-use crate::numerics::{Looks, count, product};
+use crate::numerics::{Looks, count, in_parallel, product};
 use crate::policy::evidence::NO_SINE_PRICE;
 use crate::spectrum::{Scan, strongest_first};
 
@@ -219,11 +218,11 @@ impl Shape {
                     axes[0] = band.strongest(stage);
                     self.best_of(&[stage], entry, &product(&axes)).pop().flatten()
                 };
-                stages.par_iter().map(of).collect()
+                in_parallel(stages, of)
             }
         };
         let refined = |(placed, stage): (Option<_>, &&Stage<'_>)| self.refined(stage, placed?);
-        coarse.into_par_iter().zip(stages).map(refined).collect()
+        in_parallel(coarse.into_iter().zip(stages), refined)
     }
 
     /// Values of each unknown that are tried.
@@ -267,7 +266,7 @@ impl Shape {
                 some.iter().map(|values| self.columns(problem, entry, values)).collect();
             stages.iter().map(|stage| self.best_at(stage, entry, some, &columns)).collect()
         };
-        let parts: Vec<Vec<Option<Placed<'_>>>> = grid.par_chunks(TOGETHER).map(of).collect();
+        let parts: Vec<Vec<Option<Placed<'_>>>> = in_parallel(grid.chunks(TOGETHER), of);
         let of_stage = |nth: usize| {
             let found = parts.iter().filter_map(|part| part[nth].as_ref());
             found.max_by(|a, b| a.gain.total_cmp(&b.gain)).cloned()

@@ -8,11 +8,10 @@ use helixlock_plant::Column;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
-use rayon::prelude::*;
 
 use crate::model::{Columns, Fit, Problem, settle};
 use crate::noise::{Layout, Noise};
-use crate::numerics::{chi_squared_tail, count};
+use crate::numerics::{chi_squared_tail, count, in_parallel};
 use crate::policy::chance::{BEYOND_DOUBT, DRAWS, MOST_DRAWS, NARROW, STANDARD_ERRORS, TAIL};
 
 /// Chance of a gain of some free columns in noise like that of a fit, drawn for until it is clear on
@@ -35,8 +34,8 @@ pub(crate) fn chance(
     let mut gains: Vec<f64> = Vec::new();
     loop {
         let drawn = gains.len() as u64;
-        let seeds = (drawn..drawn + DRAWS).into_par_iter();
-        gains.par_extend(seeds.map(|seed| drawn_gain(problem, model, fit, raw, seed)));
+        let of_seed = |seed| drawn_gain(problem, model, fit, raw, seed);
+        gains.extend(in_parallel(drawn..drawn + DRAWS, of_seed));
         let law = Law::of(&gains, width);
         let ends = [1.0 / law.within, law.within].map(|by| law.chance(by * gain) < limit);
         if ends[0] == ends[1] {

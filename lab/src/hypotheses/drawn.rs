@@ -3,13 +3,12 @@
 use std::ops::Range;
 
 use rand_chacha::ChaCha8Rng;
-use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, Gamma};
 
 use super::calibration::draw;
 use crate::model::{Fit, Problem};
 use crate::noise::{Layout, Noise, weighed_rms};
-use crate::numerics::count;
+use crate::numerics::{count, in_parallel};
 use crate::policy::chance::{DRAWS, MOST_DRAWS, WORTH_DRAWING};
 
 /// Rows of one sensor, all of one weight, and the noise that was fitted to them.
@@ -75,8 +74,7 @@ pub(super) fn clearest(
 ) -> Option<(usize, f64)> {
     let mut all: Vec<Vec<f64>> = Vec::new();
     for most in [DRAWS, MOST_DRAWS] {
-        let seeds = (all.len() as u64..most).into_par_iter();
-        all.par_extend(seeds.map(&drawn));
+        all.extend(in_parallel(all.len() as u64..most, &drawn));
         let laws: Vec<Law> = (0..found.len()).map(|place| Law::of(&all, place)).collect();
         let beyond = laws.iter().zip(found).map(|(law, one)| law.deviations(*one));
         let furthest = beyond.fold(f64::NEG_INFINITY, f64::max);

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use helixlock_plant::Formula;
-use rayon::prelude::*;
 
 use super::candidates::Candidate;
 use crate::model::{Columns, Component, GridColumns, Problem};
+use crate::numerics::in_parallel;
 
 /// Most values kept of one effect: 64 MiB.
 const MOST_VALUES: usize = 1 << 23;
@@ -23,7 +23,7 @@ pub(crate) fn on_grid(problem: &Problem, candidate: &Candidate) -> GridColumns {
     let width = candidate.term.priors().len();
     let values = candidate.grid.len() * width * problem.samples.len();
     let at = |point| usable(problem, &Component::new(candidate.at(point)));
-    let make = || Arc::new((0..candidate.grid.len()).into_par_iter().map(at).collect());
+    let make = || Arc::new(in_parallel(0..candidate.grid.len(), at));
     match kind.filter(|_| 1 < candidate.grid.len() && values <= MOST_VALUES) {
         Some(kind) => {
             let key = (kind, candidate.term.instead_of, width);

@@ -1,13 +1,12 @@
 //! One effect tried on what a model leaves: its best place, its columns, its likelihood.
 
 use helixlock_plant::Search;
-use rayon::prelude::*;
 
 use super::candidates::{Candidate, INSTANTS, around, between_samples};
 use super::grid::{on_grid, usable};
 use crate::model::{Columns, Component, Gain, Problem, Stage};
 use crate::numerics::simplex::minimise;
-use crate::numerics::{Looks, count, simplex, spread};
+use crate::numerics::{Looks, count, in_parallel, simplex, spread};
 use crate::policy::chance::EXACT_STANDARD_ERRORS;
 use crate::policy::evidence::{LARGEST_STEP_UM, WHOLE};
 use crate::policy::extent::SUDDEN_CHANGES;
@@ -74,8 +73,7 @@ pub(crate) fn try_candidate(stage: &Stage<'_>, candidate: &Candidate) -> Option<
     let on_grid = on_grid(stage.problem, candidate);
     let mut gains = gains_of(stage, &on_grid);
     let sudden = sudden_places(stage, candidate);
-    let columns: Vec<Option<Columns>> =
-        sudden.par_iter().map(|place| columns_at(stage, candidate, place)).collect();
+    let columns = in_parallel(&sudden, |place| columns_at(stage, candidate, place));
     gains.extend(gains_of(stage, &columns));
     let grid = [candidate.grid.as_slice(), &sudden].concat();
     let starts = starts(&grid, &gains);
@@ -152,7 +150,7 @@ fn gains_of(stage: &Stage<'_>, all: &[Option<Columns>]) -> Vec<f64> {
         };
         some.iter().map(gain).collect::<Vec<f64>>()
     };
-    all.par_chunks(TOGETHER).flat_map_iter(of).collect()
+    in_parallel(all.chunks(TOGETHER), of).concat()
 }
 
 /// Share of the best gain of a grid from which a place may lead further up than the best.
@@ -273,7 +271,7 @@ fn sharpened(stage: &Stage<'_>, candidate: &Candidate, start: &[f64]) -> Vec<f64
             values[place] = *gap;
             columns_at(stage, candidate, &values)
         };
-        let columns: Vec<Option<Columns>> = nearby.par_iter().map(columns).collect();
+        let columns = in_parallel(nearby, columns);
         let gains = gains_of(stage, &columns);
         if let Some(top) = nearby.iter().zip(gains).max_by(|a, b| a.1.total_cmp(&b.1)) {
             best[place] = *top.0;

@@ -1,10 +1,8 @@
 //! Lines in time above what the samples resolve: at the comparisons of two speeds one frequency
 //! shows at two places, and only itself at both; where rows come nearly evenly its aliases lose a part of it.
 
-use rayon::prelude::*;
-
 use crate::model::Problem;
-use crate::numerics::{count, nearly_even_rate};
+use crate::numerics::{count, in_parallel, nearly_even_rate};
 use crate::policy::evidence::MARGIN;
 use crate::policy::size::ANOTHER_SPEED;
 use crate::spectrum::Scan;
@@ -43,9 +41,9 @@ pub(crate) fn unfolded(
     let multiples = rates.iter().flat_map(|rate| (1..=RATES).map(move |k| f64::from(k) * rate));
     let beyond = multiples
         .flat_map(|multiple| lines.iter().flat_map(move |line| [multiple - line, multiple + line]));
-    let beyond: Vec<f64> = beyond.filter(|hertz| scan.highest < *hertz).collect();
-    let with_gain = |hertz: &f64| (*hertz, scan.gain(white, *hertz));
-    let mut beyond: Vec<(f64, f64)> = beyond.par_iter().map(with_gain).collect();
+    let beyond = beyond.filter(|hertz| scan.highest < *hertz);
+    let with_gain = |hertz: f64| (hertz, scan.gain(white, hertz));
+    let mut beyond: Vec<(f64, f64)> = in_parallel(beyond, with_gain);
     beyond.sort_by(|a, b| b.1.total_cmp(&a.1));
     // What the samples tell takes several times as long as a gain, and is asked of the best only.
     let told = beyond.iter().filter(|(hertz, _)| scan.tells(*hertz));

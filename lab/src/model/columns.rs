@@ -1,10 +1,9 @@
 //! Columns of one least-squares fit, with what is known of their coefficients beforehand.
 
 use helixlock_plant::Column;
-use rayon::prelude::*;
 
 use crate::noise::Whitener;
-use crate::numerics::least_squares;
+use crate::numerics::{in_parallel, least_squares};
 
 /// Columns of all components, stacked for one least-squares fit.
 #[derive(Debug, Clone, Default)]
@@ -50,8 +49,7 @@ impl Columns {
     #[must_use]
     pub(crate) fn whitened(&self, whitener: &Whitener) -> Vec<Vec<f64>> {
         let together = |part: &[&[f64]]| whitener.whiten_all(part);
-        let mut white: Vec<Vec<f64>> =
-            self.views().par_chunks(TOGETHER).flat_map_iter(together).collect();
+        let mut white = in_parallel(self.views().chunks(TOGETHER), together).concat();
         self.hold_to_priors(&mut white);
         white
     }

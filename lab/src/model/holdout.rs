@@ -1,11 +1,9 @@
 //! Error on data a fit has not seen.
 
-use rayon::prelude::*;
-
 use super::columns::Columns;
 use super::problem::Problem;
 use crate::noise::{Layout, Noise, Whitener, about_means, rms, swift_rms, weighed_rms};
-use crate::numerics::{count, least_squares};
+use crate::numerics::{count, in_parallel, least_squares};
 use crate::policy::evidence::{PARTS, TOLD};
 
 /// Root mean square of the residual on held-out data, µm (arcsec).
@@ -85,7 +83,7 @@ fn unseen(problem: &Problem, folds: &[Vec<bool>], (columns, noises): Unseen<'_>)
             rows: rows.len(),
         }
     };
-    folds.par_iter().map(of_fold).collect()
+    in_parallel(folds, of_fold)
 }
 
 /// Size of all parts together, `of` being that of one.

@@ -10,14 +10,12 @@
 //! with `w_k` what a noise is worth beforehand times its restricted likelihood: offsets and all columns
 //! are projected out and counted (Patterson and Thompson 1971; Harville 1974).
 
-use rayon::prelude::*;
-
 use super::columns::Columns;
 use super::fit::{Fit, with_noise};
 use super::problem::Problem;
 use super::state::State;
 use crate::noise::{Layout, Noise, plausible, scaled_to};
-use crate::numerics::count;
+use crate::numerics::{count, in_parallel};
 use crate::policy::extent::SEARCHED_ROWS;
 
 /// Rows that tell which noises may be, and the linearised model on them.
@@ -84,16 +82,13 @@ impl<'a> Rows<'a> {
     fn variances(&self, sensor: usize) -> Vec<f64> {
         let (layout, rows) = self.layout.of_sensor(sensor);
         let may_be = plausible(&layout, &self.noises[sensor]);
-        let under: Vec<Under> = may_be
-            .par_iter()
-            .map(|one| {
-                let mut noises = self.noises.to_vec();
-                let noise = scaled_to(&layout, &self.left[rows.clone()], &one.shape);
-                let white = noise.white.max(self.least_variance[sensor]);
-                noises[sensor] = Noise { white, ..noise };
-                self.under(&noises, one.share)
-            })
-            .collect();
+        let under = in_parallel(&may_be, |one| {
+            let mut noises = self.noises.to_vec();
+            let noise = scaled_to(&layout, &self.left[rows.clone()], &one.shape);
+            let white = noise.white.max(self.least_variance[sensor]);
+            noises[sensor] = Noise { white, ..noise };
+            self.under(&noises, one.share)
+        });
         let likeliest = under.iter().map(|one| one.log_weight).fold(f64::NEG_INFINITY, f64::max);
         let mut variances = vec![0.0; self.columns.raw.len()];
         let mut sum = 0.0;

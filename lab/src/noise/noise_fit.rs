@@ -4,13 +4,12 @@
 //! not make the noise look smaller than it is (Patterson and Thompson 1971).
 
 use nalgebra::SVector;
-use rayon::prelude::*;
 
 use super::kernel::{Noise, SlowPart};
 use super::layout::{Block, Layout};
 use super::sweep::squares_and_log_determinants;
 use crate::numerics::quasi_newton::{Descent, minimise};
-use crate::numerics::{count, deviation, median, one_in};
+use crate::numerics::{count, deviation, in_parallel, median, one_in};
 use crate::policy::extent::{IN_COMPANY, LOUDNESS_ROWS};
 use crate::policy::reading::{
     BEYOND_ARE_OUTLIERS, BEYOND_DEVIATIONS, FAR_OUT, MOST_LOUD, NO_LAW, OUTLIER_DEVIATIONS,
@@ -114,8 +113,8 @@ fn best_searched<const D: usize>(
     starts: &[[f64; D]],
     span: f64,
 ) -> NoiseFit {
-    let searched = starts.par_iter().map(|start| searched(layout, residual, *start, span));
-    best_of(searched.collect::<Vec<_>>().into_iter())
+    let searched = in_parallel(starts, |start| searched(layout, residual, *start, span));
+    best_of(searched.into_iter())
 }
 
 fn joined(one: [f64; 2], two: [f64; 2]) -> [f64; 4] {

@@ -12,8 +12,6 @@
 
 use std::collections::BTreeSet;
 
-use rayon::prelude::*;
-
 use super::analysis::Step;
 use super::own_errors::paid;
 use super::pruning::no_counts;
@@ -21,7 +19,7 @@ use super::span::{Span, shown};
 use crate::hypotheses::Structure;
 use crate::model::{Columns, Problem, State};
 use crate::noise::rms;
-use crate::numerics::chi_squared_tail;
+use crate::numerics::{chi_squared_tail, in_parallel};
 use crate::policy::evidence::{BESIDE_THE_REST, OWN_SHAPE};
 use crate::policy::size::SHARE_OF_AN_EFFECT;
 
@@ -49,7 +47,7 @@ pub(crate) fn not_told(problem: &Problem, steps: &[Step], left: &[Structure]) ->
         places.extend(parts(problem, state, rest));
         places
     };
-    let beaten: BTreeSet<usize> = rests.par_iter().flat_map_iter(beside).collect();
+    let beaten: BTreeSet<usize> = in_parallel(&rests, beside).into_iter().flatten().collect();
     let is_faint =
         |index: &usize| gain(problem, state, *index).is_some_and(|gain| gain < BESIDE_THE_REST);
     (0..state.components.len()).filter(|index| beaten.contains(index) || is_faint(index)).collect()

@@ -8,7 +8,6 @@
 use std::collections::BTreeSet;
 
 use helixlock_plant::{CATALOGUE, Column, Entry};
-use rayon::prelude::*;
 
 use super::acceptance::chance_in_any_noise;
 use super::analysis::Step;
@@ -26,7 +25,7 @@ use crate::model::{
     with_noise,
 };
 use crate::noise::{Noise, about_means, rms};
-use crate::numerics::{Looks, chi_squared_tail, count, spread};
+use crate::numerics::{Looks, chi_squared_tail, count, in_parallel, spread};
 use crate::policy::chance::{NO_ALL_CLEAR, SIGNIFICANCE};
 use crate::policy::evidence::{MARGIN, SHAPE};
 use crate::policy::size::SHARE_OF_AN_EFFECT;
@@ -374,7 +373,7 @@ impl<'a> Court<'a> {
             let claims = self.claims_in(&seat, tried);
             (seat, claims)
         };
-        seats.into_par_iter().zip(tried).map(with_claims).collect()
+        in_parallel(seats.into_iter().zip(tried), with_claims)
     }
 
     /// The place of some effects; `None` when the others have no columns.

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use helixlock_plant::Term;
-use rayon::prelude::*;
 
 use super::likeness;
 use super::starts::worth_alone;
@@ -14,7 +13,7 @@ use crate::model::{
     Columns, Judged, Problem, Stage, State, holdout_rms, noises_of, plain_noises, settle_beside,
 };
 use crate::noise::{Noise, rms};
-use crate::numerics::{chi_squared_tail, count};
+use crate::numerics::{chi_squared_tail, count, in_parallel};
 use crate::policy::extent::{NEAR_THE_BEST, SHORTLIST};
 
 /// All candidates on what a model leaves, best evidence first.
@@ -73,19 +72,20 @@ fn strongest(
     of_setting: Option<Trial>,
 ) -> (Vec<Trial>, usize) {
     let of = |candidate| Some((Some(candidate), try_candidate(stage, candidate)?));
-    let mut trials: Vec<(Option<&Candidate>, Trial)> = all.par_iter().filter_map(of).collect();
+    let mut trials: Vec<(Option<&Candidate>, Trial)> =
+        in_parallel(all, of).into_iter().flatten().collect();
     trials.extend(of_setting.map(|trial| (None, trial)));
     trials.sort_by(|a, b| b.1.gain.total_cmp(&a.1.gain));
     let tried = trials.len();
     let best = trials.first().map_or(0.0, |(_, trial)| trial.gain);
     let near = |place: usize, trial: &Trial| place < SHORTLIST || NEAR_THE_BEST * best < trial.gain;
     let strongest = trials.into_iter().enumerate().filter(|(place, (_, one))| near(*place, one));
-    let strongest: Vec<(Option<&Candidate>, Trial)> = strongest.map(|(_, one)| one).collect();
+    let strongest = strongest.map(|(_, one)| one);
     let with_looks = |(candidate, trial): (Option<&Candidate>, Trial)| match candidate {
         Some(candidate) => trial.with_looks(stage, candidate),
         None => trial,
     };
-    (strongest.into_par_iter().map(with_looks).collect(), tried)
+    (in_parallel(strongest, with_looks), tried)
 }
 
 /// Trials with their noise fitted anew, the best of each name.
@@ -98,11 +98,10 @@ fn judged_shortlist(problem: &Problem, now: &State, lists: &[(Vec<Trial>, usize)
         }
     }
     let tried = count(lists.iter().map(|(_, tried)| *tried).max().unwrap_or(1).max(1));
-    let flat: Vec<&Trial> = chosen.into_values().flatten().collect();
-    let judged: Vec<Judged> =
-        flat.into_par_iter().filter_map(|trial| judge(problem, now, trial, tried)).collect();
+    let flat = chosen.into_values().flatten();
+    let judged = in_parallel(flat, |trial| judge(problem, now, trial, tried));
     let mut best: Vec<Judged> = Vec::new();
-    for one in judged {
+    for one in judged.into_iter().flatten() {
         match best.iter_mut().find(|other| other.component.term.name == one.component.term.name) {
             Some(other) if other.evidence < one.evidence => *other = one,
             Some(_) => {}

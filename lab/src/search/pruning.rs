@@ -1,15 +1,13 @@
 //! Effects that have become superfluous: what joins the model last may take another's place.
 
-use rayon::prelude::*;
-
 use super::starts::worth_alone;
 use crate::hypotheses::{above_hunting, matters};
 use crate::model::{
     Component, JointCovariance, Problem, State, helps_unseen, joint_covariance, settle_beside,
 };
 use crate::noise::swift_rms;
-use crate::numerics::chi_squared_tail;
 use crate::numerics::least_squares::covariance_rows;
+use crate::numerics::{chi_squared_tail, in_parallel};
 use crate::policy::chance::{EXACT_STANDARD_ERRORS, STANDARD_ERRORS};
 use crate::policy::evidence::{SURE_ON_MEANS, WHOLE};
 
@@ -63,18 +61,18 @@ pub(crate) fn pruned_in_doubt(
 /// The model without its weakest effect, if that one is superfluous.
 fn weakest(problem: &Problem, state: &State) -> Option<(State, Dropped)> {
     let covariance = joint_covariance(problem, state);
-    let found: Vec<(State, Dropped)> = (0..state.components.len())
-        .into_par_iter()
-        .filter_map(|index| {
-            let smaller = without(problem, state, index)?;
-            let reason = superfluous(problem, state, &smaller, index)
-                .or_else(|| no_better(problem, state, &smaller))
-                .or_else(|| useless(state, &covariance, index))?;
-            let name = state.components[index].term.name.clone();
-            Some((smaller, Dropped { name, reason }))
-        })
-        .collect();
-    found.into_iter().max_by(|a, b| a.0.fit.log_likelihood.total_cmp(&b.0.fit.log_likelihood))
+    let found = in_parallel(0..state.components.len(), |index| {
+        let smaller = without(problem, state, index)?;
+        let reason = superfluous(problem, state, &smaller, index)
+            .or_else(|| no_better(problem, state, &smaller))
+            .or_else(|| useless(state, &covariance, index))?;
+        let name = state.components[index].term.name.clone();
+        Some((smaller, Dropped { name, reason }))
+    });
+    found
+        .into_iter()
+        .flatten()
+        .max_by(|a, b| a.0.fit.log_likelihood.total_cmp(&b.0.fit.log_likelihood))
 }
 
 fn without(problem: &Problem, state: &State, index: usize) -> Option<State> {

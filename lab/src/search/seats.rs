@@ -6,10 +6,10 @@
 use std::collections::BTreeSet;
 
 use helixlock_plant::Entry;
-use rayon::prelude::*;
 
 use crate::formulas::{Placed, Shape};
 use crate::model::{Columns, Stage};
+use crate::numerics::in_parallel;
 
 /// The place of some effects in a model, for a shape to stand in.
 pub(super) struct Seat<'a> {
@@ -50,7 +50,7 @@ pub(super) fn tried<'a>(
             asked.iter().flat_map(|&place| &seats[place].stages).collect();
         (asked, shape.best(&stages, entry))
     };
-    let found: Vec<(Vec<usize>, Vec<Option<Placed<'a>>>)> = each.par_iter().map(of).collect();
+    let found: Vec<(Vec<usize>, Vec<Option<Placed<'a>>>)> = in_parallel(&each, of);
     let mut tried: Vec<Tried<'a>> = seats.iter().map(|_| [Vec::new(), Vec::new()]).collect();
     for (asked, best) in found {
         for (nth, placed) in best.into_iter().enumerate() {

@@ -1,14 +1,13 @@
 //! All lines of a residual, one after the other, with the names the machine file gives them.
 
 use helixlock_plant::Machine;
-use rayon::prelude::*;
 
 use super::bands::{self, Band};
 use super::combs::{self, Comb};
 use super::order_spectrum::{Line, Point, Scan};
 use crate::model::{Columns, Fit, Problem, State, settle};
 use crate::noise::Whitener;
-use crate::numerics::{median, spread};
+use crate::numerics::{in_parallel, median, spread};
 use crate::policy::chance::{LISTED_LINE, NAME_CELL, NAME_STANDARD_ERRORS, NEARLY_WHOLE};
 use crate::policy::extent::{
     COMPARED_ROWS, HIGHEST_MULTIPLE, LISTED_LINES, NAMED_HARMONICS, NAMED_SPINDLE_HARMONICS,
@@ -83,7 +82,7 @@ impl LineSearch<'_> {
                 let scan = Scan { turns: &turns, lowest, highest, ..scan.clone() };
                 scan.spectrum(white).into_iter().max_by(|a, b| a.gain.total_cmp(&b.gain))
             };
-            others.par_iter().map(along).collect()
+            in_parallel(others, along)
         })
     }
 
