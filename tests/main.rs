@@ -98,6 +98,7 @@ mod sweep;
 mod synchronisers;
 mod tables;
 mod targets_and_moments;
+mod teeth;
 mod telemetry;
 mod templates;
 mod uart_receiver;

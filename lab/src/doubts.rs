@@ -20,6 +20,7 @@ mod factor;
 mod hypothesis;
 mod late;
 mod law;
+mod lead;
 mod readings;
 mod shift;
 mod slip;
@@ -91,7 +92,8 @@ fn judged(problem: &Problem) -> (Option<Hypothesis>, Vec<Suspect>) {
 /// What contradicts itself, whatever effects fit; the rest is told only when that is mended.
 fn contradicting(problem: &Problem) -> Vec<Doubt> {
     let measurement = &problem.measurement;
-    let clock = clock::contradicted(measurement, &problem.model);
+    let clock =
+        clock::restarted(measurement).or_else(|| clock::contradicted(measurement, &problem.model));
     let readings = readings::of_no_instrument(problem);
     let stuck = stuck::stuck(measurement);
     direction::denied(measurement).into_iter().chain(clock).chain(readings).chain(stuck).collect()
@@ -106,6 +108,7 @@ fn hypotheses(problem: &Problem) -> Vec<Hypothesis> {
     all.extend(swap::swaps(problem));
     all.extend(shift::shifts(problem, odd, &noises));
     all.extend(dividers::other_dividers(problem));
+    all.extend(lead::leads(problem));
     if !follows_steps(problem) {
         all.extend(factor::factors(problem, odd, &noises));
         all.extend(late::late_logs(problem, &noises));

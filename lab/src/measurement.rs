@@ -17,6 +17,7 @@ mod thinning;
 mod zeros;
 
 pub use error::LabError;
+pub(crate) use passes::Restart;
 pub use pulse_trains::{PulseTrains, Steps};
 pub(crate) use quantised::spacing;
 pub use samples::{Measurement, Nominal, Told, sensor_column};

@@ -20,8 +20,8 @@ use crate::numerics::least_squares::covariance_rows;
 use crate::policy::chance::{AT_AN_END, STANDARD_ERRORS};
 use crate::policy::extent::{COARSER, COMPARED_ROWS, FEWEST_COARSE, SEARCHED_ROWS};
 use crate::search::{
-    Dropped, Refusal, Rivals, Step, hear, nobodys, not_told, one_comb, pruned, rivals, suspected,
-    tried_beside, untold,
+    Dropped, Refusal, Rivals, Step, at_flanks, hear, nobodys, not_told, one_comb, pruned, rivals,
+    suspected, tried_beside, untold,
 };
 
 /// What can be said about a model and a measurement.
@@ -264,7 +264,7 @@ fn answered(searched: Searched, suspects: &[Suspect], rows: usize) -> Diagnosis 
     }
     confuse(&mut found, heard.witnesses.into_iter().chain(suspected.witnesses));
     let problems = (&problem, &small);
-    if let Some(winner) = heard.winner {
+    if let Some(winner) = heard.winner.or_else(|| at_flanks(&small, last, &found)) {
         found = take_out(problems, (&mut steps, &mut states), (&winner.beaten, BEATEN), found);
         residual.push(winner.shown);
     }

@@ -5,7 +5,7 @@ use helixlock_plant::{HeaderUnit, LoggedColumn, Machine};
 use super::column::others;
 use super::doubt::{Doubt, recipe, said_by};
 use super::law::{follows_from_clock, travel};
-use crate::measurement::Measurement;
+use crate::measurement::{Measurement, Restart};
 use crate::numerics::median;
 use crate::policy::mistakes::{A_ROW_AT_A_UNIT, AT_A_UNIT};
 
@@ -37,6 +37,17 @@ fn by_rows(measurement: &Measurement, machine: &Machine, apart: usize) -> Option
     }
     let (says, mend) = said(measurement, machine, (word, factor));
     Some(Doubt { what: "unit", evidence: said_by(so), says, mend })
+}
+
+/// The doubt, where a clock began anew among the rows of a pass: which were taken one after the other, not by turns.
+pub(super) fn restarted(measurement: &Measurement) -> Option<Doubt> {
+    let Restart { pass, by_s } = measurement.restart?;
+    Some(Doubt {
+        what: "clock",
+        evidence: said_by(measurement.time_s.len()),
+        says: format!("the clock of pass {pass} falls by {by_s:.3} s and goes on from there"),
+        mend: "give the rows from there on a `pass` of their own".to_owned(),
+    })
 }
 
 /// Speed by travel and clock over the speed told, by its column or the machine file, from every so

@@ -8,9 +8,8 @@ use crate::numerics::count;
 /// A mistake that explains the data better than any effect.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Doubt {
-    /// What kind of mistake: `position-for-error`, `sign`, `unit`, `swap`, `shift`, `phase`, `dividers`,
-    /// `another-machine`, `copy`, `cut-off`,
-    /// `stuck`.
+    /// What kind of mistake: `position-for-error`, `sign`, `unit`, `swap`, `shift`, `phase`, `dividers`, `lead`,
+    /// `another-machine`, `clock`, `copy`, `cut-off`, `stuck`.
     pub what: &'static str,
     /// Evidence against the next best explanation, in units of twice the log likelihood.
     pub evidence: f64,

@@ -82,9 +82,10 @@ impl Hypothesis {
         self.what == "shift"
     }
 
-    /// True for a unit of what is no sensor's: of a place, which harmonics of the file's waves imitate.
+    /// True for a unit of what is no sensor's, of a place, and for a lead: harmonics of the file's waves
+    /// imitate them.
     pub(super) fn stretches(&self) -> bool {
-        self.what == "unit" && !self.scales
+        self.what == "lead" || self.what == "unit" && !self.scales
     }
 
     /// True when it is said only if no mistake of this machine's data is likely.
@@ -108,7 +109,17 @@ impl Hypothesis {
 
     /// A mistake in the machine file; `None` when the data cannot be laid out alike by the mended one.
     pub(super) fn of_model(problem: &Problem, model: &Model, words: Words) -> Option<Self> {
-        let mended = Problem::new(model, &problem.measurement).ok()?;
+        Self::of_both(problem, model, &problem.measurement, words)
+    }
+
+    /// A mistake in the machine file that the measurement was completed by.
+    pub(super) fn of_both(
+        problem: &Problem,
+        model: &Model,
+        measurement: &Measurement,
+        words: Words,
+    ) -> Option<Self> {
+        let mended = Problem::new(model, measurement).ok()?;
         let alike = mended.has_rows_of(problem);
         let mended = Problem { layout: problem.layout.clone(), ..mended };
         alike.then(|| Self::new(words, mended))

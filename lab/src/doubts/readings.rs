@@ -139,22 +139,50 @@ fn copied_rows(measurement: &Measurement, passes: &[Range<usize>]) -> Option<Dou
             && alike(&measurement.angle_rev)
             && readings(measurement, row) == readings(measurement, before)
     };
-    let mut groups: Vec<usize> = Vec::new();
+    let mut groups: Vec<(usize, usize)> = Vec::new();
     for rows in passes {
         for row in rows.clone() {
             match groups.last_mut() {
-                Some(group) if row != rows.start && same(row, row - 1) => *group += 1,
-                _ => groups.push(1),
+                Some((_, times)) if row != rows.start && same(row, row - 1) => *times += 1,
+                _ => groups.push((row, 1)),
             }
         }
     }
-    let times = groups.iter().copied().max().filter(|times| 1 < *times)?;
-    let so = groups.iter().filter(|group| **group == times).count();
+    let times = groups.iter().map(|(_, times)| *times).max().filter(|times| 1 < *times)?;
+    let so = groups.iter().filter(|(_, group)| *group == times).count();
     let most = MOST_ROWS_COPIED * count(groups.len()) <= count(so);
-    (most && COPIED_ROWS <= so).then(|| Doubt {
+    if !most {
+        return copied_on_end(measurement, &groups);
+    }
+    (COPIED_ROWS <= so).then(|| Doubt {
         what: "copy",
         evidence: said_by(so),
         says: format!("every row is there {times} times, to the last digit"),
+        mend: "leave the copies out".to_owned(),
+    })
+}
+
+/// Rows on end that are there twice while the axis moves, of `(row, how many times)`; none that come about by
+/// rounding as often as elsewhere in the record.
+fn copied_on_end(measurement: &Measurement, groups: &[(usize, usize)]) -> Option<Doubt> {
+    let angle = |(row, _): &(usize, usize)| measurement.angle_rev[*row].to_bits();
+    let goes_on = |one: &(usize, usize), next: &(usize, usize)| {
+        one.1 == 2 && next.1 == 2 && angle(one) != angle(next)
+    };
+    let copies = groups.chunk_by(goes_on).max_by_key(|run| run.len())?;
+    let twice = groups.iter().filter(|(_, times)| 1 < *times).count();
+    let others = groups.len() - copies.len();
+    let share = (count(twice - copies.len()) + 1.0) / (count(others) + 1.0);
+    let looks = 2.0 * libm::log(count(groups.len()));
+    let evidence = -2.0 * count(copies.len()) * libm::log(share) - looks;
+    (COPIED_ROWS <= copies.len() && DOUBT < evidence).then(|| Doubt {
+        what: "copy",
+        evidence,
+        says: format!(
+            "{} rows on end are there twice, to the last digit, from {:.3} s on",
+            copies.len(),
+            measurement.time_s[copies[0].0]
+        ),
         mend: "leave the copies out".to_owned(),
     })
 }

@@ -1,3 +1,4 @@
+mod files_and_logs;
 mod one_pass;
 mod places_and_names;
 

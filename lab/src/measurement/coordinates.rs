@@ -44,7 +44,8 @@ pub(crate) fn complete(table: &Table, nominal: &Nominal) -> Result<Coordinates, 
         }
         (None, _, Some(time)) => {
             notes.push("angle and travel follow from `time_s` and the spindle speed".to_owned());
-            scaled(time, turns_per_second)
+            // From 1970 on the angle would be a matter of the last digit of the speed.
+            scaled(&from_start(time), turns_per_second)
         }
         _ => {
             return Err(LabError::NoCoordinate {

@@ -8,7 +8,7 @@ use super::coordinates::Coordinates;
 use crate::numerics::{count, median, spread, weighted_median};
 use crate::policy::reading::{
     DIRECTION_REACH, JUMP_OF_MOVES, JUMP_OF_TRAVEL, LONE_PASSES, REVERSAL_REACH, ROWS_A_PASS,
-    ROWS_A_REVERSAL,
+    ROWS_A_REVERSAL, WAY_OF_A_RESTART,
 };
 
 /// Rows of the table in pass and time order, with what follows from that order.
@@ -19,6 +19,16 @@ pub(crate) struct Passes {
     pub(crate) names: Vec<f64>,
     pub(crate) direction: Vec<f64>,
     pub(crate) speed_rpm: Vec<f64>,
+    pub(crate) restart: Option<Restart>,
+}
+
+/// A clock that began anew in the middle of a pass.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Restart {
+    /// Name of the pass.
+    pub(crate) pass: f64,
+    /// By how much it fell, s.
+    pub(crate) by_s: f64,
 }
 
 impl Passes {
@@ -50,8 +60,11 @@ pub(crate) fn split(
         names: groups.iter().map(|(name, _)| *name).collect(),
         direction: Vec::new(),
         speed_rpm: Vec::new(),
+        restart: None,
     };
-    for (index, (_, mut members)) in groups.into_iter().enumerate() {
+    for (index, (name, mut members)) in groups.into_iter().enumerate() {
+        let fallen = |by_s| Restart { pass: name, by_s };
+        passes.restart = passes.restart.or_else(|| fell_by_s(&members, coordinates).map(fallen));
         order(&mut members, coordinates);
         passes.direction.extend(direction(table, coordinates, &members));
         passes.speed_rpm.extend(speed(table, coordinates, &members));
@@ -129,6 +142,23 @@ fn by_jumps(
         notes.push(format!("{} passes are told apart by where the travel jumps", groups.len()));
     }
     groups
+}
+
+/// By how much the clock fell, s, where the way through the rows is far shorter as they stand in the file than as
+/// it has them; `None` where it rises, or rows were listed in another order than that of their instants.
+fn fell_by_s(members: &[usize], coordinates: &Coordinates) -> Option<f64> {
+    let Coordinates { time_s, angle_rev, timed, .. } = coordinates;
+    let fall = |pair: &[usize]| time_s[pair[0]] - time_s[pair[1]];
+    let furthest = members.windows(2).map(fall).fold(0.0, f64::max);
+    if !timed || furthest <= 0.0 {
+        return None;
+    }
+    let way = |rows: &[usize]| -> f64 {
+        rows.windows(2).map(|pair| (angle_rev[pair[1]] - angle_rev[pair[0]]).abs()).sum()
+    };
+    let mut in_time = members.to_vec();
+    order(&mut in_time, coordinates);
+    (WAY_OF_A_RESTART * way(members) < way(&in_time)).then_some(furthest)
 }
 
 /// Time order; without a clock the order of the file, or that of travel when rows are shuffled.

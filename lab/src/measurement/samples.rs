@@ -11,6 +11,7 @@ use helixlock_traces::{Table, TextColumn};
 
 use super::coordinates::Coordinates;
 use super::error::LabError;
+use super::passes::Restart;
 use super::{coordinates, headers, passes, plausible};
 use crate::numerics::{spread, weighted_median};
 use crate::policy::reading::FEWEST_SAMPLES;
@@ -92,6 +93,8 @@ pub struct Measurement {
     pub placed: bool,
     /// What columns tell that otherwise follows from travel and time.
     pub told: Told,
+    /// Where the clock began anew within a pass, so that its order is not that of the rows.
+    pub(crate) restart: Option<Restart>,
     /// What a user should know about how the file was read.
     pub notes: Vec<String>,
 }
@@ -425,6 +428,7 @@ fn assemble(
             speed: table.column("speed_rpm").is_some(),
             direction: table.column("direction").is_some(),
         },
+        restart: passes.restart,
         notes,
     }
 }

@@ -190,6 +190,25 @@ impl Problem {
         (0..told.len()).filter(|&row| far * told[row] < self.layout.inflation[row]).collect()
     }
 
+    /// For each row whether it weighs less than its deviation says.
+    #[must_use]
+    pub(crate) fn weighed_down(&self) -> Vec<bool> {
+        let told = self.told_variances();
+        told.iter().zip(self.layout.inflation.iter()).map(|(told, own)| told < own).collect()
+    }
+
+    /// The same problem where some rows weigh as their deviations say, however far they lie.
+    #[must_use]
+    pub(crate) fn weighing_fully(&self, rows: &[usize]) -> Self {
+        let told = self.told_variances();
+        let mut inflation = self.layout.inflation.to_vec();
+        for &row in rows {
+            inflation[row] = told[row];
+        }
+        let layout = Layout { inflation: inflation.into(), ..self.layout.clone() };
+        Self { layout, ..self.clone() }
+    }
+
     /// Takes the steps that the sensors read in from the other rows alone; true where they are then coarser: one
     /// wild reading off the lattice, as a mean over a gap is, hides it.
     fn is_coarser_without_far_rows(&mut self) -> bool {

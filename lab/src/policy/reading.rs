@@ -78,6 +78,18 @@ pub(crate) const OUTLIER_NEIGHBOURS: usize = 3;
 /// of the travel run together.
 pub(crate) const JUMP_OF_TRAVEL: f64 = 0.2;
 
+/// How many times as far the way through the rows of a pass is as their clock has them, where it began anew among
+/// them, than as they stand in the file.
+///
+/// Chosen: rows that tremble or stand in another order have the shorter way as the clock has them. Doubled: a clock
+/// that began anew shortly before the end is not told.
+pub(crate) const WAY_OF_A_RESTART: f64 = 2.0;
+
+/// Share of the most that an effect of one place shows, from which on a row is within its reach.
+///
+/// Derived: four standard deviations of a bell. Doubled: three and a half.
+pub(crate) const WITHIN_REACH: f64 = 3e-4;
+
 /// Usual moves from row to row that such a jump must exceed as well.
 ///
 /// Chosen. Doubled: in a table of less than 500 rows no pass is told.

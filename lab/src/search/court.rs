@@ -88,6 +88,21 @@ pub(crate) fn shape_beside(problem: &Problem, state: &State) -> Option<Winner> {
     court.winner(seat.group, &seat.base, claims)
 }
 
+/// The shape without a name, of any number of places, that explains more than one of some groups of effects.
+#[must_use]
+pub(super) fn in_place_of_any(
+    problem: &Problem,
+    state: &State,
+    found: &[Rivals],
+    groups: Vec<Vec<usize>>,
+) -> Option<Winner> {
+    let shapes = nameless(problem);
+    let court = Court::new(problem, state, found, &shapes, (SHORTLIST, f64::INFINITY));
+    let heard = court.claims(groups).into_iter();
+    let won = heard.filter_map(|(seat, claims)| court.winner(seat.group, &seat.base, claims));
+    won.max_by(|a, b| a.ahead.total_cmp(&b.ahead))
+}
+
 /// What every shape of a list has to say for itself beside the effects of a model or in the place
 /// of some: the best of each shape and group, most evidence first.
 #[must_use]

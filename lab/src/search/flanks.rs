@@ -1,0 +1,47 @@
+//! Far readings at the flanks of what has one place.
+//!
+//! A bell follows a tooth but for its edge, whose readings then lie far from their neighbours and weigh little: of
+//! what is another shape nothing is left. So where readings are far within reach of such an effect, they weigh as
+//! all others do, and shapes without a name are heard once more in its place.
+
+use helixlock_plant::Search;
+
+use super::court::{Winner, in_place_of_any};
+use super::rivals::Rivals;
+use super::span::shown;
+use crate::model::{Problem, State};
+use crate::numerics::median;
+use crate::policy::reading::WITHIN_REACH;
+
+/// The shape without a name that explains more than effects of one place once readings near them weigh as others do;
+/// `None` where they do, too.
+#[must_use]
+pub(crate) fn at_flanks(problem: &Problem, state: &State, found: &[Rivals]) -> Option<Winner> {
+    let has_a_place = |index: &usize| {
+        let parameters = &state.components[*index].term.parameters;
+        parameters.iter().any(|what| what.search == Search::Position)
+    };
+    let far = problem.weighed_down();
+    let beside_far: Vec<(usize, Vec<usize>)> = (0..state.components.len())
+        .filter(has_a_place)
+        .map(|index| (index, reach(problem, state, index)))
+        .filter(|(_, rows)| rows.iter().any(|row| far[*row]))
+        .collect();
+    if beside_far.is_empty() {
+        return None;
+    }
+    let rows: Vec<usize> = beside_far.iter().flat_map(|(_, rows)| rows).copied().collect();
+    let whole = problem.weighing_fully(&rows);
+    let state = state.on(&whole)?;
+    let groups = beside_far.into_iter().map(|(index, _)| vec![index]).collect();
+    in_place_of_any(&whole, &state, found, groups)
+}
+
+/// Rows in which an effect shows anything.
+fn reach(problem: &Problem, state: &State, index: usize) -> Vec<usize> {
+    let Some(shown) = shown(problem, state, index) else { return Vec::new() };
+    let middle = median(&mut shown.clone());
+    let off = |row: &usize| (shown[*row] - middle).abs();
+    let most = (0..shown.len()).map(|row| off(&row)).fold(0.0, f64::max);
+    (0..shown.len()).filter(|row| WITHIN_REACH * most < off(row)).collect()
+}
