@@ -1,5 +1,6 @@
 //! A measurement against a machine, as the rows of one least-squares problem.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
@@ -199,7 +200,7 @@ impl Problem {
 
     /// The same problem where some rows weigh as their deviations say, however far they lie.
     #[must_use]
-    pub(crate) fn weighing_fully(&self, rows: &[usize]) -> Self {
+    pub(crate) fn weighing_fully(&self, rows: &BTreeSet<usize>) -> Self {
         let told = self.told_variances();
         let mut inflation = self.layout.inflation.to_vec();
         for &row in rows {

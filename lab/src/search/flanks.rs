@@ -4,17 +4,20 @@
 //! what is another shape nothing is left. So where readings are far within reach of such an effect, they weigh as
 //! all others do, and shapes without a name are heard once more in its place.
 
+use std::collections::BTreeSet;
+
 use helixlock_plant::Search;
 
 use super::court::{Winner, in_place_of_any};
 use super::rivals::Rivals;
 use super::span::shown;
 use crate::model::{Problem, State};
-use crate::numerics::median;
+use crate::numerics::{count, median};
+use crate::policy::evidence::MARGIN;
 use crate::policy::reading::WITHIN_REACH;
 
-/// The shape without a name that explains more than effects of one place once readings near them weigh as others do;
-/// `None` where they do, too.
+/// The shape without a name that explains more than effects of one place and wild readings near them, once those
+/// weigh as others do.
 #[must_use]
 pub(crate) fn at_flanks(problem: &Problem, state: &State, found: &[Rivals]) -> Option<Winner> {
     let has_a_place = |index: &usize| {
@@ -30,11 +33,17 @@ pub(crate) fn at_flanks(problem: &Problem, state: &State, found: &[Rivals]) -> O
     if beside_far.is_empty() {
         return None;
     }
-    let rows: Vec<usize> = beside_far.iter().flat_map(|(_, rows)| rows).copied().collect();
+    let rows: BTreeSet<usize> = beside_far.iter().flat_map(|(_, rows)| rows).copied().collect();
     let whole = problem.weighing_fully(&rows);
-    let state = state.on(&whole)?;
+    let in_full = state.on(&whole)?;
     let groups = beside_far.into_iter().map(|(index, _)| vec![index]).collect();
-    in_place_of_any(&whole, &state, found, groups)
+    let won = in_place_of_any(&whole, &in_full, found, groups)?;
+    // They may be wild: each of them anywhere.
+    let excused = 2.0 * (state.fit.log_likelihood - in_full.fit.log_likelihood);
+    let wild = count(rows.iter().filter(|row| far[**row]).count());
+    let price = 2.0 * wild * libm::log(count(far.len()));
+    let ahead = won.ahead - (excused - price).max(0.0);
+    (MARGIN < ahead).then_some(Winner { ahead, ..won })
 }
 
 /// Rows in which an effect shows anything.
