@@ -7,6 +7,7 @@ use rand_distr::{Distribution, StandardNormal};
 
 use crate::support::diagnosed::{diagnosed, diagnosed_on, names};
 use crate::support::passes::white;
+use crate::support::seeds::seeds;
 
 const ROWS: u32 = 400;
 const PASSES: u32 = 3;
@@ -15,7 +16,7 @@ const PASSES: u32 = 3;
 #[test]
 fn digits_that_stand_still_are_no_structure() {
     for (step_um, noise_um) in [(0.25, 0.05), (0.25, 0.08)] {
-        for seed in 0..4 {
+        for seed in seeds(1, 4) {
             let mut chance = ChaCha8Rng::seed_from_u64(seed);
             let mut columns = [const { Vec::new() }; 4];
             for (pass, row) in (0..PASSES).flat_map(|pass| (0..ROWS).map(move |row| (pass, row))) {
@@ -48,7 +49,7 @@ laser.wavelength = "0.632991 um"
 kind = "screw-progressive"
 linear = "60 um/m"
 "#;
-    for seed in 0..4 {
+    for seed in seeds(1, 4) {
         let (mut noise, mut uneven) = (white(seed, 0.1), white(seed + 50, 0.3));
         let mut columns = [const { Vec::new() }; 4];
         for (pass, row) in (0..2).flat_map(|pass| (0..400).map(move |row| (pass, row))) {

@@ -5,7 +5,7 @@ use std::fs;
 
 use serde_json::Value;
 
-use crate::support::command::{Run, helixlock, put, scratch, word};
+use crate::support::command::{Run, few_samples, helixlock, put, scratch, word};
 
 const EXAMPLE: [&str; 2] =
     ["examples/outside-the-catalogue/machine.toml", "examples/outside-the-catalogue/data.csv"];
@@ -43,7 +43,8 @@ fn a_rack_is_proposed_as_a_sawtooth() {
 fn where_a_name_explains_no_formula_is_proposed() {
     let folder = scratch();
     let (path, new) = word(&folder, "new.toml");
-    let files = ["examples/hidden-gear/machine.toml", "examples/hidden-gear/data.csv"];
+    let data = few_samples(folder.path(), "hidden-gear", 4);
+    let files = ["examples/hidden-gear/machine.toml", &data];
     let run = helixlock(&["discover", files[0], files[1], "-o", &new]);
     assert_eq!((run.status, run.stderr.as_str()), (1, ""));
     assert!(run.stdout.starts_with("verdict: explained-by-name\n"), "{}", run.stdout);

@@ -9,7 +9,7 @@ use helixlock_plant::{Model, Record, Samples};
 use helixlock_traces::{parquet::write_parquet, read_table};
 use serde_json::Value;
 
-use crate::support::command::{Run, helixlock, put, repository, scratch, word};
+use crate::support::command::{Run, few_samples, helixlock, put, repository, scratch, word};
 use crate::support::passes::white;
 
 fn example(file: &str) -> String {
@@ -64,7 +64,8 @@ fn a_diagnosis_says_how_the_data_were_read_and_why_names_were_not_taken() {
 fn a_diagnosis_has_the_page_of_learn() {
     let folder = scratch();
     let [diagnosed, learned] = ["diagnosed", "learned"].map(|name| word(&folder, name));
-    let files = ["examples/hidden-gear/machine.toml", "examples/hidden-gear/data.csv"];
+    let data = few_samples(folder.path(), "hidden-gear", 4);
+    let files = ["examples/hidden-gear/machine.toml", &data];
     let run = helixlock(&[&["diagnose"], &files[..], &["-o", &diagnosed.1]].concat());
     assert_eq!((run.status, run.stderr.as_str()), (0, ""));
     helixlock(&[&["learn"], &files[..], &["-o", &learned.1]].concat());
@@ -80,7 +81,8 @@ fn a_diagnosis_has_the_page_of_learn() {
 fn rounds_are_kept_and_can_be_taken_back() {
     let folder = scratch();
     let (out, out_word) = word(&folder, "learned");
-    let words = ["learn", "examples/thermal-day/machine.toml", "examples/thermal-day/data.csv"];
+    let data = few_samples(folder.path(), "thermal-day", 2);
+    let words = ["learn", "examples/thermal-day/machine.toml", &data];
     let learned = helixlock(&[&words[..], &["-o", &out_word, "--json"]].concat());
     let mut found = names(&json(&learned)["effects"]);
     found.sort_unstable();
@@ -119,7 +121,8 @@ fn rounds_are_kept_and_can_be_taken_back() {
 fn a_machine_file_edited_by_hand_is_kept_aside() {
     let folder = scratch();
     let (out, out_word) = word(&folder, "learned");
-    let words = ["learn", "examples/hidden-gear/machine.toml", "examples/hidden-gear/data.csv"];
+    let data = few_samples(folder.path(), "hidden-gear", 4);
+    let words = ["learn", "examples/hidden-gear/machine.toml", &data];
     let learn = || helixlock(&[&words[..], &["-o", &out_word]].concat());
     let first = learn();
     assert!(!first.stdout.contains("kept as"), "{}", first.stdout);
@@ -142,7 +145,8 @@ fn a_machine_file_edited_by_hand_is_kept_aside() {
 fn the_new_machine_file_keeps_comments_and_order() {
     let folder = scratch();
     let (out, out_word) = word(&folder, "learned");
-    let words = ["learn", "examples/hidden-gear/machine.toml", "examples/hidden-gear/data.csv"];
+    let data = few_samples(folder.path(), "hidden-gear", 4);
+    let words = ["learn", "examples/hidden-gear/machine.toml", &data];
     // A folder of an earlier run, with a file of the user's own in it.
     fs::create_dir(&out).expect("a folder can be made");
     put(&out.join("machine.toml"), "# of an earlier run\n");
@@ -178,8 +182,9 @@ fn the_new_machine_file_keeps_comments_and_order() {
 /// An effect nobody foresaw is unexplained, then added as the user's own, and explains.
 #[test]
 fn an_effect_of_the_users_own_is_learned() {
-    let data = "examples/outside-the-catalogue/data.csv";
-    let words = ["learn", "examples/outside-the-catalogue/machine.toml", data, "--json"];
+    let folder = scratch();
+    let data = few_samples(folder.path(), "outside-the-catalogue", 4);
+    let words = ["learn", "examples/outside-the-catalogue/machine.toml", &data, "--json"];
     let without = json(&helixlock(&words));
     assert_eq!(without["verdict"], "unexplained");
     let own = ["--custom", "examples/outside-the-catalogue/rack.toml"];
@@ -200,7 +205,8 @@ fn what_is_unexplained_leaves_the_machine_file_alone() {
     let folder = scratch();
     let (out, out_word) = word(&folder, "learned");
     let example = "examples/outside-the-catalogue";
-    let words = [&format!("{example}/machine.toml"), &format!("{example}/data.csv")];
+    let data = few_samples(folder.path(), "outside-the-catalogue", 4);
+    let words = [&format!("{example}/machine.toml"), &data];
     let learned = json(&helixlock(&["learn", words[0], words[1], "-o", &out_word, "--json"]));
     assert_eq!((&learned["verdict"], &learned["accepted"]), (&"unexplained".into(), &false.into()));
     let bytes = |path: &Path| fs::read(path).expect("a machine file");
@@ -312,19 +318,19 @@ fn a_refit_moves_the_effects_of_the_file() {
 #[test]
 fn parquet_is_learned_from_like_text() {
     let folder = scratch();
-    let csv = "examples/recorder-and-screw/data.csv";
-    let table = read_table(&repository().join(csv)).expect("a table");
+    let csv = few_samples(folder.path(), "hidden-gear", 4);
+    let table = read_table(Path::new(&csv)).expect("a table");
     let (parquet, parquet_word) = word(&folder, "data.parquet");
     #[expect(clippy::disallowed_methods, reason = "a test makes its own input, in its own folder")]
     let mut file = fs::File::create(&parquet).expect("a file can be made");
     write_parquet(&table, &mut file).expect("it can be written");
-    let machine = "examples/recorder-and-screw/machine.toml";
+    let machine = "examples/hidden-gear/machine.toml";
     let answer = |data: &str| {
         let mut answer = json(&helixlock(&["learn", machine, data, "--json"]));
         answer.as_object_mut().expect("an object").remove("data_hash");
         answer
     };
-    assert_eq!(answer(&parquet_word), answer(csv));
+    assert_eq!(answer(&parquet_word), answer(&csv));
 }
 
 /// A trace of our own run, ×2 range and closed loop: the counter tells the error, and the learned
@@ -384,10 +390,11 @@ fn as_logged(csv: &str) -> String {
 fn a_loggers_file_is_diagnosed_like_our_own() {
     let folder = scratch();
     let (data, data_word) = word(&folder, "logged.csv");
-    put(&data, &as_logged(&example("hidden-gear/data.csv")));
+    let few = few_samples(folder.path(), "hidden-gear", 4);
+    put(&data, &as_logged(&fs::read_to_string(&few).expect("it is there")));
     let machine = "examples/hidden-gear/machine.toml";
     let logged = json(&helixlock(&["diagnose", machine, &data_word, "--json"]));
-    let own = json(&helixlock(&["diagnose", machine, "examples/hidden-gear/data.csv", "--json"]));
+    let own = json(&helixlock(&["diagnose", machine, &few, "--json"]));
     assert_eq!(logged["verdict"], own["verdict"]);
     assert_eq!(names(&logged["effects"]), names(&own["effects"]));
     let amplitude = |answer: &Value| {
@@ -403,7 +410,8 @@ fn a_loggers_file_is_diagnosed_like_our_own() {
 fn a_column_that_numbers_the_rows_is_left_out() {
     let folder = scratch();
     let mut numbered = String::new();
-    for (row, line) in example("hidden-gear/data.csv").lines().enumerate() {
+    let few = few_samples(folder.path(), "hidden-gear", 4);
+    for (row, line) in fs::read_to_string(&few).expect("it is there").lines().enumerate() {
         let number = if row == 0 { "sample".to_owned() } else { row.to_string() };
         writeln!(numbered, "{line},{number}").expect("memory takes it");
     }
@@ -411,7 +419,7 @@ fn a_column_that_numbers_the_rows_is_left_out() {
     put(&data, &numbered);
     let machine = "examples/hidden-gear/machine.toml";
     let mut counted = json(&helixlock(&["diagnose", machine, &data_word, "--json"]));
-    let own = json(&helixlock(&["diagnose", machine, "examples/hidden-gear/data.csv", "--json"]));
+    let own = json(&helixlock(&["diagnose", machine, &few, "--json"]));
     let notes = counted["notes"].to_string();
     assert!(notes.contains("`sample` counts on from row to row and is left out"), "{notes}");
     counted["notes"] = own["notes"].clone();

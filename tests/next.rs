@@ -3,9 +3,9 @@
 use std::path::Path;
 use std::process::{Command, Output};
 
-use crate::support::command::{repository, scratch};
+use crate::support::command::{few_samples, repository, scratch};
 
-/// A line each, in one folder beside the examples: words, and what is next, up to the files.
+/// A line each, in one folder beside the examples, with few samples of two of them: words, and what is next, up to the files.
 const STORIES: &[(&str, &str)] = &[
     ("init", "helixlock init --template lead-screw-grinder -o lead-screw-grinder"),
     (
@@ -23,20 +23,20 @@ const STORIES: &[(&str, &str)] = &[
         "helixlock compare 'my joint/machine.toml' 'my joint/worm.csv'",
     ),
     ("sim EX/sg7430-6mm/machine.toml --length 20 -o sim", "helixlock compare "),
-    ("compare EX/hidden-gear/machine.toml EX/hidden-gear/data.csv", "helixlock diagnose "),
-    ("diagnose EX/hidden-gear/machine.toml EX/hidden-gear/data.csv", "helixlock learn "),
+    ("compare EX/hidden-gear/machine.toml hidden-gear.csv", "helixlock diagnose "),
+    ("diagnose EX/hidden-gear/machine.toml hidden-gear.csv", "helixlock learn "),
     (
-        "diagnose EX/outside-the-catalogue/machine.toml EX/outside-the-catalogue/data.csv --with EX/outside-the-catalogue/rack.toml",
+        "diagnose EX/outside-the-catalogue/machine.toml outside-the-catalogue.csv --with EX/outside-the-catalogue/rack.toml",
         "helixlock learn ",
     ),
     (
-        "learn EX/hidden-gear/machine.toml EX/hidden-gear/data.csv -o better",
+        "learn EX/hidden-gear/machine.toml hidden-gear.csv -o better",
         "helixlock compare better/machine.toml ",
     ),
     ("learn --undo -o better", "helixlock diagnose better/machine.toml "),
     ("learn EX/real-worm-drive/machine.toml worm.csv", "helixlock discover "),
     (
-        "add EX/hidden-gear/machine.toml gear-error --fit EX/hidden-gear/data.csv -o gear.toml",
+        "add EX/hidden-gear/machine.toml gear-error --fit hidden-gear.csv -o gear.toml",
         "helixlock compare gear.toml ",
     ),
     (
@@ -62,9 +62,9 @@ const STORIES: &[(&str, &str)] = &[
 
 /// Reports that leave nothing to do.
 const ENDS: &[&str] = &[
-    "compare gear.toml EX/hidden-gear/data.csv",
-    "diagnose gear.toml EX/hidden-gear/data.csv",
-    "compare EX/hidden-gear/machine.toml EX/hidden-gear/data.csv --json",
+    "compare gear.toml hidden-gear.csv",
+    "diagnose gear.toml hidden-gear.csv",
+    "compare EX/hidden-gear/machine.toml hidden-gear.csv --json",
 ];
 
 fn run(folder: &Path, words: &[String]) -> Output {
@@ -91,6 +91,9 @@ fn next(folder: &Path, line: &[String]) -> Option<String> {
 #[test]
 fn what_is_next_runs() {
     let folder = scratch();
+    for example in ["hidden-gear", "outside-the-catalogue"] {
+        few_samples(folder.path(), example, 4);
+    }
     for (line, expected) in STORIES {
         let next_line = next(folder.path(), &words(line));
         let next_line = next_line.unwrap_or_else(|| panic!("{line}: nothing is next"));

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::support::command::{helixlock, scratch, word};
+use crate::support::command::{few_samples, helixlock, scratch, word};
 
 /// Words, and what the page has to say.
 const STORIES: &[(&str, &[&str])] = &[
@@ -19,7 +19,7 @@ const STORIES: &[(&str, &[&str])] = &[
         &["8 cases over drive.frequency", "with correction", "<td>yes</td>"],
     ),
     (
-        "discover examples/outside-the-catalogue/machine.toml examples/outside-the-catalogue/data.csv",
+        "discover examples/outside-the-catalogue/machine.toml OUT/outside-the-catalogue.csv",
         &["Proposed: sawtooth along position", "What else could stand there", "δ = size*fract("],
     ),
 ];
@@ -29,6 +29,7 @@ fn a_page_says_what_the_report_says() {
     for (line, says) in STORIES {
         let folder = scratch();
         let (page, page_word) = word(&folder, "page.html");
+        few_samples(folder.path(), "outside-the-catalogue", 4);
         let line = line.replace("OUT", folder.path().to_str().expect("text"));
         let mut words: Vec<&str> = line.split(' ').collect();
         words.extend(["--page", &page_word]);

@@ -2,6 +2,8 @@
 
 use proptest::test_runner::{Config, FileFailurePersistence, RngSeed};
 
+use crate::support::seeds::all_are_asked;
+
 /// 64 cases from one seed; a case that fails is kept in `<test file>.regressions`.
 pub(crate) fn kept_beside_source() -> Config {
     Config {
@@ -12,12 +14,13 @@ pub(crate) fn kept_beside_source() -> Config {
     }
 }
 
-/// A few cases of something slow; `PROPTEST_CASES` and `PROPTEST_RNG_SEED` make a campaign of them.
-pub(crate) fn few(cases: u32) -> Config {
+/// A few cases of something slow, with `HELIXLOCK_SEEDS=all` so many; `PROPTEST_CASES` and
+/// `PROPTEST_RNG_SEED` make a campaign of them.
+pub(crate) fn few(cases: u32, all: u32) -> Config {
     let kept = kept_beside_source();
     let campaign = Config::default();
     match std::env::var_os("PROPTEST_CASES") {
         Some(_) => Config { cases: campaign.cases, rng_seed: campaign.rng_seed, ..kept },
-        None => Config { cases, ..kept },
+        None => Config { cases: if all_are_asked() { all } else { cases }, ..kept },
     }
 }

@@ -140,12 +140,14 @@ fn a_wave_of_changing_length_is_seen() {
 
 /// White noise that swells and sinks by a factor of two in some thirty readings: a step fits where
 /// it is loud. Of sixteen records of six tenths of a micrometre, which are two fringes, one may
-/// still get its name.
+/// still get its name; of a few none.
 #[test]
 fn gusts_are_hardly_slips() {
     const PASSES: usize = 4;
     const ROWS: usize = 200;
-    let named = (0..16).filter(|&seed| {
+    let asked = seeds(5, 16);
+    let may_be = asked.end / 16;
+    let named = asked.filter(|&seed| {
         let mut chance = ChaCha8Rng::seed_from_u64(seed);
         let mut columns = [vec![], vec![], vec![], vec![]];
         for pass in 0..PASSES {
@@ -163,7 +165,7 @@ fn gusts_are_hardly_slips() {
         !names(&diagnosed::diagnosed(COLUMNS.into_iter().zip(columns).collect())).is_empty()
     });
     let named: Vec<u64> = named.collect();
-    assert!(named.len() <= 1, "{named:?}");
+    assert!(named.len() as u64 <= may_be, "{named:?}");
 }
 
 /// A piece of a scale that lies higher: a bump follows it roughly.

@@ -74,11 +74,13 @@ fn passes_of_unequal_noise_hold_no_band() {
 }
 
 /// What an instrument with a filter writes: means that overlap, twice over.
-/// One record in thirty still gets the name of wear beside `unexplained`.
+/// One record in thirty still gets the name of wear beside `unexplained`: of a few none.
 #[test]
 fn filtered_noise_is_hardly_an_effect() {
     const OVER: usize = 7;
-    let named = seeds(4, 8).filter(|&seed| {
+    let asked = seeds(2, 8);
+    let may_be = asked.end / 8;
+    let named = asked.filter(|&seed| {
         let mut noise = white(&mut ChaCha8Rng::seed_from_u64(seed), ROWS + 2 * OVER);
         for _ in 0..2 {
             let means = noise.windows(OVER).map(|part| part.iter().sum::<f64>() / 7.0_f64.sqrt());
@@ -86,7 +88,7 @@ fn filtered_noise_is_hardly_an_effect() {
         }
         !names(&diagnosed(noise[..ROWS].to_vec())).is_empty()
     });
-    assert!(named.count() <= 1);
+    assert!(named.count() as u64 <= may_be);
 }
 
 /// Even noise hides no more than it did.

@@ -9,6 +9,7 @@ use rand_distr::{Distribution, StandardNormal, StudentT};
 
 use crate::support::diagnosed::{diagnosed, diagnosed_on, names};
 use crate::support::passes::{Passes, noise, white};
+use crate::support::seeds::cases;
 
 /// Half the wavelength of the machine's laser.
 const FRINGE_UM: f64 = 0.316_410_182_654_969;
@@ -28,8 +29,8 @@ fn heavy_noise(seed: u64, kept: f64) -> impl FnMut() -> f64 {
 /// records hold would be beyond doubt.
 #[test]
 fn heavy_tails_of_slow_noise_are_no_slips() {
-    for seed in [4, 25, 37] {
-        let passes = Passes::new(&|_, _, _| 0.0, &mut heavy_noise(seed, 0.98));
+    for seed in cases(1, &[4, 25, 37]) {
+        let passes = Passes::new(&|_, _, _| 0.0, &mut heavy_noise(*seed, 0.98));
         let found = diagnose(&passes.problem());
         assert!(names(&found).is_empty(), "seed {seed}: {:?}", names(&found));
     }
@@ -39,7 +40,7 @@ fn heavy_tails_of_slow_noise_are_no_slips() {
 /// a few samples beside its place, nothing of it is to be seen.
 #[test]
 fn a_slip_in_slow_noise_is_found_at_its_sample() {
-    for lost_at in [211.0, 2601.0] {
+    for &lost_at in cases(1, &[2601.0, 211.0]) {
         let slipped = |t: f64, _: f64, _: f64| if t < lost_at { 0.0 } else { FRINGE_UM };
         let mut chance = ChaCha8Rng::seed_from_u64(3);
         let mut slow = 0.0;
@@ -61,7 +62,7 @@ fn a_slip_in_slow_noise_is_found_at_its_sample() {
 /// laser make it together, but so would anything.
 #[test]
 fn a_step_of_any_size_is_no_slip() {
-    for (size_um, moment_s) in [(0.52, 700.0), (1.15, 4400.0)] {
+    for &(size_um, moment_s) in cases(1, &[(0.52, 700.0), (1.15, 4400.0)]) {
         let step = |t: f64, _: f64, _: f64| if t < moment_s { 0.0 } else { size_um };
         let diagnosis = diagnose(&Passes::new(&step, &mut noise(11, 1.0)).problem());
         assert_eq!(diagnosis.verdict, Verdict::Unexplained, "{:?}", names(&diagnosis));

@@ -47,3 +47,15 @@ pub(crate) fn word(folder: &TempDir, name: &str) -> (PathBuf, String) {
 pub(crate) fn put(path: &Path, text: &str) {
     std::fs::write(path, text).expect("the folder of the test takes files");
 }
+
+/// Every so many of an example's samples, in a file of a folder, as a word: what is asked for the sake of
+/// its report alone is asked of few.
+pub(crate) fn few_samples(folder: &Path, example: &str, one_in: usize) -> String {
+    let own = repository().join("examples").join(example).join("data.csv");
+    let own = std::fs::read_to_string(own).expect("the example is there");
+    let (header, samples) = own.split_once('\n').expect("a header");
+    let few: Vec<&str> = samples.lines().step_by(one_in).collect();
+    let path = folder.join(format!("{example}.csv"));
+    put(&path, &format!("{header}\n{}\n", few.join("\n")));
+    path.to_str().expect("a path of text").to_owned()
+}

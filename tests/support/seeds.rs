@@ -12,6 +12,7 @@ pub(crate) fn cases<T>(few: usize, all: &[T]) -> &[T] {
     if all_are_asked() { all } else { &all[..few] }
 }
 
-fn all_are_asked() -> bool {
+/// True when `HELIXLOCK_SEEDS=all` asks for every record.
+pub(crate) fn all_are_asked() -> bool {
     std::env::var("HELIXLOCK_SEEDS").is_ok_and(|which| which == "all")
 }
