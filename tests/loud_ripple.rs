@@ -15,11 +15,11 @@ const ENCODER: &str = "output.rotary = true\nspindle.speed = '60 rpm'\n\
 fn turn(seed: u64, error_arcsec: impl Fn(f64) -> f64) -> Diagnosis {
     let mut noise = white(seed, 4.0);
     let mut columns = [const { Vec::new() }; 2];
-    for row in 0..3000 {
-        let rad = std::f64::consts::TAU * f64::from(row) / 3000.0;
+    for row in 0..1500 {
+        let rad = std::f64::consts::TAU * f64::from(row) / 1500.0;
         let of_poles = libm::sin(100.0 * rad + 2.0 * libm::sin(3.0 * rad + 0.4))
             + 0.6 * libm::sin(97.0 * rad + 1.5 * libm::sin(2.0 * rad));
-        let cells = [f64::from(row) / 3000.0, error_arcsec(rad) + 130.0 * of_poles + noise()];
+        let cells = [f64::from(row) / 1500.0, error_arcsec(rad) + 130.0 * of_poles + noise()];
         columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
     }
     diagnosed_on(ENCODER, ["angle_rev", "error_arcsec"].into_iter().zip(columns).collect())

@@ -194,13 +194,13 @@ fn a_scratch_of_a_worm_is_told_by_its_turns() {
     }
 }
 
-/// Three passes there and back over eight targets, at each of which the axis rests for six readings and its servo
+/// Two passes there and back over eight targets, at each of which the axis rests for six readings and its servo
 /// settles: play that a vibration beside it makes fade, or a column pasted two rows too low, follow it.
 #[test]
 fn what_settles_after_each_stop_is_no_play_and_no_slipped_column() {
     let mut noise = white(1, 0.2);
     let mut columns = [const { Vec::new() }; 5];
-    for row in 0..288_u16 {
+    for row in 0..192_u16 {
         let (stop, reading) = (row / 6, f64::from(row % 6));
         let (run, target) = (stop / 8, stop % 8);
         let (way, target) = if run % 2 == 0 { (1.0, target) } else { (-1.0, 7 - target) };

@@ -300,7 +300,7 @@ fn a_hop_between_two_passes_is_named() {
 fn a_late_reading_of_an_axis_that_goes_and_stands_is_no_vibration() {
     let mut noise = white(8, 0.5);
     let (mut place, mut last) = (0.0, 0.0);
-    let rows = (0..2600_u16).map(|row| {
+    let rows = (0..1300_u16).map(|row| {
         let t = 0.113 * f64::from(row);
         let phase = (t / 28.5).fract() * 28.5;
         let speed = 3.7 * (phase / 2.0).min((25.0 - phase) / 2.0).clamp(0.0, 1.0);

@@ -24,7 +24,7 @@ fn a_smooth_error_of_each_pass_s_own_is_not_noise() {
         let wave = libm::cos(position_mm / 450.0 * TAU);
         1.5 * direction * (1.0 - time_s / 4000.0) * wave
     };
-    let diagnosis = diagnose(&Passes::new(&turning, &mut noise(7, 5.0)).problem());
+    let diagnosis = diagnose(&Passes::few(&turning, &mut noise(7, 5.0)).problem());
     assert_eq!(diagnosis.verdict, Verdict::Unexplained);
 }
 
@@ -93,13 +93,14 @@ fn shapes_of_turns_and_time_are_told_and_not_named() {
     let square = |_: f64, x: f64| 0.1 * libm::sin(x / 12.0 * TAU + 0.3).signum();
     let risen = |t: f64, _: f64| 2.0 * t / 900.0 * libm::exp(1.0 - t / 900.0);
     let parabola = |t: f64, _: f64| 2.5 * (t / 5000.0) * (t / 5000.0);
-    let shapes: [(&str, &str, Shape<'_>); 3] = [
-        ("machine screw angle", "square wave each turn", &square),
-        ("time", "rise and fall", &risen),
-        ("time", "parabola", &parabola),
+    type Record = fn(&dyn Fn(f64, f64, f64) -> f64, &mut dyn FnMut() -> f64) -> Passes;
+    let shapes: [(&str, &str, Shape<'_>, Record); 3] = [
+        ("machine screw angle", "square wave each turn", &square, Passes::new),
+        ("time", "rise and fall", &risen, Passes::few),
+        ("time", "parabola", &parabola, Passes::few),
     ];
-    for (along, shape, error) in shapes {
-        let passes = Passes::new(&|t, x, _| error(t, x), &mut noise(5, 3.0));
+    for (along, shape, error, record) in shapes {
+        let passes = record(&|t, x, _| error(t, x), &mut noise(5, 3.0));
         let diagnosis = diagnose(&passes.problem());
         assert!(shows(&diagnosis, along, shape), "{shape}: {:?}", diagnosis.residual);
     }

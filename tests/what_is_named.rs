@@ -226,7 +226,7 @@ gear = [{ name = "resolver", order = 1, teeth = 4 }]
 "#;
     let mut noise = white(seed, 0.05);
     let mut columns = ["time_s", "position_mm", "error_um"].map(|name| (name, Vec::new()));
-    for turns in (0..1200_u16).map(|row| f64::from(row) / 150.0) {
+    for turns in (0..600_u16).map(|row| f64::from(row) / 75.0) {
         let poles = 20.0 * libm::sin(TAU * 4.0 * turns + 0.3);
         let overtone = 1.5 * libm::sin(TAU * 8.0 * turns + 1.0);
         let row = [4.0 * turns, turns, poles + overtone + more(turns) + noise()];
