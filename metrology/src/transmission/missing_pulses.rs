@@ -43,18 +43,19 @@ pub(super) fn check(train_s: &[f64], other_s: &[f64], column: &'static str) -> R
 /// where the trains do not reach far enough to tell.
 ///
 /// What the other train does over some pulses about the place is set against what it does before
-/// and after, far enough out that its own pulses tell.
+/// and after, far enough out that its own pulses tell; at an end, on the one side that there is.
 fn excess(train_s: &[f64], other_s: &[f64], from: usize, to: usize) -> Option<f64> {
     let reach = train_s.len().div_ceil(other_s.len()) + 1;
     let phase = |row: usize| phase_at(other_s, *train_s.get(row)?);
-    let outer = [from.checked_sub(2 * reach)?, from - reach, to + reach, to + 2 * reach];
-    let mut phases = [0.0; 4];
-    for (phase_there, row) in phases.iter_mut().zip(outer) {
-        *phase_there = phase(row)?;
-    }
-    let beside = phases[1] - phases[0] + phases[3] - phases[2];
-    let phase_of_one = beside / number(2 * reach);
-    Some((phases[2] - phases[1]) / phase_of_one - number(outer[2] - outer[1]))
+    let between = |from: usize, to: usize| Some(phase(to)? - phase(from)?);
+    let before = from.checked_sub(2 * reach).and_then(|first| between(first, from - reach));
+    let sides: Vec<f64> = before.into_iter().chain(between(to + reach, to + 2 * reach)).collect();
+    let phase_of_one = sides.iter().sum::<f64>() / number(sides.len() * reach);
+    let is_reached = |row: &usize| phase(*row).is_some();
+    let from = (from.saturating_sub(reach)..=from).find(is_reached)?;
+    let to = (to..=to + reach).rev().find(is_reached)?;
+    let pulses = between(from, to)? / phase_of_one - number(to - from);
+    (!sides.is_empty()).then_some(pulses)
 }
 
 /// The middle one of three periods is twice as long as its neighbours.
