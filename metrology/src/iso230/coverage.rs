@@ -369,11 +369,12 @@ pub fn overall(held: &Held) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drawn::records;
 
     /// 300 records: 91 % is three standard deviations below 95.45 %.
     #[test]
     fn what_spans_the_axis_is_held_as_often_as_said() {
-        let found = coverage((Axis::Rising, Condition::Usual), 0.2, 300, 1).unwrap();
+        let found = coverage((Axis::Rising, Condition::Usual), 0.2, records(100, 300), 1).unwrap();
         for (symbol, share) in found.iter().filter(|(symbol, _)| ["A", "E", "M"].contains(symbol)) {
             assert!((0.91..=0.99).contains(share), "{symbol} {share}");
         }
@@ -392,7 +393,8 @@ mod tests {
             (Condition::CycleOfTwoRuns, 0.5),
             (Condition::Wandering, 0.5),
         ] {
-            let found = coverage((Axis::Rising, condition), variation_um, 30, 1).unwrap();
+            let found =
+                coverage((Axis::Rising, condition), variation_um, records(15, 30), 1).unwrap();
             for (symbol, share) in found {
                 assert!(0.83 < share, "{condition:?}: {symbol} {share}");
             }

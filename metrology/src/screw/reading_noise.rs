@@ -78,6 +78,7 @@ fn estimate(mut sizes: Vec<f64>) -> Estimate {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drawn::records;
     use crate::screw::Reached;
     use crate::screw::coverage::{Screw, coverage};
 
@@ -86,7 +87,7 @@ mod tests {
     fn is_taken_off_truly(screws: [Screw; 3]) {
         for screw in screws {
             let variations = ["V300", "V2π"];
-            for found in coverage(screw, 0.25, 40, 1) {
+            for found in coverage(screw, 0.25, records(16, 40), 1) {
                 if !variations.contains(&found.symbol) {
                     continue;
                 }
@@ -114,7 +115,7 @@ mod tests {
     #[test]
     fn waves_of_any_length_are_told_from_noise() {
         for screw in [Screw::Medium, Screw::Grinder] {
-            for found in coverage(screw, 0.25, 20, 7) {
+            for found in coverage(screw, 0.25, records(8, 20), 7) {
                 if found.symbol == "V300" || found.symbol == "V2π" {
                     assert!(0.75 < found.held, "{screw:?}: {found:?}");
                 }
