@@ -90,10 +90,10 @@ fn shows(diagnosis: &Diagnosis, along: &str, shape: &str) -> bool {
 #[test]
 fn shapes_of_turns_and_time_are_told_and_not_named() {
     type Shape<'a> = &'a dyn Fn(f64, f64) -> f64;
+    type Record = fn(&dyn Fn(f64, f64, f64) -> f64, &mut dyn FnMut() -> f64) -> Passes;
     let square = |_: f64, x: f64| 0.1 * libm::sin(x / 12.0 * TAU + 0.3).signum();
     let risen = |t: f64, _: f64| 2.0 * t / 900.0 * libm::exp(1.0 - t / 900.0);
     let parabola = |t: f64, _: f64| 2.5 * (t / 5000.0) * (t / 5000.0);
-    type Record = fn(&dyn Fn(f64, f64, f64) -> f64, &mut dyn FnMut() -> f64) -> Passes;
     let shapes: [(&str, &str, Shape<'_>, Record); 3] = [
         ("machine screw angle", "square wave each turn", &square, Passes::new),
         ("time", "rise and fall", &risen, Passes::few),
