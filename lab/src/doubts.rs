@@ -8,6 +8,7 @@
 //! of whole waves a turn.
 
 mod along;
+mod backwards;
 mod clock;
 mod column;
 mod common;
@@ -105,6 +106,7 @@ fn hypotheses(problem: &Problem) -> Vec<Hypothesis> {
     let noises = [noises_of(problem, &problem.residual()), view::rough_noises(problem)];
     let mut all = column::units(problem, odd);
     all.extend(column::signs(problem, odd));
+    all.extend(backwards::backwards(problem, odd));
     all.extend(swap::swaps(problem));
     all.extend(shift::shifts(problem, odd, &noises));
     all.extend(dividers::other_dividers(problem));

@@ -106,3 +106,17 @@ fn what_grows_in_one_pass_is_no_sign_of_its_place() {
     let grown = challenge(1_712_418).expect("a machine and its data");
     assert_eq!(doubted(&grown.machine.model, &grown.table), None);
 }
+
+/// A way back that was written down as a way out; what is the same either way tells nothing.
+#[test]
+fn a_pass_that_is_told_backwards_is_told() {
+    let known = machine(150, WAVES);
+    let sound = two_passes(&known);
+    let mut turned = sound.clone();
+    let rows = turned.rows() / 2;
+    let errors = turned.columns.iter_mut().find(|column| column.name == "error_um");
+    errors.expect("errors").values[rows..].reverse();
+    let mend = "turn the order of the readings of pass 2, or its position".to_owned();
+    assert_eq!(doubted(&known, &turned), Some(("reversed", mend)));
+    assert_eq!(doubted(&known, &sound), None);
+}
