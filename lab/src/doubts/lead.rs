@@ -14,12 +14,17 @@ const LEADS: [&str; 34] = [
     "8 tpi", "10 tpi", "20 tpi",
 ];
 
-/// How many times the file's the lead may be that the position's unit is asked for instead, which moves waves alike.
-const OF_UNITS: [f64; 3] = [2.0, 10.0, 25.4];
+/// How many times the file's, or its part, a lead is that the position's unit is asked for instead, which moves waves
+/// alike.
+const OF_A_UNIT: f64 = 2.0;
 
-/// The file with each other lead.
+/// How many times the file's, or its part, a lead may be: one far off is seen by whoever types it.
+const FARTHEST: f64 = 4.0;
+
+/// The file with each other lead, where it predicts anything.
 pub(super) fn leads(problem: &Problem) -> Vec<Hypothesis> {
-    let screw = problem.model.lead_screw.filter(|_| !problem.model.rotary);
+    let is_told = !problem.model.rotary && !problem.model.effects.is_empty();
+    let screw = problem.model.lead_screw.filter(|_| is_told);
     screw.map_or_else(Vec::new, |own| {
         LEADS.iter().filter_map(|lead| with_lead(problem, own, lead)).collect()
     })
@@ -28,7 +33,8 @@ pub(super) fn leads(problem: &Problem) -> Vec<Hypothesis> {
 fn with_lead(problem: &Problem, own: Lead, text: &str) -> Option<Hypothesis> {
     let lead: Lead = text.parse().ok().filter(|lead: &Lead| lead.rational() != own.rational())?;
     let ratio = (lead.mm() / own.mm()).max(own.mm() / lead.mm());
-    if OF_UNITS.iter().any(|of_unit| (ratio - of_unit).abs() < f64::EPSILON * of_unit) {
+    let is_of_a_unit = (ratio - OF_A_UNIT).abs() < f64::EPSILON * OF_A_UNIT;
+    if FARTHEST < ratio || is_of_a_unit {
         return None;
     }
     let mut machine = problem.model.machine.clone();

@@ -49,7 +49,8 @@ impl Columns {
     #[must_use]
     pub(crate) fn whitened(&self, whitener: &Whitener) -> Vec<Vec<f64>> {
         let together = |part: &[&[f64]]| whitener.whiten_all(part);
-        let mut white = in_parallel(self.views().chunks(TOGETHER), together).concat();
+        let white = in_parallel(self.views().chunks(TOGETHER), together);
+        let mut white: Vec<Vec<f64>> = white.into_iter().flatten().collect();
         self.hold_to_priors(&mut white);
         white
     }
