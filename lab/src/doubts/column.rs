@@ -15,7 +15,7 @@ const POSITION: &str = "position_mm";
 const ANGLE: &str = "angle_rev";
 
 /// Places that are counted in other steps than one thinks: a mirror that is passed twice, a decimal point.
-const STEPS: [f64; 4] = [10.0, 0.1, 2.0, 0.5];
+pub(super) const STEPS: [f64; 4] = [10.0, 0.1, 2.0, 0.5];
 
 /// Another unit of a column.
 struct Other {

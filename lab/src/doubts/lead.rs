@@ -2,9 +2,11 @@
 
 use helixlock_plant::{Lead, Model, Part};
 
+use super::column::STEPS;
 use super::hypothesis::Hypothesis;
 use crate::measurement::Measurement;
 use crate::model::Problem;
+use crate::policy::mistakes::FARTHEST_LEAD;
 
 /// Leads that screws of machines are made in: of ISO 3408-2 and ISO 2904, and whole threads an inch.
 const LEADS: [&str; 34] = [
@@ -13,13 +15,6 @@ const LEADS: [&str; 34] = [
     "32 mm", "36 mm", "40 mm", "44 mm", "50 mm", "1 in", "2 tpi", "4 tpi", "5 tpi", "6 tpi",
     "8 tpi", "10 tpi", "20 tpi",
 ];
-
-/// How many times the file's, or its part, a lead is that the position's unit is asked for instead, which moves waves
-/// alike.
-const OF_A_UNIT: f64 = 2.0;
-
-/// How many times the file's, or its part, a lead may be: one far off is seen by whoever types it.
-const FARTHEST: f64 = 4.0;
 
 /// The file with each other lead, where it predicts anything.
 pub(super) fn leads(problem: &Problem) -> Vec<Hypothesis> {
@@ -32,9 +27,10 @@ pub(super) fn leads(problem: &Problem) -> Vec<Hypothesis> {
 
 fn with_lead(problem: &Problem, own: Lead, text: &str) -> Option<Hypothesis> {
     let lead: Lead = text.parse().ok().filter(|lead: &Lead| lead.rational() != own.rational())?;
-    let ratio = (lead.mm() / own.mm()).max(own.mm() / lead.mm());
-    let is_of_a_unit = (ratio - OF_A_UNIT).abs() < f64::EPSILON * OF_A_UNIT;
-    if FARTHEST < ratio || is_of_a_unit {
+    let ratio = lead.mm() / own.mm();
+    // The position is asked for those, which moves waves alike.
+    let is_a_step = STEPS.iter().any(|step| (ratio - step).abs() < f64::EPSILON * step);
+    if FARTHEST_LEAD < ratio.max(ratio.recip()) || is_a_step {
         return None;
     }
     let mut machine = problem.model.machine.clone();

@@ -86,6 +86,11 @@ pub(crate) const RARER_THAN_A_SIGN: f64 = 0.1;
 /// Derived: one effect can have been repaired. Doubled: files of two and three are not doubted.
 pub(crate) const MACHINE_OF_EFFECTS: usize = 2;
 
+/// How many times the file's, or its part, another lead of its screw may be.
+///
+/// Chosen: one farther off is seen by whoever types it. Doubled: half as many leads again, and their time.
+pub(crate) const FARTHEST_LEAD: f64 = 4.0;
+
 /// Farthest shift of the position's zero that is looked for, in turns of the spindle.
 ///
 /// Chosen. Doubled: twice the time.
