@@ -31,7 +31,7 @@ compare examples/recorder-and-screw/machine.toml examples/recorder-and-screw/dat
 compare examples/encoder-1000-1024/machine.toml examples/encoder-1000-1024/data.csv -o OUT/encoder
 compare examples/real-worm-drive/machine.toml OUT/worm.csv -o OUT/rotary
 diagnose examples/hidden-gear/machine.toml OUT/hidden-gear.csv -o OUT/explained
-diagnose examples/outside-the-catalogue/machine.toml examples/outside-the-catalogue/data.csv -o OUT/unexplained
+diagnose examples/outside-the-catalogue/machine.toml OUT/outside-the-catalogue.csv -o OUT/unexplained
 diagnose examples/hidden-gear/machine.toml OUT/thermal-day.csv -o OUT/doubtful
 learn examples/hidden-gear/machine.toml OUT/hidden-gear.csv -o OUT/learn
 learn --undo -o OUT/learn
@@ -40,7 +40,7 @@ learn examples/real-worm-drive/machine.toml OUT/worm.csv -o OUT/worm
 add examples/hidden-gear/machine.toml gear-error --fit OUT/hidden-gear.csv -o OUT/gear.toml
 add examples/hidden-gear/machine.toml backlash --fit OUT/hidden-gear.csv -o OUT/backlash.toml
 diagnose OUT/gear.toml OUT/hidden-gear.csv -o OUT/nothing-missing
-discover examples/outside-the-catalogue/machine.toml examples/outside-the-catalogue/data.csv --page OUT/discover.html
+discover examples/outside-the-catalogue/machine.toml OUT/outside-the-catalogue.csv --page OUT/discover.html
 challenge --seed 3 -o OUT/challenge
 challenge --experiment 1
 challenge --score 1 --seed 79
@@ -65,7 +65,7 @@ transmission examples/transmission-error/pulses.csv --input-lines 200 --output-l
 "#;
 
 /// Examples of whose samples few tell as much.
-const FEW: [&str; 2] = ["hidden-gear", "thermal-day"];
+const FEW: [&str; 3] = ["hidden-gear", "thermal-day", "outside-the-catalogue"];
 
 /// Commands that write pages.
 const WITH_PAGES: [&str; 12] = [

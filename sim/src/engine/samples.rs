@@ -24,6 +24,7 @@ mod generated {
     use helixlock_netlist::SignalId;
 
     use super::{Check, LaneCheck, check, check_lanes};
+    use crate::device::DeviceKernel;
     use crate::engine::all_signals::AllSignals;
     use crate::engine::dense::{Coast, DenseKernel, Edge, Known};
     use crate::engine::gather::Gather;
