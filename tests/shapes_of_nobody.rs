@@ -76,6 +76,12 @@ fn the_smaller_part_of_a_wavy_bed_is_no_wear() {
     assert_eq!((names(&found), found.verdict), (vec![], Verdict::Unexplained));
 }
 
+/// What warms up anew in every pass differs from the cubic that follows it by a fiftieth, and has fewer numbers.
+#[test]
+fn a_decay_of_each_pass_is_no_cubic() {
+    is_nobodys(&|_, mm| 0.4 * libm::exp(-mm / 125.0));
+}
+
 /// The sun on one side of a bed: an arc that comes with the hours follows a screw of changing lead.
 #[test]
 fn a_bow_that_comes_in_time_is_nobodys() {

@@ -51,7 +51,7 @@ pub(crate) fn names(diagnosis: &Diagnosis) -> Vec<&str> {
 pub(crate) fn is_nobodys(diagnosed: impl Fn(u64) -> Diagnosis) {
     for seed in seeds(1, 6) {
         let found = diagnosed(seed);
-        assert_eq!(found.verdict, Verdict::Unexplained, "{seed}");
+        assert_eq!(found.verdict, Verdict::Unexplained, "{seed}: {:?}", names(&found));
         assert!(names(&found).is_empty(), "{seed}: {:?}", names(&found));
     }
 }

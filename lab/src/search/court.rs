@@ -365,9 +365,11 @@ impl<'a> Court<'a> {
         Some((index, farthest(claims.iter().filter(tells))?.words()))
     }
 
-    /// The one shape that explains as much as effects of several names, or nearly so.
+    /// The one shape that explains as much as effects of several names, or nearly so. One that contains them is
+    /// not simpler: the margin would be its price for a number that the record has no need of.
     fn simpler(&self, group: &[usize], claims: &[Claim<'a>]) -> Vec<(usize, String)> {
-        let near = farthest(claims).filter(|claim| -MARGIN < claim.ahead);
+        let others = claims.iter().filter(|claim| !self.contains(&claim.placed, group));
+        let near = farthest(others).filter(|claim| -MARGIN < claim.ahead);
         let Some(claim) = near.filter(|_| 1 < self.names(group).len()) else { return Vec::new() };
         group.iter().map(|&index| (index, claim.words())).collect()
     }
@@ -517,13 +519,17 @@ impl<'a> Court<'a> {
 
     /// True when the effects of a group are sums of the columns of a shape, which has more of them.
     fn contains(&self, placed: &Placed<'_>, group: &[usize]) -> bool {
-        let numbers: usize = group.iter().map(|&index| self.state.components[index].width()).sum();
-        if group.is_empty() || placed.columns.raw.len() <= numbers {
+        if group.is_empty() || placed.columns.raw.len() <= self.sizes(group) {
             return false;
         }
         let span = Span::of(self.problem, &placed.columns.raw);
         let shown = |&index: &usize| shown(self.problem, self.state, index);
         group.iter().all(|index| shown(index).is_some_and(|shown| span.has(&shown, SHAPE)))
+    }
+
+    /// Sizes of the effects of a group, those of each power of a curve among them.
+    fn sizes(&self, group: &[usize]) -> usize {
+        group.iter().map(|&index| self.state.components[index].width()).sum()
     }
 
     /// Chance of what a shape takes away beside all effects in noise, which may have tails.
@@ -554,10 +560,12 @@ impl<'a> Court<'a> {
         structure(&claim.placed, &shape, rms_um, claim.p_value)
     }
 
-    /// True for a shape that differs from what some effects show together by hardly anything.
+    /// True for a shape that differs from what some effects show together by hardly anything, and has more numbers:
+    /// a decay that a cubic follows is no cubic and more.
     fn is_hardly_another(&self, group: &[usize], claim: &Claim<'_>) -> bool {
         let least_um = SHARE_OF_AN_EFFECT * claim.size_um(self.problem);
-        self.apart_um(group, claim).is_some_and(|apart| apart < least_um)
+        self.sizes(group) < claim.placed.shape.numbers()
+            && self.apart_um(group, claim).is_some_and(|apart| apart < least_um)
     }
 
     /// By how much a shape differs from what some effects show together.
