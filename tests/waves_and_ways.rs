@@ -11,6 +11,9 @@ use crate::support::seeds::seeds;
 const TABLE: &str = "output.rotary = true\nspindle.speed = \"0.6 rpm\"\n\
                      gear = [{ name = \"worm\", order = 20 }]\n";
 
+/// An axis without a laser.
+const AXIS: &str = "spindle.speed = \"60 rpm\"\nlead_screw.lead = \"5 mm\"\n";
+
 /// One turn of a table in 100 s, 300 rows; the error is of the turn, 0 to 1.
 fn one_turn(seed: u64, noise: f64, error_arcsec: &dyn Fn(f64) -> f64) -> Diagnosis {
     let mut noise = white(seed, noise);
@@ -88,6 +91,29 @@ fn play_has_the_way_that_takes_it_up() {
 }
 
 /// A play that the whole way back would not take up is no play that was seen: a slope of the way back does as much.
+/// A line of each way contains both, for one number more that nobody needs.
+#[test]
+fn a_slope_and_play_are_no_line_of_each_way() {
+    for seed in seeds(1, 6) {
+        let mut noise = white(seed, 0.2);
+        let mut columns = [const { Vec::new() }; 4];
+        for row in 0..400_u16 {
+            let (pass, nth) = (f64::from(row / 200), f64::from(row % 200));
+            let (way, mm) =
+                if nth < 100.0 { (1.0, 4.0 * nth) } else { (-1.0, 4.0 * (199.0 - nth)) };
+            let time_s = 300.0 * pass + nth;
+            let cells = [pass, time_s, mm, 0.012 * mm - 0.5 * 1.5 * way + noise()];
+            columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+        }
+        let titles = ["pass", "time_s", "position_mm", "error_um"];
+        let found = diagnosed_on(AXIS, titles.into_iter().zip(columns).collect());
+        let mut both = names(&found);
+        both.sort_unstable();
+        assert_eq!(both, ["backlash", "screw-progressive"], "{seed}");
+        assert_eq!(found.verdict, Verdict::Explained, "{seed}");
+    }
+}
+
 #[test]
 fn a_way_beyond_all_that_was_gone_is_no_play() {
     for seed in seeds(1, 3) {
@@ -174,9 +200,8 @@ fn to_and_fro(strokes_um: &[u32]) -> Diagnosis {
         }
         way = -way;
     }
-    let machine = "spindle.speed = \"60 rpm\"\nlead_screw.lead = \"5 mm\"\n";
     let names = ["time_s", "position_mm", "error_um"];
-    diagnosed_on(machine, names.into_iter().zip(columns).collect())
+    diagnosed_on(AXIS, names.into_iter().zip(columns).collect())
 }
 
 #[test]

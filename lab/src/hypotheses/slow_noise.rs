@@ -6,11 +6,14 @@
 use super::flaws::above_flaws;
 use super::probes::Structure;
 use crate::model::{Fit, Judged, Problem, State};
-use crate::noise::{Layout, Noise, effective_samples, is_surely_slow, rms, weighed_rms};
+use crate::noise::{
+    Layout, Noise, effective_samples, is_surely_slow, rms, smooth_fit, weighed_rms,
+};
 use crate::numerics::count;
 use crate::policy::chance::{NO_CHANCE, NO_CHANCE_BESIDE, NO_CHANCE_SWIFT};
 use crate::policy::size::{
-    BESIDE_EFFECTS, SMOOTH_SHARE, SWIFT_FOR_ALL, SWIFT_WITH_IT, WORTH_A_PASS, WORTH_AN_ALL_CLEAR,
+    BESIDE_EFFECTS, ROWS_OF_A_MEAN, SLOW_ENOUGH, SMOOTH_SHARE, SMOOTHER, SWIFT_FOR_ALL,
+    SWIFT_WITH_IT, WORTH_A_PASS, WORTH_AN_ALL_CLEAR,
 };
 
 /// The smooth curve that a noise as slow as the pass has taken for its own, if it is most of what
@@ -83,6 +86,26 @@ pub(crate) fn slow_without(
     })?;
     let name = &judged.component.term.name;
     Some(slow(problem, fit, &format!("{name}, beside which it is worth {worth:.0}")))
+}
+
+/// What a model leaves, where that is slow and too smooth for noise that forgets: what two worn places of opposite
+/// sign draw in one pass looks slow, and beside either of them no less so.
+#[must_use]
+pub(crate) fn smooth_cause(problem: &Problem, fit: &Fit) -> Option<Structure> {
+    let of_sensor = |sensor: usize| {
+        let (layout, rows) = problem.layout.of_sensor(sensor);
+        let noise = &fit.noises[sensor];
+        if SLOW_ENOUGH <= worth_of(&layout, noise) {
+            return None;
+        }
+        let smooth = smooth_fit(&layout, &fit.left[rows], noise);
+        (ROWS_OF_A_MEAN <= smooth.length && SMOOTHER < smooth.ahead).then_some(smooth.ahead)
+    };
+    let ahead = (0..problem.sensors.len()).filter_map(of_sensor).reduce(f64::max)?;
+    let rms_um = weighed_rms(&problem.layout, &fit.left);
+    let p_value = libm::exp(-0.5 * ahead);
+    let cause = Structure::without_place("time", "slow and smoother than noise", rms_um, p_value);
+    above_flaws(problem, fit, &cause).then_some(cause)
 }
 
 /// Noise that is slow, or something else.

@@ -127,7 +127,7 @@ fn best_of(fits: impl Iterator<Item = NoiseFit>) -> NoiseFit {
 }
 
 /// How far a parameter may go at once, and what the likelihood may still gain at the end.
-const DESCENT: Descent = Descent { iterations: 24, longest: 1.5, tolerance: 0.02 };
+pub(super) const DESCENT: Descent = Descent { iterations: 24, longest: 1.5, tolerance: 0.02 };
 
 fn searched<const D: usize>(
     layout: &Layout,
@@ -155,16 +155,35 @@ fn shaped(point: &[f64], span: f64) -> Noise {
 
 /// The likelihood of noise shapes with equally many parts, their scales at their best values.
 fn profiles(layout: &Layout, residual: &[f64], shapes: &[Noise]) -> Vec<NoiseFit> {
-    let freedom = count(layout.len().saturating_sub(layout.blocks.len())).max(1.0);
     let swept = squares_and_log_determinants(layout, shapes, residual);
     let with_shape = swept.into_iter().zip(shapes);
     with_shape
         .map(|((square, log_determinant), shape)| {
-            let scale = (square / freedom).max(f64::MIN_POSITIVE);
-            let log_likelihood = -0.5 * (freedom * (libm::log(scale) + 1.0) + log_determinant);
-            NoiseFit { noise: shape.scaled(scale), log_likelihood }
+            let log_likelihood = scaled_likelihood(layout, square, log_determinant);
+            NoiseFit { noise: shape.scaled(likeliest_scale(layout, square)), log_likelihood }
         })
         .collect()
+}
+
+/// Rows that tell of a noise, those gone for the zeros of the passes.
+fn freedom(layout: &Layout) -> f64 {
+    count(layout.len().saturating_sub(layout.blocks.len())).max(1.0)
+}
+
+/// Scale of a noise whose shape whitens a residual to a square.
+fn likeliest_scale(layout: &Layout, square: f64) -> f64 {
+    (square / freedom(layout)).max(f64::MIN_POSITIVE)
+}
+
+/// Restricted log likelihood at that scale.
+pub(super) fn scaled_likelihood(layout: &Layout, square: f64, log_determinant: f64) -> f64 {
+    let scale = likeliest_scale(layout, square);
+    -0.5 * (freedom(layout) * (libm::log(scale) + 1.0) + log_determinant)
+}
+
+/// The same of a shape of noise for a residual.
+pub(super) fn log_likelihood_of(layout: &Layout, residual: &[f64], shape: &Noise) -> f64 {
+    profile(layout, residual, shape).log_likelihood
 }
 
 fn profile(layout: &Layout, residual: &[f64], shape: &Noise) -> NoiseFit {
