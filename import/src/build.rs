@@ -74,7 +74,10 @@ impl Understood<'_> {
     /// Directions, which a recipe may turn.
     fn ways(&self, index: usize, rule: &ColumnRule) -> Result<Vec<f64>, ImportError> {
         let expected = "a direction: 1, -1, or a word for it";
-        let mut ways = self.named(index, direction_of, expected)?;
+        let mut ways = match self.two_words(index) {
+            Some(ways) => ways,
+            None => self.named(index, direction_of, expected)?,
+        };
         if rule.sign == Some(-1) {
             for way in &mut ways {
                 *way = 0.0 - *way;

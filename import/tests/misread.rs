@@ -296,12 +296,36 @@ fn directions_in_other_numbers_are_told_by_the_positions() {
         let proposal = read(&table(&way, &there_and_back));
         let found = column(&proposal, "direction");
         assert_eq!([found[3], found[30]].map(f64::to_bits), [1.0_f64, -1.0].map(f64::to_bits));
-        assert_eq!(proposal.notes, [format!("direction {back} is back, as the positions go")]);
+        assert_eq!(proposal.notes, [format!("direction `{back}` is back, as the positions go")]);
         let message = refused(&table(&way, &|row| row), "");
         let start = "data.csv:";
         let end = "which the positions do not tell, expected 1, -1, or a word for it\n\nhint: `to = \"none\"` leaves the column out";
         assert!(message.starts_with(start) && message.ends_with(end), "{message}");
     }
+}
+
+/// Words that name no direction are told by the positions as well, where there are two of them.
+#[test]
+fn directions_in_other_words_are_told_by_the_positions() {
+    let table = |ways: [&str; 2], position: &dyn Fn(u32) -> u32| {
+        file("Position [mm],Error [um],Direction", |row| {
+            format!("{},0.{row},{}", position(row), ways[usize::from(20 <= row)])
+        })
+    };
+    let there_and_back = |row: u32| if row < 20 { row } else { 40 - row };
+    for ways in [["CW", "CCW"], ["U", "D"], ["aller", "retour"], ["+", "back again"]] {
+        let proposal = read(&table(ways, &there_and_back));
+        let found = column(&proposal, "direction");
+        assert_eq!([found[3], found[30]].map(f64::to_bits), [1.0_f64, -1.0].map(f64::to_bits));
+        assert_eq!(
+            proposal.notes,
+            [format!("direction `{}` is back, as the positions go", ways[1])]
+        );
+        let message = refused(&table(ways, &|row| row), "");
+        assert!(message.contains("which the positions do not tell"), "{message}");
+    }
+    let message = refused(&table(["CW", "CCW"], &there_and_back).replace("0.7,CW", "0.7,stop"), "");
+    assert!(message.contains("expected a direction: 1, -1, or a word for it"), "{message}");
 }
 
 /// A column that is there and cannot be read is named, with a cell of it.

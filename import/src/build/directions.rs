@@ -1,16 +1,34 @@
-//! Directions in numbers of their own, 1 and 2 or 1 and 0: which of them is back, the positions show.
+//! Directions in numbers or words of their own, 1 and 2 or CW and CCW: which of them is back, the positions show.
+
+use std::collections::BTreeSet;
 
 use helixlock_traces::Column;
 
 use super::Understood;
 use crate::decide::Decisions;
 use crate::error::{ImportError, quoted};
+use crate::runs::direction_of;
 use crate::samples::rows;
 
 /// Of the steps under one number so many go the same way, at least.
 const MOST: f64 = 0.8;
 
 impl Understood<'_> {
+    /// Two words of a column, one of which at least names no direction, as 1 and 2.
+    pub(super) fn two_words(&self, index: usize) -> Option<Vec<f64>> {
+        let cells: Vec<&str> =
+            rows(self.outline).into_iter().map(|row| self.grid.cell(row, index).trim()).collect();
+        let words: BTreeSet<&str> = cells.iter().copied().filter(|cell| !cell.is_empty()).collect();
+        let unknown = |word: &&str| direction_of(word).is_none() && word.parse::<f64>().is_err();
+        let [one, other] = words.iter().copied().collect::<Vec<&str>>()[..] else { return None };
+        let number = |cell: &str| match cell {
+            cell if cell == one => 1.0,
+            cell if cell == other => 2.0,
+            _ => f64::NAN,
+        };
+        [one, other].iter().any(unknown).then(|| cells.into_iter().map(number).collect())
+    }
+
     /// Makes them 1 and −1; refuses those that the positions do not tell.
     pub(super) fn directed(
         &self,
@@ -37,7 +55,10 @@ impl Understood<'_> {
             && !is(first, second)
         {
             let back = if first < 0.0 { one } else { other };
-            decisions.note(format!("direction {back} is back, as the positions go"));
+            let row = found.iter().position(|value| is(*value, back)).unwrap_or(0);
+            let word =
+                self.grid.cell(rows(self.outline)[row], self.index_of("direction").unwrap_or(0));
+            decisions.note(format!("direction {} is back, as the positions go", quoted(word)));
             let ours = |value: f64| {
                 if value.is_nan() {
                     value
