@@ -280,6 +280,18 @@ fn packed_arrays_are_unpacked_and_the_recipe_says_so() {
     }
 }
 
+/// Texts of one length and of any; what is no unit is none.
+#[test]
+fn units_of_arrays_stand_in_their_attributes() {
+    let bytes = include_bytes!("samples/units.h5");
+    let proposal = propose(&[Source { name: "units.h5", bytes }], &Recipe::default());
+    let proposal = proposal.unwrap_or_else(|error| panic!("{error}"));
+    assert!(proposal.questions.is_empty(), "{:?}", proposal.questions);
+    for (name, expected) in [("time_s", 2.0), ("position_mm", 1.0), ("error_um", libm::sin(1.0))] {
+        assert!((column(&proposal, name)[4] - expected).abs() < 1e-9, "{name}");
+    }
+}
+
 /// A number in parentheses is asked about; columns that are counted so in the header are not.
 #[test]
 fn numbers_in_parentheses_are_asked_about() {

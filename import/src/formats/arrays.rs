@@ -12,6 +12,8 @@ use crate::recipe::Value;
 /// Numbers with a name, column by column.
 pub(crate) struct Array {
     pub(crate) name: String,
+    /// Its unit, where the file tells it beside the name.
+    pub(crate) unit: Option<String>,
     pub(crate) rows: usize,
     pub(crate) values: Vec<f64>,
 }
@@ -73,7 +75,8 @@ impl Array {
         let many = rows < self.values.len();
         self.values.chunks(rows).enumerate().map(move |(index, values)| {
             let number = if many { format!(" {}", index + 1) } else { String::new() };
-            (format!("{name}{number}"), values)
+            let unit = self.unit.as_ref().map_or(String::new(), |unit| format!(" [{unit}]"));
+            (format!("{name}{number}{unit}"), values)
         })
     }
 }

@@ -10,6 +10,7 @@ use hdf5_reader::{Dataset, H5Type, Hdf5File, OpenOptions, dtype_element_size};
 
 use super::arrays::{self, Array};
 use crate::build::rounded;
+use crate::data;
 use crate::decide::Decisions;
 use crate::error::ImportError;
 use crate::grid::Grid;
@@ -155,6 +156,7 @@ impl Walk {
         if let [Member { name, .. }] = members.as_slice() {
             self.packed.extend(Packing::of(set).map(|packing| (name.clone(), packing)));
         }
+        let unit = unit_of(set);
         let (bytes, element) = (set.read_raw_bytes()?, set.raw_element_size()?.max(1));
         for member in members {
             let values: Option<Vec<f64>> =
@@ -169,10 +171,17 @@ impl Walk {
                 (_, true) => (columns, values),
                 (_, false) => (rows, transposed(&values, columns)),
             };
-            self.arrays.push(Array { name: member.name, rows, values });
+            self.arrays.push(Array { name: member.name, unit: unit.clone(), rows, values });
         }
         Ok(())
     }
+}
+
+/// The unit that an attribute of a set tells, as CF conventions have it (section 3.1) or without the plural.
+fn unit_of(set: &Dataset) -> Option<String> {
+    let text = |name| set.attribute(name).ok()?.read_string().ok();
+    let told = text("units").or_else(|| text("unit"))?;
+    data::unit(told.trim(), "").map(|_| told.trim().to_owned())
 }
 
 /// A part of each element of a set: a number, or what holds numbers.

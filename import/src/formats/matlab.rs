@@ -154,7 +154,7 @@ fn walk(mut parts: Elements<'_>, path: &str, depth: usize, found: &mut Found) ->
             let (rows, columns) = arrays::upright(&shape)?;
             let values = numbers(kind, body, is_swapped)?;
             let whole = !values.is_empty() && values.len() == rows.checked_mul(columns)?;
-            whole.then(|| found.arrays.push(Array { name, rows, values }))
+            whole.then(|| found.arrays.push(Array { name, unit: None, rows, values }))
         }
         class if class == SPARSE || NUMBERS.contains(&class) => {
             let what = if class == SPARSE { "sparse numbers" } else { "complex numbers" };
