@@ -125,6 +125,7 @@ fn read(source: Source<'_>, decisions: &mut Decisions<'_>) -> Result<Built, Impo
         let grid = match format {
             "spreadsheet" => formats::spreadsheet::grid(source.bytes, decisions)?,
             "npy" => formats::npy::grid(source.name, source.bytes)?,
+            "npz" => formats::npz::grid(source.bytes, decisions)?,
             "arrow" => formats::arrow::grid(source.bytes, decisions)?,
             "matlab" => formats::matlab::grid(source.bytes, decisions)?,
             "hdf5" => formats::hdf5::grid(source.bytes, decisions)?,

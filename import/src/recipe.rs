@@ -52,6 +52,7 @@ pub(crate) const FORMATS: &[&str] = &[
     "spreadsheet",
     "parquet",
     "npy",
+    "npz",
     "arrow",
     "matlab",
     "hdf5",

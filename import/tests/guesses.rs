@@ -292,6 +292,21 @@ fn units_of_arrays_stand_in_their_attributes() {
     }
 }
 
+/// Arrays of one length are columns; words and objects of Python are none.
+#[test]
+fn an_archive_of_numpy_is_its_arrays() {
+    let bytes = include_bytes!("samples/arrays.npz");
+    let read = |bytes: &[u8]| propose(&[Source { name: "arrays.npz", bytes }], &Recipe::default());
+    let proposal = read(bytes).unwrap_or_else(|error| panic!("{error}"));
+    assert!(proposal.questions.is_empty(), "{:?}", proposal.questions);
+    assert_eq!(proposal.notes[0], "2 columns that hold no numbers are left out, first `label`");
+    for (name, expected) in [("time_s", 2.0), ("position_mm", 1.0), ("error_um", libm::sin(1.0))] {
+        assert!((column(&proposal, name)[4] - expected).abs() < 1e-9, "{name}");
+    }
+    let message = read(&bytes[..bytes.len() - 30]).expect_err("a part of it").to_string();
+    assert!(message.starts_with("arrays.npz: found "), "{message}");
+}
+
 /// A number in parentheses is asked about; columns that are counted so in the header are not.
 #[test]
 fn numbers_in_parentheses_are_asked_about() {

@@ -11,6 +11,7 @@ pub(crate) mod linuxcnc;
 pub(crate) mod markdown;
 pub(crate) mod matlab;
 pub(crate) mod npy;
+pub(crate) mod npz;
 pub(crate) mod parquet;
 pub(crate) mod phd2;
 pub(crate) mod phd2_debug;
@@ -38,6 +39,9 @@ pub(crate) fn binary(
             }
             () if holds(b"opendocument") => {
                 Ok(Some(("spreadsheet", "a ZIP archive of OpenDocument")))
+            }
+            () if holds(b".npy") => {
+                Ok(Some(("npz", "a ZIP archive with `.npy` in it: arrays of NumPy")))
             }
             () => Err(refused(name, "a ZIP archive", "unpack it, and import what is in it")),
         };

@@ -28,6 +28,27 @@ struct Header {
 
 /// Reads an array as a grid; records have a row of names.
 pub(crate) fn grid(file: &str, bytes: &[u8]) -> Result<Grid, ImportError> {
+    let columns = columns(file, bytes)?;
+    let mut grid = Grid::of_sheet(file, "array");
+    if columns.iter().any(|(name, _)| !name.is_empty()) {
+        grid.start_row(0, false);
+        for (index, (name, _)) in columns.iter().enumerate() {
+            grid.push(name, index + 1)?;
+        }
+    }
+    for row in 0..columns.first().map_or(0, |(_, values)| values.len()) {
+        grid.start_row(row + 1, false);
+        for (index, (_, values)) in columns.iter().enumerate() {
+            let value = values[row];
+            let cell = if value.is_nan() { String::new() } else { value.to_string() };
+            grid.push(&cell, index + 1)?;
+        }
+    }
+    Ok(grid)
+}
+
+/// The columns of an array, those of records with their names; what is not finite is NaN.
+pub(super) fn columns(file: &str, bytes: &[u8]) -> Result<Vec<(String, Vec<f64>)>, ImportError> {
     let (text, data) = parted(bytes).ok_or_else(|| {
         let found = format!("the end of the file at byte {}", bytes.len());
         refused(file, &found, "a header of NumPy")
@@ -49,7 +70,7 @@ pub(crate) fn grid(file: &str, bytes: &[u8]) -> Result<Grid, ImportError> {
             &format!("{size} as the header says"),
         ));
     }
-    header.fill(file, data, row_size)
+    Ok(header.columns(data, row_size))
 }
 
 /// The header's text, and the data behind it.
@@ -90,34 +111,27 @@ impl Header {
         Ok(Self { names, kinds, rows, columns, fortran })
     }
 
-    fn fill(&self, file: &str, data: &[u8], row_size: usize) -> Result<Grid, ImportError> {
-        let mut grid = Grid::of_sheet(file, "array");
-        if !self.names.is_empty() {
-            grid.start_row(0, false);
-            for (index, name) in self.names.iter().enumerate() {
-                grid.push(name, index + 1)?;
-            }
-        }
-        for row in 0..self.rows {
-            grid.start_row(row + 1, false);
-            for column in 0..self.columns {
-                let index = if self.fortran {
-                    column * self.rows + row
-                } else {
-                    row * self.columns + column
+    /// The numbers of each column, and in each column of each field.
+    fn columns(&self, data: &[u8], row_size: usize) -> Vec<(String, Vec<f64>)> {
+        let mut columns = Vec::new();
+        for column in 0..self.columns {
+            let mut offset = 0;
+            for (field, kind) in self.kinds.iter().enumerate() {
+                let number = |row: usize| {
+                    let index = if self.fortran {
+                        column * self.rows + row
+                    } else {
+                        row * self.columns + column
+                    };
+                    let at = index * row_size + offset;
+                    kind.read(&data[at..at + kind.size]).unwrap_or(f64::NAN)
                 };
-                let mut at = index * row_size;
-                for (offset, kind) in self.kinds.iter().enumerate() {
-                    let value = kind.read(&data[at..at + kind.size]);
-                    grid.push(
-                        &value.map_or_else(String::new, |value| value.to_string()),
-                        column + offset + 1,
-                    )?;
-                    at += kind.size;
-                }
+                let name = self.names.get(field).cloned().unwrap_or_default();
+                columns.push((name, (0..self.rows).map(number).collect()));
+                offset += kind.size;
             }
         }
-        Ok(grid)
+        columns
     }
 }
 
