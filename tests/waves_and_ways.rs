@@ -31,6 +31,26 @@ fn last(found: &Diagnosis) -> &[FittedEffect] {
     found.rounds.last().map_or(&[], |round| &round.effects)
 }
 
+/// A table that seats on one of two faces: over one turn its square wave is no eccentricity and what the disc's
+/// divisions add to it.
+#[test]
+fn a_square_wave_of_one_turn_is_no_waves_of_the_disc() {
+    const DISC: &str = "output.rotary = true\nspindle.speed = \"0.6 rpm\"\n\
+                        grating = { lines = 36000, diameter = \"150 mm\" }\n";
+    for seed in seeds(1, 6) {
+        let mut noise = white(seed, 0.3);
+        let turn = |row: u16| f64::from(row) / 300.0;
+        let square = |turn: f64| if (turn + 0.13).fract() < 0.5 { 0.5 } else { -0.5 };
+        let columns = vec![
+            ("time_s", (0..300).map(|row| 100.0 * turn(row)).collect()),
+            ("angle_rev", (0..300).map(turn).collect()),
+            ("error_arcsec", (0..300).map(|row| square(turn(row)) + noise()).collect()),
+        ];
+        let found = diagnosed_on(DISC, columns);
+        assert_eq!(found.verdict, Verdict::Unexplained, "{seed}: {:?}", names(&found));
+    }
+}
+
 /// A shaft that nobody listed repeats each turn too, and so does all of it together.
 #[test]
 fn a_wave_keeps_its_name_beside_a_smaller_shape_of_each_turn() {

@@ -7,6 +7,7 @@ use super::shape::{Part, Shape};
 use super::{logged, moving, turning};
 use crate::model::{Problem, Shaft};
 use crate::numerics::{evenly, spread};
+use crate::policy::extent::{MOST_OF_A_TURN, TURNS};
 
 /// The plain shapes: what stands in the place of effects whenever a model is judged.
 #[must_use]
@@ -55,9 +56,10 @@ pub(crate) fn formulas(problem: &Problem) -> Vec<Shape> {
     all
 }
 
-/// What comes with every turn of shafts, those of gears or the others.
+/// What comes with every turn of shafts, those of gears or the others: over as much of one as its waves have names.
 fn each_turn(all: &Quantities, problem: &Problem, of_a_gear: bool) -> Vec<Shape> {
-    let shafts = problem.shafts().into_iter().filter(|shaft| shaft.of_a_gear == of_a_gear);
+    let shafts =
+        problem.shafts(MOST_OF_A_TURN).into_iter().filter(|shaft| shaft.of_a_gear == of_a_gear);
     let of = |Shaft { name, order, .. }: Shaft| turning::each_turn(all, &name, order);
     shafts.flat_map(of).collect()
 }
@@ -66,7 +68,7 @@ fn each_turn(all: &Quantities, problem: &Problem, of_a_gear: bool) -> Vec<Shape>
 /// back, for between two reversals they differ little.
 fn each_way(all: &Quantities, problem: &Problem) -> Vec<Shape> {
     let of = |Shaft { name, order, .. }: Shaft| turning::each_way(all, &name, order);
-    problem.shafts().into_iter().filter_map(of).collect()
+    problem.shafts(TURNS).into_iter().filter_map(of).collect()
 }
 
 /// A shape without unknowns, to be filled.

@@ -180,9 +180,9 @@ pub(super) fn again_and_again(all: &Quantities) -> Vec<Shape> {
         again(
             "sawtooth",
             "a rack or scale of pieces, each as long as the period",
-            4.0,
+            2.0,
             32.0,
-            [94, 5],
+            [100, 5],
         )
         .curve("size", call(Function::Fract, waves())),
         again(
@@ -198,11 +198,11 @@ pub(super) fn again_and_again(all: &Quantities) -> Vec<Shape> {
             "triangles",
             "a guide ground in strokes, supports at even distances",
             1.0,
-            4.0,
-            [16, 12],
+            12.0,
+            [45, 8],
         )
         .curve("size", triangle(waves())),
-        again("half waves", "contact at one side only: what lifts off", 1.0, 4.0, [16, 12])
+        again("half waves", "contact at one side only: what lifts off", 1.0, 12.0, [45, 8])
             .curve("size", ramp(call(Function::Sin, turns(waves())))),
         wave_of_changing_length(all),
     ]

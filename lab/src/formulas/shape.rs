@@ -180,6 +180,11 @@ impl Shape {
         self.parts.iter().map(Part::width).sum()
     }
 
+    /// Its sizes apart from those of what makes it.
+    pub(crate) fn sizes_beside(&self) -> usize {
+        self.parts[..self.parts.len() - self.makes].iter().map(Part::width).sum()
+    }
+
     /// Its numbers where only what makes it is left.
     pub(crate) fn fewest_numbers(&self) -> usize {
         self.parts.last().map_or(0, Part::width) + self.unknowns.len()

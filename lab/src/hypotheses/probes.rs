@@ -32,7 +32,7 @@ use crate::numerics::{chi_squared_tail, count, spread};
 use crate::policy::chance::{MANY_COLUMNS, NAMED, PROBES, SIGNIFICANCE};
 use crate::policy::extent::{
     BUMP_ORDER, COLUMNS_OF_PASSES, CURVE_OF_A_LOG, CURVE_OF_A_PASS, CURVE_ORDER, HARMONICS,
-    ROWS_A_COLUMN, SLOWEST_WAVES, WAVE_ORDER,
+    ROWS_A_COLUMN, SLOWEST_WAVES, TURNS, WAVE_ORDER,
 };
 use crate::policy::size::{FAR_ABOVE, LOOP_JUMP, SHARE_OF_NOISE};
 use crate::spectrum::Line;
@@ -97,7 +97,7 @@ const AT_TARGETS: &str = "own error of each target, at every visit";
 pub(super) fn probes(problem: &Problem) -> f64 {
     let columns = 2 * problem.measurement.covariates.len();
     let speeds = usize::from(problem.velocity_rpm().is_some());
-    PROBES + count(columns + speeds + problem.shafts().len().saturating_sub(2))
+    PROBES + count(columns + speeds + problem.shafts(TURNS).len().saturating_sub(2))
 }
 
 /// Chance of one probe with all of them counted.
@@ -438,7 +438,7 @@ fn cyclic_shapes(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure
         Structure::without_place(&shaft.name, "shape that repeats each turn", rms_um, p_value)
             .drawn_by(raw)
     };
-    problem.shafts().into_iter().map(of).collect()
+    problem.shafts(TURNS).into_iter().map(of).collect()
 }
 
 /// What comes back with every day, in a record of more than one: of all waves the one that is known beforehand.

@@ -2,7 +2,7 @@
 
 use super::problem::Problem;
 use crate::numerics::spread;
-use crate::policy::extent::{MOST_SHAFTS, TURNS};
+use crate::policy::extent::MOST_SHAFTS;
 
 /// A shaft.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,9 +15,10 @@ pub(crate) struct Shaft {
 }
 
 impl Problem {
-    /// The spindle, the machine's screw and the slowest shafts of its gears.
+    /// The spindle, the machine's screw and the slowest shafts of its gears, of those that make more than so many
+    /// turns.
     #[must_use]
-    pub(crate) fn shafts(&self) -> Vec<Shaft> {
+    pub(crate) fn shafts(&self, least_turns: f64) -> Vec<Shaft> {
         let screw = self.model.lead_screw.as_ref().filter(|_| !self.model.rotary);
         let screw = screw.map(|lead| self.model.workpiece.lead.mm() / lead.mm());
         let own = [("spindle angle", Some(1.0)), ("machine screw angle", screw)];
@@ -35,7 +36,7 @@ impl Problem {
         let mut shafts: Vec<Shaft> = Vec::new();
         for shaft in own.chain(gears) {
             let order = shaft.order;
-            let is_met = order < self.highest_order() && TURNS < order * turns;
+            let is_met = order < self.highest_order() && least_turns < order * turns;
             let is_new = |other: &Shaft| 1e-9 * order < (other.order - order).abs();
             if is_met && shafts.iter().all(is_new) && shafts.len() < MOST_SHAFTS {
                 shafts.push(shaft);

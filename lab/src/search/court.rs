@@ -365,10 +365,13 @@ impl<'a> Court<'a> {
         Some((index, farthest(claims.iter().filter(tells))?.words()))
     }
 
-    /// The one shape that explains as much as effects of several names, or nearly so. One that contains them is
-    /// not simpler: the margin would be its price for a number that the record has no need of.
+    /// The one shape that explains as much as effects of several names, or nearly so. One that is these effects
+    /// and what makes it is not simpler: the margin would be its price for a number that the record has no need of.
     fn simpler(&self, group: &[usize], claims: &[Claim<'a>]) -> Vec<(usize, String)> {
-        let others = claims.iter().filter(|claim| !self.contains(&claim.placed, group));
+        let adds = |placed: &Placed<'_>| {
+            self.are_sums_of(&placed.columns.raw[..placed.shape.sizes_beside()], group)
+        };
+        let others = claims.iter().filter(|claim| !adds(&claim.placed));
         let near = farthest(others).filter(|claim| -MARGIN < claim.ahead);
         let Some(claim) = near.filter(|_| 1 < self.names(group).len()) else { return Vec::new() };
         group.iter().map(|&index| (index, claim.words())).collect()
@@ -519,12 +522,15 @@ impl<'a> Court<'a> {
 
     /// True when the effects of a group are sums of the columns of a shape, which has more of them.
     fn contains(&self, placed: &Placed<'_>, group: &[usize]) -> bool {
-        if group.is_empty() || placed.columns.raw.len() <= self.sizes(group) {
-            return false;
-        }
-        let span = Span::of(self.problem, &placed.columns.raw);
+        self.sizes(group) < placed.columns.raw.len() && self.are_sums_of(&placed.columns.raw, group)
+    }
+
+    /// True when the effects of a group, one at least, are sums of some columns.
+    fn are_sums_of(&self, columns: &[Column], group: &[usize]) -> bool {
+        let span = Span::of(self.problem, columns);
         let shown = |&index: &usize| shown(self.problem, self.state, index);
-        group.iter().all(|index| shown(index).is_some_and(|shown| span.has(&shown, SHAPE)))
+        !group.is_empty()
+            && group.iter().all(|index| shown(index).is_some_and(|shown| span.has(&shown, SHAPE)))
     }
 
     /// Sizes of the effects of a group, those of each power of a curve among them.
