@@ -48,9 +48,7 @@ pub(crate) fn formulas(problem: &Problem) -> Vec<Shape> {
     all.extend(turning::waves(&quantities, problem));
     all.extend(turning::swelling(&quantities, problem));
     all.extend(turning::resonances(&quantities, problem));
-    if quantities.have_places() {
-        all.extend(moving::powers(&quantities));
-    }
+    all.extend(moving::powers(&quantities));
     all.extend(moving::of_the_way(&quantities));
     all.extend(quantities.columns.iter().map(|one| logged::not_followed(&quantities, one)));
     all

@@ -347,13 +347,16 @@ pub(super) fn warming(all: &Quantities) -> Vec<Shape> {
 
 /// Powers along travel and time, and a decay in time.
 pub(super) fn powers(all: &Quantities) -> Vec<Shape> {
-    let (start, _) = from_start(&all.position);
-    let mut shapes = vec![
-        cube(&all.position, all.way()),
-        shape("parabola", all.way(), "a bed that sags, a screw of steadily changing lead")
-            .curve("slope", of(&all.position))
-            .curve("size", Expression::Power(Box::new(start), 2)),
-    ];
+    let mut shapes = Vec::new();
+    if all.have_places() {
+        let (start, _) = from_start(&all.position);
+        shapes.extend([
+            cube(&all.position, all.way()),
+            shape("parabola", all.way(), "a bed that sags, a screw of steadily changing lead")
+                .curve("slope", of(&all.position))
+                .curve("size", Expression::Power(Box::new(start), 2)),
+        ]);
+    }
     if all.timed && 0.0 < spread(&all.time.values) {
         shapes.extend([cube(&all.time, "time"), decay(&all.time, "time", "constant_s")]);
     }

@@ -84,9 +84,9 @@ pub(crate) const SMOOTHER: f64 = 5.0;
 
 /// Rows that a smooth part must be long.
 ///
-/// Measured: means of up to 16 rows, rows held or filtered are smooth over no more than 5; what two places draw
-/// is over 16 and more. Doubled: some of these are not told.
-pub(crate) const ROWS_OF_A_MEAN: f64 = 8.0;
+/// Measured: means of up to 16 rows are smooth over no more than 5, filters of three poles of four rows over 9;
+/// what two places draw is over 16 and more. Doubled: two of 37 of these are not told.
+pub(crate) const ROWS_OF_A_MEAN: f64 = 12.0;
 
 /// Share of what is left from which on a smooth curve under such noise is reported.
 ///
