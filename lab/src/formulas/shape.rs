@@ -182,7 +182,8 @@ impl Shape {
 
     /// Its sizes apart from those of what makes it.
     pub(crate) fn sizes_beside(&self) -> usize {
-        self.parts[..self.parts.len() - self.makes].iter().map(Part::width).sum()
+        let others = self.parts.len().saturating_sub(self.makes);
+        self.parts.iter().take(others).map(Part::width).sum()
     }
 
     /// Its numbers where only what makes it is left.

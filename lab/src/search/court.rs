@@ -369,7 +369,8 @@ impl<'a> Court<'a> {
     /// and what makes it is not simpler: the margin would be its price for a number that the record has no need of.
     fn simpler(&self, group: &[usize], claims: &[Claim<'a>]) -> Vec<(usize, String)> {
         let adds = |placed: &Placed<'_>| {
-            self.are_sums_of(&placed.columns.raw[..placed.shape.sizes_beside()], group)
+            let beside = placed.columns.raw.get(..placed.shape.sizes_beside());
+            beside.is_some_and(|columns| self.are_sums_of(columns, group))
         };
         let others = claims.iter().filter(|claim| !adds(&claim.placed));
         let near = farthest(others).filter(|claim| -MARGIN < claim.ahead);
