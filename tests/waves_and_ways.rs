@@ -15,7 +15,7 @@ const TABLE: &str = "output.rotary = true\nspindle.speed = \"0.6 rpm\"\n\
 const AXIS: &str = "spindle.speed = \"60 rpm\"\nlead_screw.lead = \"5 mm\"\n";
 
 /// One turn of a table in 100 s, 300 rows; the error is of the turn, 0 to 1.
-fn one_turn(seed: u64, noise: f64, error_arcsec: &dyn Fn(f64) -> f64) -> Diagnosis {
+fn one_turn(machine: &str, seed: u64, noise: f64, error_arcsec: &dyn Fn(f64) -> f64) -> Diagnosis {
     let mut noise = white(seed, noise);
     let turn = |row: u16| f64::from(row) / 300.0;
     let columns = vec![
@@ -23,7 +23,7 @@ fn one_turn(seed: u64, noise: f64, error_arcsec: &dyn Fn(f64) -> f64) -> Diagnos
         ("angle_rev", (0..300).map(turn).collect()),
         ("error_arcsec", (0..300).map(|row| error_arcsec(turn(row)) + noise()).collect()),
     ];
-    diagnosed_on(TABLE, columns)
+    diagnosed_on(machine, columns)
 }
 
 /// Effects of the last round.
@@ -38,15 +38,8 @@ fn a_square_wave_of_one_turn_is_no_waves_of_the_disc() {
     const DISC: &str = "output.rotary = true\nspindle.speed = \"0.6 rpm\"\n\
                         grating = { lines = 36000, diameter = \"150 mm\" }\n";
     for seed in seeds(1, 6) {
-        let mut noise = white(seed, 0.3);
-        let turn = |row: u16| f64::from(row) / 300.0;
         let square = |turn: f64| if (turn + 0.13).fract() < 0.5 { 0.5 } else { -0.5 };
-        let columns = vec![
-            ("time_s", (0..300).map(|row| 100.0 * turn(row)).collect()),
-            ("angle_rev", (0..300).map(turn).collect()),
-            ("error_arcsec", (0..300).map(|row| square(turn(row)) + noise()).collect()),
-        ];
-        let found = diagnosed_on(DISC, columns);
+        let found = one_turn(DISC, seed, 0.3, &square);
         assert_eq!(found.verdict, Verdict::Unexplained, "{seed}: {:?}", names(&found));
     }
 }
@@ -174,7 +167,7 @@ fn a_vibration_is_told_where_the_axis_turns_back() {
         let shaken = |time_s: f64| 0.5 * libm::sin(TAU * 0.413 * time_s + 1.0);
         let found = there_and_back(seed, &|time_s, _, _| shaken(time_s));
         assert_eq!(names(&found), ["vibration"], "{seed}");
-        let found = one_turn(seed, 0.3, &|turn| shaken(100.0 * turn));
+        let found = one_turn(TABLE, seed, 0.3, &|turn| shaken(100.0 * turn));
         assert_eq!(names(&found), Vec::<&str>::new(), "{seed}");
         assert_eq!(found.verdict, Verdict::Unexplained);
     }

@@ -50,7 +50,7 @@ pub(crate) use probes::{
 };
 pub(crate) use setting_trial::setting_trials;
 pub(crate) use slow_noise::{
-    no_all_clear, samples_a_pass, slow_cause, slow_without, smooth_cause, taken_for_noise,
+    no_all_clear, samples_a_pass, slow_cause, slow_or_smooth, taken_for_noise,
 };
 pub(crate) use tails::chance_with_tails;
 pub(crate) use trial::{Trial, gain_at, try_candidate};

@@ -9,6 +9,9 @@ use crate::place::Place;
 use crate::question::Answer;
 use crate::recipe::Value;
 
+/// What an array holds that is passed over.
+pub(crate) const NO_NUMBERS: &str = "no numbers";
+
 /// Numbers with a name, column by column.
 pub(crate) struct Array {
     pub(crate) name: String,

@@ -26,9 +26,6 @@ const SETS: usize = 10_000;
 /// Most numbers in one element of a compound set.
 const MEMBERS: usize = 1_000;
 
-/// What a set holds that is passed over.
-const NO_NUMBERS: &str = "no numbers";
-
 /// Where MATLAB keeps what its cells refer to.
 const REFERENCES: &str = "#refs#";
 
@@ -143,7 +140,7 @@ impl Walk {
         let mut members = Vec::new();
         Member { name: name.clone(), offset: 0, kind: set.dtype() }.numbers(&mut members);
         if members.is_empty() && 1 < rows {
-            self.passed_over.push((name, NO_NUMBERS.to_owned()));
+            self.passed_over.push((name, arrays::NO_NUMBERS.to_owned()));
         }
         let cells = rows.saturating_mul(columns).saturating_mul(members.len());
         self.numbers = self.numbers.saturating_add(cells);
@@ -162,7 +159,7 @@ impl Walk {
             let values: Option<Vec<f64>> =
                 bytes.chunks_exact(element).map(|element| member.value(element)).collect();
             let Some(values) = values.filter(|values| values.len() == rows * columns) else {
-                self.passed_over.push((member.name, NO_NUMBERS.to_owned()));
+                self.passed_over.push((member.name, arrays::NO_NUMBERS.to_owned()));
                 continue;
             };
             // HDF5 holds row by row; MATLAB writes its columns as rows.

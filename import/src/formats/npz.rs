@@ -38,7 +38,7 @@ pub(crate) fn grid(bytes: &[u8], decisions: &mut Decisions<'_>) -> Result<Grid, 
         }
         match npy::columns(&name, &data) {
             Ok(columns) => found.extend(arrays_of(&name, columns)),
-            Err(_) => passed_over.push((name, "no numbers".to_owned())),
+            Err(_) => passed_over.push((name, arrays::NO_NUMBERS.to_owned())),
         }
     }
     decisions.pass_over(&passed_over);

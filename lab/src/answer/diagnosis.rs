@@ -10,7 +10,7 @@ use super::searched::{Searched, search_on_all_rows, without_dropped};
 use crate::doubts::{Doubt, Suspect, doubts_and_suspects};
 use crate::hypotheses::{
     Disagreement, Likelihood, Structure, disagreements, no_all_clear, no_larger_than,
-    samples_a_pass, slow_without, smooth_cause, structures, waves_left,
+    samples_a_pass, slow_or_smooth, structures, waves_left,
 };
 use crate::model::{
     Component, JointCovariance, Judged, Problem, State, holdout_rms, told_covariances,
@@ -260,8 +260,7 @@ fn answered(searched: Searched, suspects: &[Suspect], rows: usize) -> Diagnosis 
     }
     residual.extend(nobodys(&small, &steps));
     if residual.is_empty() {
-        let slow = slow_without(&small, last, tried_beside(&steps));
-        residual.extend(slow.or_else(|| smooth_cause(&small, &last.fit)));
+        residual.extend(slow_or_smooth(&small, last, tried_beside(&steps)));
     }
     confuse(&mut found, heard.witnesses.into_iter().chain(suspected.witnesses));
     let problems = (&problem, &small);

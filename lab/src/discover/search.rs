@@ -11,7 +11,7 @@ use crate::doubts::{Doubt, doubts_and_suspects};
 use crate::formulas::{Delta, Shape, formulas};
 use crate::hypotheses::{
     Structure, at_targets, disagreements, is_left, no_all_clear, samples_a_pass, slow_cause,
-    slow_without, smooth_cause, structures,
+    slow_or_smooth, structures,
 };
 use crate::model::{Columns, Component, Fit, Problem, State, helps_unseen, holdout_rms};
 use crate::noise::{rms, weighed_rms};
@@ -320,8 +320,7 @@ impl Now {
             left.extend(hear(small, &self.state, &self.found).winner.map(|won| won.shown));
         }
         if is_named && left.is_empty() {
-            let slow = slow_without(small, &self.state, tried_beside(steps));
-            left.extend(slow.or_else(|| smooth_cause(small, fit)));
+            left.extend(slow_or_smooth(small, &self.state, tried_beside(steps)));
         }
         left.extend(disagreements(small, &self.state).into_iter().map(|one| one.differs));
         // Of so many shapes one follows slow noise: beside it none is believed to be noise.

@@ -61,15 +61,20 @@ pub(crate) fn slow_cause(problem: &Problem, fit: &Fit) -> Option<Structure> {
     cause.filter(|cause| above_flaws(problem, fit, cause))
 }
 
-/// What a model leaves, where that is slow only without one of the effects that were `tried` beside it:
-/// not sure enough to be named, each of these is as good an account of it as slow noise. One more of a kind
-/// that the model has is none, for a sum of such curves follows anything.
+/// What a model leaves, where that is slow only without an effect, or too smooth for noise.
 #[must_use]
-pub(crate) fn slow_without(
+pub(crate) fn slow_or_smooth(
     problem: &Problem,
     state: &State,
     tried: &[Judged],
 ) -> Option<Structure> {
+    slow_without(problem, state, tried).or_else(|| smooth_cause(problem, &state.fit))
+}
+
+/// What a model leaves, where that is slow only without one of the effects that were `tried` beside it:
+/// not sure enough to be named, each of these is as good an account of it as slow noise. One more of a kind
+/// that the model has is none, for a sum of such curves follows anything.
+fn slow_without(problem: &Problem, state: &State, tried: &[Judged]) -> Option<Structure> {
     let fit = &state.fit;
     let slow_worth = samples_a_slow_pass(problem, fit);
     let limit = if state.components.is_empty() { NO_CHANCE } else { NO_CHANCE_BESIDE };
@@ -90,8 +95,7 @@ pub(crate) fn slow_without(
 
 /// What a model leaves, where that is slow and too smooth for noise that forgets: what two worn places of opposite
 /// sign draw in one pass looks slow, and beside either of them no less so.
-#[must_use]
-pub(crate) fn smooth_cause(problem: &Problem, fit: &Fit) -> Option<Structure> {
+fn smooth_cause(problem: &Problem, fit: &Fit) -> Option<Structure> {
     let of_sensor = |sensor: usize| {
         let (layout, rows) = problem.layout.of_sensor(sensor);
         let noise = &fit.noises[sensor];

@@ -144,10 +144,15 @@ fn searched<const D: usize>(
     profile(layout, residual, &shaped(point.as_slice(), span))
 }
 
+/// Variance of a slow part against the white one, by its logarithm.
+pub(super) fn variance(logarithm: f64) -> f64 {
+    libm::exp(logarithm.clamp(-12.0, 14.0))
+}
+
 /// Noise of white variance 1 from log variances and log lengths, kept within sensible bounds.
 fn shaped(point: &[f64], span: f64) -> Noise {
     let slow = point.chunks_exact(2).map(|pair| SlowPart {
-        variance: libm::exp(pair[0].clamp(-12.0, 14.0)),
+        variance: variance(pair[0]),
         length: libm::exp(pair[1].clamp(SHORTEST, libm::log(LONGEST_AGAINST_BLOCK * span))),
     });
     Noise { white: 1.0, slow: slow.collect() }

@@ -18,7 +18,7 @@ use nalgebra::{Matrix2, Matrix3, Matrix3x2, RowVector2, Vector2, Vector3};
 
 use super::kernel::Noise;
 use super::layout::Layout;
-use super::noise_fit::{DESCENT, log_likelihood_of, longest_block, scaled_likelihood};
+use super::noise_fit::{DESCENT, log_likelihood_of, longest_block, scaled_likelihood, variance};
 use crate::numerics::quasi_newton::minimise;
 
 /// Lengths that a search begins at, against the longest block.
@@ -57,8 +57,7 @@ fn length(point: &Vector2<f64>, span: f64) -> f64 {
 
 /// Restricted log likelihood, by logarithms of variance against the white one and of length.
 fn log_likelihood(layout: &Layout, residual: &[f64], point: &Vector2<f64>, span: f64) -> f64 {
-    let (variance, rate) =
-        (libm::exp(point[0].clamp(-12.0, 14.0)), 5.0_f64.sqrt() / length(point, span));
+    let (variance, rate) = (variance(point[0]), 5.0_f64.sqrt() / length(point, span));
     let (mut square, mut log_determinant) = (0.0, 0.0);
     for block in layout.blocks.iter().filter(|block| !block.rows.is_empty()) {
         let (products, logarithm) = filtered(layout, residual, &block.rows, (variance, rate));
