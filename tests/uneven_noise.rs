@@ -8,7 +8,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
 use crate::support::diagnosed::{self, names};
-use crate::support::seeds::seeds;
+use crate::support::seeds::{cases, seeds};
 
 const ROWS: usize = 320;
 const SPACING_MM: f64 = 2.0;
@@ -89,6 +89,25 @@ fn filtered_noise_is_hardly_an_effect() {
         !names(&diagnosed(noise[..ROWS].to_vec())).is_empty()
     });
     assert!(named.count() as u64 <= may_be);
+}
+
+/// A display that goes on with the mean of its last twelve readings, in pauses too: a vibration of each record was
+/// named.
+#[test]
+fn running_means_have_no_name() {
+    const OVER: usize = 12;
+    for &seed in cases(1, &[1, 80, 127]) {
+        let drawn = white(&mut ChaCha8Rng::seed_from_u64(seed), 900 + OVER);
+        let means = drawn.windows(OVER).map(|part| part.iter().sum::<f64>()).take(900);
+        let rows = || (0..900).map(|row| (f64::from(row / 300), f64::from(row % 300)));
+        let found = diagnosed::diagnosed(vec![
+            ("time_s", (0..900).map(f64::from).collect()),
+            ("pass", rows().map(|(pass, _)| pass).collect()),
+            ("position_mm", rows().map(|(_, row)| 2.0 * row).collect()),
+            ("error_um", means.collect()),
+        ]);
+        assert!(names(&found).is_empty(), "{seed}: {:?}", names(&found));
+    }
 }
 
 /// Even noise hides no more than it did.

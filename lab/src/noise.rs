@@ -8,6 +8,7 @@ mod kernel;
 mod layout;
 mod noise_fit;
 mod plausible;
+mod prediction;
 mod smooth;
 mod sweep;
 #[cfg(test)]
@@ -22,6 +23,7 @@ pub(crate) use noise_fit::{
     departures, fit_noise, is_far, is_surely_slow, outlier_inflation, scaled_to, without_outliers,
 };
 pub(crate) use plausible::plausible;
+pub(crate) use prediction::Prediction;
 pub(crate) use smooth::smooth_fit;
 pub(crate) use whitener::Whitener;
 pub(crate) use worth::effective_samples;

@@ -13,6 +13,7 @@ mod known_together;
 mod likeness;
 mod one_comb;
 mod orders;
+mod other_spectrum;
 mod own_errors;
 mod polish;
 mod pruning;

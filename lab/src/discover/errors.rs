@@ -16,12 +16,7 @@ const STRONGEST: f64 = 0.9995;
 pub(super) fn errors(problem: &Problem, state: &State, index: usize) -> Vec<Option<f64>> {
     let component = &state.components[index];
     let Some(likelihood) = Likelihood::of(problem, state, index) else { return Vec::new() };
-    let sizes: Vec<Option<f64>> = match component.term.nonlinear_indices().len() {
-        // Alone, it is summed up over its likelihood, which where a root begins is no parabola.
-        1 => vec![likelihood.deviation(0)],
-        number => (0..number).map(|place| likelihood.size(place)).collect(),
-    };
-    let nonlinear = likelihood.correlated(&sizes);
+    let (sizes, nonlinear) = likelihood.nonlinear(component.term.nonlinear_indices().len());
     let linear = likelihood.linear(&sizes, &nonlinear);
     let columns = component.design(problem).map_or_else(|_| Vec::new(), |(all, _)| all.columns);
     let all_um = rms(&problem.layout, &problem.residual());
@@ -46,6 +41,24 @@ pub(super) fn errors(problem: &Problem, state: &State, index: usize) -> Vec<Opti
 }
 
 impl Likelihood<'_> {
+    /// Sizes of so many nonlinear values, `None` where nothing holds one, and their covariance in units of these.
+    ///
+    /// One or two are summed up over their likelihood, which where a root begins or a tooth ends is no parabola.
+    fn nonlinear(&self, number: usize) -> (Vec<Option<f64>>, Vec<Vec<f64>>) {
+        if let (2, Some(covariance)) = (number, self.covariance_of_two()) {
+            let sizes = [covariance[(0, 0)].sqrt(), covariance[(1, 1)].sqrt()];
+            let together = covariance[(0, 1)] / (sizes[0] * sizes[1]);
+            let correlated = vec![vec![1.0, together], vec![together, 1.0]];
+            return (sizes.map(Some).to_vec(), correlated);
+        }
+        let sizes: Vec<Option<f64>> = match number {
+            1 => vec![self.deviation(0)],
+            _ => (0..number).map(|place| self.size(place)).collect(),
+        };
+        let correlated = self.correlated(&sizes);
+        (sizes, correlated)
+    }
+
     /// Covariance of the nonlinear values in units of those sizes.
     fn correlated(&self, sizes: &[Option<f64>]) -> Vec<Vec<f64>> {
         let held: Vec<(usize, f64)> =

@@ -15,12 +15,13 @@ use crate::hypotheses::{
 };
 use crate::model::{Columns, Component, Fit, Problem, State, helps_unseen, holdout_rms};
 use crate::noise::{rms, weighed_rms};
+use crate::numerics::count;
 use crate::policy::chance::SIGNIFICANCE;
 use crate::policy::evidence::MARGIN;
 use crate::policy::extent::{MOST_FORMULAS, SEARCHED_ROWS};
 use crate::search::{
     Claim, Rivals, Step, claims, hear, in_place_of, nobodys, paid, paid_by_formula, polished,
-    rivals, search, suspected, tried_beside,
+    pruned, rivals, search, suspected, tried_beside,
 };
 
 /// Runners-up that experiments are to tell from a proposal.
@@ -254,12 +255,11 @@ impl Now {
     /// Why a claim may not join; in the place of names it must leave no more than they do.
     fn kept_out(&self, problem: &Problem, claim: &Claim<'_>) -> Option<&'static str> {
         let named = self.state.components.len() - self.granted.len();
-        let rms_um = |fit: &Fit| weighed_rms(&problem.layout, &fit.left);
         if claim.group.iter().any(|&index| index < named) {
             if self.names_stay {
                 return Some("the names are found on fewer rows");
             }
-            if rms_um(&self.state.fit) < rms_um(&claim.fit) {
+            if self.leaves_more(problem, claim) {
                 return Some("leaves more than the names");
             }
         }
@@ -267,6 +267,16 @@ impl Now {
             return Some("not told from a listed shaft");
         }
         kept_out(problem, &self.state, claim)
+    }
+
+    /// True where a shape leaves more than what it stands in the place of; numbers that it does without are worth to it
+    /// what they cost.
+    fn leaves_more(&self, problem: &Problem, claim: &Claim<'_>) -> bool {
+        let rms_um = |fit: &Fit| weighed_rms(&problem.layout, &fit.left);
+        let names = claim.group.iter().map(|&index| self.state.components[index].price(problem));
+        let saved = names.sum::<f64>() - claim.placed.shape.price(problem.price_of_a_number());
+        let worth = libm::exp(0.5 * saved.max(0.0) / count(problem.samples.len()));
+        worth * rms_um(&self.state.fit) < rms_um(&claim.fit)
     }
 
     /// The same without what of a formula is lost in its error; `None` where that makes it, or where it takes less
@@ -309,15 +319,19 @@ impl Now {
         self
     }
 
-    /// What is left that is not noise, as `diagnose` asks for it: of a model without formulas what may not be
-    /// named, too, which else one would have explained.
-    fn left(&self, small: &Problem, steps: &[Step]) -> Vec<Structure> {
+    /// What is left that is not noise, as `diagnose` asks for it, and the names that a shape without one takes out: of
+    /// a model without formulas what may not be named, too, which else one would have explained.
+    fn left(&self, small: &Problem, steps: &[Step]) -> (Vec<Structure>, Vec<usize>) {
         let State { columns, fit, .. } = &self.state;
         let is_named = self.granted.is_empty();
         let mut left = structures(small, columns, fit);
+        let mut beaten = Vec::new();
         if is_named {
             left.extend(nobodys(small, steps));
-            left.extend(hear(small, &self.state, &self.found).winner.map(|won| won.shown));
+            if let Some(won) = hear(small, &self.state, &self.found).winner {
+                left.push(won.shown);
+                beaten = won.beaten;
+            }
         }
         if is_named && left.is_empty() {
             left.extend(slow_or_smooth(small, &self.state, tried_beside(steps)));
@@ -329,11 +343,21 @@ impl Now {
             (false, nothing_else) => nothing_else.then(|| slow_cause(small, fit)).flatten(),
         };
         left.extend(slow);
-        left
+        (left, beaten)
+    }
+
+    /// The model without some names.
+    fn without(&self, problem: &Problem, names: &[usize]) -> Option<State> {
+        let others = self.state.without(names);
+        Some(pruned(problem, State::settled(problem, others, &self.state.fit.noises)?).0)
     }
 
     /// The answer, fitted to all rows.
-    fn told(&self, problem: &Problem, small: &Problem, steps: &[Step]) -> Discovery {
+    fn told(mut self, problem: &Problem, small: &Problem, steps: &[Step]) -> Discovery {
+        let (residual, beaten) = self.left(small, steps);
+        if let Some(others) = self.without(small, &beaten).filter(|_| !beaten.is_empty()) {
+            self.state = others;
+        }
         let mut whole = problem.clone();
         let state = if small.samples.len() == problem.samples.len() {
             whole = small.clone();
@@ -355,7 +379,7 @@ impl Now {
         }
         experiments.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
         let mut answer = told(&whole, &state);
-        answer.residual = self.left(small, steps);
+        answer.residual = residual;
         if answer.residual.is_empty() {
             answer.residual.extend(answer.no_gain());
         }
@@ -400,10 +424,11 @@ fn told(problem: &Problem, state: &State) -> Discovery {
     }
 }
 
-/// Why a claim may not join: it must be ahead by the margin, beyond chance, help on unseen data, and
-/// be large enough.
+/// Why a claim may not join: it must be ahead by the margin and help on unseen data; beside what was granted it must be
+/// beyond chance and large enough, as what it else takes the place of has been.
 fn kept_out(problem: &Problem, state: &State, claim: &Claim<'_>) -> Option<&'static str> {
-    if claim.ahead <= MARGIN || SIGNIFICANCE <= claim.p_value {
+    let is_chance = claim.group.is_empty() && SIGNIFICANCE <= claim.p_value;
+    if claim.ahead <= MARGIN || is_chance {
         return Some("not beyond chance");
     }
     let helps = Columns::of_model(problem, &state.without(&claim.group)).is_ok_and(|base| {
@@ -413,8 +438,8 @@ fn kept_out(problem: &Problem, state: &State, claim: &Claim<'_>) -> Option<&'sta
     if !helps {
         return Some("no better on held-out data");
     }
-    let left = is_left(problem, &state.fit, &claim.shown(problem));
-    (!left).then_some("too small to change a figure")
+    let is_small = claim.group.is_empty() && !is_left(problem, &state.fit, &claim.shown(problem));
+    is_small.then_some("too small to change a figure")
 }
 
 fn is_same(a: &Claim<'_>, b: &Claim<'_>) -> bool {
@@ -495,6 +520,16 @@ frequency = "160 Hz"
             let stderr = one.stderr.expect("an error");
             assert!((one.value - at_mm).abs() < 2.0 * stderr, "{one:?} {at_mm}");
         }
+    }
+
+    /// Ahead of a cubic by 17, where a shape beside names needs 18.
+    #[test]
+    fn what_takes_a_name_away_is_proposed_in_its_place() {
+        let found = discover(&problem(0, |x| 0.4 * libm::exp(-x / 60.0)));
+        assert_eq!(found.found, Found::Formula, "{:?}", found.residual);
+        let proposal = &found.proposals[0];
+        assert!(found.effects.is_empty() && proposal.instead_of == ["screw-progressive"]);
+        assert_eq!(proposal.shape, "decay");
     }
 
     /// Whether a step does whose sizes are so many times those that leave least.

@@ -1,4 +1,7 @@
 use nalgebra::{DMatrix, DVector};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
 
 use super::kernel::PARTS;
 use super::sweep::squares_and_log_determinants;
@@ -205,4 +208,23 @@ fn a_coarse_display_without_its_outliers_is_what_it_was() {
         "{kept:?}"
     );
     assert!(kept[31].abs() <= 1.0, "{}", kept[31]);
+}
+
+/// An oscillation that forgets, in two passes: white noise of the size that drove it is left beside its last values.
+#[test]
+fn what_last_values_tell_is_taken_off_noise() {
+    let mut chance = ChaCha8Rng::seed_from_u64(3);
+    let drive: Vec<f64> = (0..2000).map(|_| StandardNormal.sample(&mut chance)).collect();
+    let (mut last, mut before) = (0.0, 0.0);
+    let next = |driven: &f64| {
+        (last, before) = (1.4 * last - 0.8 * before + driven, last);
+        last
+    };
+    let all: Vec<f64> = drive.iter().map(next).collect();
+    let passes: Vec<&[f64]> = all.chunks(1000).collect();
+    let prediction = Prediction::of(&passes);
+    let left = prediction.beside(passes[1]);
+    let driven = &drive[drive.len() - left.len()..];
+    let off: f64 = left.iter().zip(driven).map(|(left, driven)| (left - driven).powi(2)).sum();
+    assert!(off < 0.02 * dot(driven, driven), "{off}");
 }

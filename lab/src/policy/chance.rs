@@ -233,6 +233,13 @@ pub(crate) const MORE_THAN_NOISE: f64 = 2.0;
 /// Doubled: a stretch that is twice as loud goes unseen.
 pub(crate) const UNEVEN_DEVIATIONS: f64 = 3.0;
 
+/// By how much noise of an instrument is louder, at its loudest frequency, than white and slow parts fitted to it.
+///
+/// Derived: the mean of the last 4 to 20 readings by 2.2 at most (Whittle's likelihood of its spectrum), of which an
+/// estimate from some hundred rows is a third more at times. What is louder still is another cause, and takes no
+/// name away. Doubled: a gear whose second line stands beside it is refused, at 28 standard errors.
+pub(crate) const LOUDEST_LOBE: f64 = 3.0;
+
 /// Rows of an effect's curve for each row that the scatter along it may reach.
 ///
 /// Chosen: the residual has lost what the effect took, and over more than an eighth of the curve

@@ -442,7 +442,12 @@ pub(crate) const FEWEST_ROWS_OF_A_BURST: usize = 8;
 pub(crate) const STRETCHES_OF_A_PASS: [usize; 3] = [1, 2, 4];
 pub(crate) const FEWEST_ROWS_OF_A_STRETCH: usize = 16;
 
-/// Rows that each of [`PREDICTED_BY`] needs.
+/// The most last values that noise of any spectrum is predicted by.
+///
+/// Chosen: instruments' running means of up to 24 rows show their lobes. Doubled: means of 40 rows do, for twice the time.
+pub(crate) const PREDICTED_BY_MOST: usize = 24;
+
+/// Rows that each of [`PREDICTED_BY`] and [`PREDICTED_BY_MOST`] needs.
 ///
 /// Chosen. Doubled: a record of 150 rows says nothing.
 pub(crate) const ROWS_A_LAG: usize = 10;

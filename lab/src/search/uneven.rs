@@ -8,6 +8,7 @@
 
 use std::ops::Range;
 
+use super::other_spectrum;
 use crate::model::{Columns, Fit, Problem, Stage, State};
 use crate::noise::{Block, Whitener, fit_noise};
 use crate::numerics::least_squares::dot;
@@ -47,7 +48,9 @@ pub(crate) fn inflation(problem: &Problem, now: &State, columns: &Columns, fit: 
     let along = along(problem, &scores, stands_on);
     let Some(block) = block_of(problem, &curve[..rows]) else { return along };
     let beside = beside(problem, block, (&curve, &left), stands_on);
-    along.max(beside).max(nearby(problem, block, now, fit, (&curve[..rows], square)))
+    let nearby = nearby(problem, block, now, fit, (&curve[..rows], square));
+    let other = other_spectrum::inflation(problem, &curve[..rows], &left[..rows]);
+    along.max(beside).max(nearby).max(other)
 }
 
 /// The largest of the ratios over windows of 1, 2, 4 … lags that stands out of its scatter; `rows`
