@@ -128,8 +128,8 @@ fn a_port_that_cannot_be_had_is_named() {
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(said.ends_with(": another program has this port\n"), "{said}");
     assert_eq!(output.status.code(), Some(2));
-    drop(there);
-    hung_up(first, here);
+    drop((there, here));
+    first.wait_with_output().expect("the line has hung up");
 
     for (port, expected) in
         [("/dev", "found a folder"), ("/dev/nothing", "/dev/nothing: no serial port: No such file")]

@@ -1,7 +1,7 @@
 //! Standard errors of a formula's parameters from the likelihood itself, which steps and relays
 //! have and slopes of theirs have not.
 
-use helixlock_plant::Column;
+use helixlock_plant::{Column, Parameter};
 
 use crate::hypotheses::Likelihood;
 use crate::model::{Problem, State};
@@ -16,8 +16,7 @@ const STRONGEST: f64 = 0.9995;
 pub(super) fn errors(problem: &Problem, state: &State, index: usize) -> Vec<Option<f64>> {
     let component = &state.components[index];
     let Some(likelihood) = Likelihood::of(problem, state, index) else { return Vec::new() };
-    let (sizes, nonlinear) = likelihood.nonlinear(component.term.nonlinear_indices().len());
-    let linear = likelihood.linear(&sizes, &nonlinear);
+    let (nonlinear, linear) = likelihood.errors(component.term.nonlinear_indices().len());
     let columns = component.design(problem).map_or_else(|_| Vec::new(), |(all, _)| all.columns);
     let all_um = rms(&problem.layout, &problem.residual());
     // An error that moves the curve by more than all there is says that others draw it as well, and so does
@@ -26,37 +25,29 @@ pub(super) fn errors(problem: &Problem, state: &State, index: usize) -> Vec<Opti
         let moved_um = stderr * rms(&problem.layout, &about_means(&problem.layout, column));
         (0.0 < stderr && moved_um < all_um).then_some(stderr)
     };
-    let (mut linear, mut sizes) = (linear.into_iter().zip(&columns).map(held), sizes.into_iter());
-    let parameters = component.term.parameters.iter();
-    let mut place = 0;
-    let mut of_next = |is_nonlinear: bool| {
-        if !is_nonlinear {
-            return linear.next().flatten();
-        }
-        let size = sizes.next().flatten()?;
-        place += 1;
-        Some(size * nonlinear[place - 1][place - 1].max(0.0).sqrt())
+    let (mut linear, mut nonlinear) =
+        (linear.into_iter().zip(&columns).map(held), nonlinear.into_iter());
+    let of_next = |is_nonlinear: bool| {
+        if is_nonlinear { nonlinear.next().flatten() } else { linear.next().flatten() }
     };
-    parameters.map(|what| of_next(what.is_nonlinear())).collect()
+    let parameters = component.term.parameters.iter();
+    parameters.map(Parameter::is_nonlinear).map(of_next).collect()
 }
 
 impl Likelihood<'_> {
-    /// Sizes of so many nonlinear values, `None` where nothing holds one, and their covariance in units of these.
+    /// Those of so many nonlinear values, `None` where nothing holds one, and of the sizes beside them.
     ///
     /// One or two are summed up over their likelihood, which where a root begins or a tooth ends is no parabola.
-    fn nonlinear(&self, number: usize) -> (Vec<Option<f64>>, Vec<Vec<f64>>) {
-        if let (2, Some(covariance)) = (number, self.covariance_of_two()) {
-            let sizes = [covariance[(0, 0)].sqrt(), covariance[(1, 1)].sqrt()];
-            let together = covariance[(0, 1)] / (sizes[0] * sizes[1]);
-            let correlated = vec![vec![1.0, together], vec![together, 1.0]];
-            return (sizes.map(Some).to_vec(), correlated);
+    fn errors(&self, number: usize) -> (Vec<Option<f64>>, Vec<f64>) {
+        if let Some(summed_up) = self.deviations() {
+            return (summed_up.nonlinear.into_iter().map(Some).collect(), summed_up.linear);
         }
-        let sizes: Vec<Option<f64>> = match number {
-            1 => vec![self.deviation(0)],
-            _ => (0..number).map(|place| self.size(place)).collect(),
-        };
-        let correlated = self.correlated(&sizes);
-        (sizes, correlated)
+        let sizes: Vec<Option<f64>> = (0..number).map(|place| self.size(place)).collect();
+        let together = self.correlated(&sizes);
+        let linear = self.linear(&sizes, &together);
+        let mut own = (0..).map(|place| together[place][place].max(0.0).sqrt());
+        let held = sizes.into_iter().map(|size| Some(size? * own.next()?));
+        (held.collect(), linear)
     }
 
     /// Covariance of the nonlinear values in units of those sizes.

@@ -1,6 +1,8 @@
 //! The search for formulas: named effects first, then the grammar in their place and beside them,
 //! one formula a round until what is left is noise.
 
+use helixlock_plant::Role;
+
 use super::held::{lost_part, takes_its_share};
 use super::orders::is_listed;
 use super::proposal::{Granted, Proposal};
@@ -10,8 +12,8 @@ use crate::answer::{
 use crate::doubts::{Doubt, doubts_and_suspects};
 use crate::formulas::{Delta, Shape, formulas};
 use crate::hypotheses::{
-    Structure, at_targets, disagreements, is_left, no_all_clear, samples_a_pass, slow_cause,
-    slow_or_smooth, structures,
+    Likelihood, Structure, at_targets, disagreements, is_left, no_all_clear, samples_a_pass,
+    slow_cause, slow_or_smooth, structures,
 };
 use crate::model::{Columns, Component, Fit, Problem, State, helps_unseen, holdout_rms};
 use crate::noise::{rms, weighed_rms};
@@ -166,10 +168,22 @@ impl Now {
             let has_room = now.granted.len() < MOST_FORMULAS;
             match has_room.then(|| now.with_one_more(problem, shapes)).flatten() {
                 Some(next) => now = next,
-                None => return now,
+                None => return now.without_gone(problem),
             }
         }
-        now.without_lost(problem)
+        now.without_lost(problem).without_gone(problem)
+    }
+
+    /// The same without names of which nothing is left beside the formulas: a file cannot say the square of a size
+    /// that would have to be negative.
+    fn without_gone(self, problem: &Problem) -> Self {
+        let named = self.state.components.len() - self.granted.len();
+        let gone: Vec<usize> = (0..named).filter(|&index| is_gone(&self.state, index)).collect();
+        let others = self.state.without(&gone);
+        match State::settled(problem, others, &self.state.fit.noises).filter(|_| !gone.is_empty()) {
+            Some(state) => Self { state, ..self },
+            None => self,
+        }
     }
 
     /// What targets show at every visit, where no formula explains it, or none better than errors of their own do.
@@ -248,7 +262,7 @@ impl Now {
         components.push(Component::new(one.term.clone()));
         granted.push(one);
         let state = State::settled(problem, components, &best.fit.noises)?;
-        let state = polished(problem, state);
+        let state = in_the_middle(problem, polished(problem, state));
         Some(Self { state, found: Vec::new(), granted, ..*self })
     }
 
@@ -440,6 +454,28 @@ fn kept_out(problem: &Problem, state: &State, claim: &Claim<'_>) -> Option<&'sta
     }
     let is_small = claim.group.is_empty() && !is_left(problem, &state.fit, &claim.shown(problem));
     is_small.then_some("too small to change a figure")
+}
+
+/// A model whose last component has its nonlinear values in the middle of where they may be.
+fn in_the_middle(problem: &Problem, state: State) -> State {
+    let last = state.components.len() - 1;
+    let Some(likelihood) = Likelihood::of(problem, &state, last) else { return state };
+    let mut values = state.components[last].term.nonlinear();
+    let moves: Vec<f64> = (0..values.len()).map(|place| likelihood.to_the_middle(place)).collect();
+    if moves.iter().all(|by| *by == 0.0) {
+        return state;
+    }
+    values.iter_mut().zip(moves).for_each(|(value, by)| *value += by);
+    let mut components = state.components.clone();
+    components[last].term = components[last].term.with_nonlinear(&values);
+    State::settled(problem, components, &state.fit.noises).unwrap_or(state)
+}
+
+/// True for an effect whose square is fitted as nothing or less.
+fn is_gone(state: &State, index: usize) -> bool {
+    let term = state.components[index].valued(state.coefficients(index).0);
+    let mut values = term.parameters.iter().zip(&term.values);
+    values.any(|(what, value)| what.role == Role::Squared && *value <= 0.0)
 }
 
 fn is_same(a: &Claim<'_>, b: &Claim<'_>) -> bool {

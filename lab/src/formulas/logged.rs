@@ -101,6 +101,7 @@ pub(super) fn beyond_a_line(all: &Quantities, column: &Arc<Quantity>) -> Vec<Sha
     if 0.0 < spread(&all.direction.values) {
         shapes.push(
             of_column("relation each way its own", "wind-up or play under the column's load")
+                .curve("slope", of(column))
                 .curve("size", of(&all.direction) * about_mean(column)),
         );
     }

@@ -11,6 +11,10 @@ const HALVINGS: usize = 8;
 
 /// Doublings that look for such an interval.
 const DOUBLINGS: usize = 40;
+const MOST_DOUBLED: i32 = 40;
+
+/// Share of a gain that is rounding.
+const NOTHING: f64 = 1e-9;
 
 /// First step, against a value.
 const FIRST: f64 = 1e-6;
@@ -21,9 +25,9 @@ const IN_A_SIZE: f64 = 4.0;
 
 /// Places either way along each of two axes at which a covariance is summed up, how many of its deviations they
 /// reach, and how often it is found anew: it grows to what is there by as much as they reach.
-const PLACES_OF_TWO: i16 = 12;
+const PLACES_OF_TWO: i16 = 5;
 const REACHED: f64 = 3.0;
-const ANEW: usize = 8;
+const ANEW: usize = 5;
 
 /// The likelihood of a component near its best, the others of its model free to give way.
 pub(crate) struct Likelihood<'a> {
@@ -61,6 +65,32 @@ impl<'a> Likelihood<'a> {
         self.moved(moves).map_or(f64::INFINITY, |gain| self.best.gain - gain.gain)
     }
 
+    /// How far a nonlinear value lies from the middle of where it may be with nothing lost, as a step anywhere between
+    /// two samples may.
+    #[must_use]
+    pub(crate) fn to_the_middle(&self, place: usize) -> f64 {
+        let [up, down] = [1.0, -1.0].map(|way| self.free(place, way));
+        0.5 * (up - down)
+    }
+
+    /// How far it may go one way; 0 where it never ends.
+    fn free(&self, place: usize, way: f64) -> f64 {
+        let is_free = |by: f64| self.loss(&[(place, way * by)]) <= NOTHING * self.best.gain;
+        let values = self.component.term.nonlinear();
+        let first = values.get(place).map_or(FIRST, |value| FIRST * value.abs().max(FIRST));
+        let ends = |doubled: &i32| !is_free(first * 2.0_f64.powi(*doubled));
+        let Some(doubled) = (0..MOST_DOUBLED).find(ends).filter(|doubled| 0 < *doubled) else {
+            return 0.0;
+        };
+        let mut high = first * 2.0_f64.powi(doubled);
+        let mut low = 0.5 * high;
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            *(if is_free(middle) { &mut low } else { &mut high }) = middle;
+        }
+        low
+    }
+
     /// How far a nonlinear value goes either way before twice the log likelihood falls by 1, the
     /// others held; `None` when it never does.
     #[must_use]
@@ -95,6 +125,26 @@ impl<'a> Likelihood<'a> {
     /// makes the data: a play of less than nothing would be as good as its mirror image.
     #[must_use]
     pub(crate) fn deviation(&self, place: usize) -> Option<f64> {
+        Some(self.summed_up(&self.along(place)?).nonlinear[place])
+    }
+
+    /// Standard deviations about the best of one or two nonlinear values and of the sizes beside them, each place as
+    /// probable as it makes the data; `None` of other numbers, and where nothing holds a value.
+    ///
+    /// Where a shape has edges, the likelihood is a heap of small plateaus, and how wide the highest of them is tells
+    /// nothing of how far the others lie.
+    #[must_use]
+    pub(crate) fn deviations(&self) -> Option<Deviations> {
+        let places = match self.component.term.nonlinear().len() {
+            1 => self.along(0)?,
+            2 => self.about_two()?,
+            _ => return None,
+        };
+        Some(self.summed_up(&places))
+    }
+
+    /// Places along one nonlinear value, within its range.
+    fn along(&self, place: usize) -> Option<Vec<Moves>> {
         let step = self.size(place)? / IN_A_SIZE;
         let term = &self.component.term;
         let range = &term.parameters[*term.nonlinear_indices().get(place)?].range;
@@ -102,36 +152,76 @@ impl<'a> Likelihood<'a> {
         let is_free = range.end() <= range.start();
         let is_open = |by: &f64| is_free || range.contains(&(value + by)) || *by == 0.0;
         let moves = (-PLACES..=PLACES).map(|number| f64::from(number) * step).filter(is_open);
-        let (all, square) = moves.fold((0.0, 0.0), |(all, square), by| {
-            let weight = libm::exp(-0.5 * self.loss(&[(place, by)]));
-            (all + weight, square + weight * by * by)
-        });
-        Some((square / all).sqrt())
+        Some(moves.map(|by| vec![(place, by)]).collect())
     }
 
-    /// Covariance of the only two nonlinear values about their best, each pair as probable as it makes the data.
-    ///
-    /// Where a shape has edges, the likelihood is a heap of small plateaus, and how wide the highest of them is tells
-    /// nothing of how far the others lie.
-    #[must_use]
-    pub(crate) fn covariance_of_two(&self) -> Option<Matrix2<f64>> {
+    /// Places about two nonlinear values, along the axes of their covariance.
+    fn about_two(&self) -> Option<Vec<Moves>> {
         let held = Vector2::new(self.size(0)?, self.size(1)?);
-        let mut covariance = Matrix2::from_diagonal(&held.map(|size| size * size));
+        let mut places = places_along(&Matrix2::from_diagonal(&(REACHED * held)));
         for _ in 0..ANEW {
-            covariance = self.covariance_along(&(REACHED * covariance.cholesky()?.l()));
+            let covariance = self.summed_up(&places).covariance_of_two()?;
+            places = places_along(&(REACHED * covariance.cholesky()?.l()));
         }
-        Some(covariance)
+        Some(places)
     }
 
-    /// The same, summed up over places along two axes.
-    fn covariance_along(&self, axes: &Matrix2<f64>) -> Matrix2<f64> {
-        let at = |number: i16| f64::from(number) / f64::from(PLACES_OF_TWO);
-        let all = || (-PLACES_OF_TWO..=PLACES_OF_TWO).map(at);
-        let moves = all().flat_map(|one| all().map(move |other| axes * Vector2::new(one, other)));
-        let (all, square) = moves.fold((0.0, Matrix2::zeros()), |(all, square), by| {
-            let weight = libm::exp(-0.5 * self.loss(&[(0, by[0]), (1, by[1])]));
-            (all + weight, square + weight * by * by.transpose())
-        });
-        square / all
+    fn summed_up(&self, places: &[Moves]) -> Deviations {
+        let best = &self.best.fit;
+        let mut all = Deviations {
+            nonlinear: vec![0.0; self.component.term.nonlinear().len()],
+            together: 0.0,
+            linear: vec![0.0; best.coefficients.len()],
+        };
+        let mut weights = 0.0;
+        for moves in places {
+            let Some(there) = self.moved(moves) else { continue };
+            let weight = libm::exp(-0.5 * (self.best.gain - there.gain));
+            weights += weight;
+            for (place, by) in moves {
+                all.nonlinear[*place] += weight * by * by;
+            }
+            if let [(_, one), (_, other)] = moves[..] {
+                all.together += weight * one * other;
+            }
+            for (index, square) in all.linear.iter_mut().enumerate() {
+                let off = there.fit.coefficients[index] - best.coefficients[index];
+                *square += weight * (there.fit.covariance[(index, index)] + off * off);
+            }
+        }
+        let deviation = |square: &mut f64| *square = (*square / weights).sqrt();
+        all.nonlinear.iter_mut().chain(&mut all.linear).for_each(deviation);
+        all.together /= weights;
+        all
     }
+}
+
+/// By how much some nonlinear values are moved.
+type Moves = Vec<(usize, f64)>;
+
+/// Standard deviations about the best.
+pub(crate) struct Deviations {
+    pub(crate) nonlinear: Vec<f64>,
+    /// Covariance of two nonlinear values.
+    together: f64,
+    /// Of the sizes.
+    pub(crate) linear: Vec<f64>,
+}
+
+impl Deviations {
+    fn covariance_of_two(&self) -> Option<Matrix2<f64>> {
+        let [one, other] = *self.nonlinear.as_slice() else { return None };
+        Some(Matrix2::new(one * one, self.together, self.together, other * other))
+    }
+}
+
+/// Places about two values, evenly along two axes.
+fn places_along(axes: &Matrix2<f64>) -> Vec<Moves> {
+    let at = |number: i16| f64::from(number) / f64::from(PLACES_OF_TWO);
+    let all = || (-PLACES_OF_TWO..=PLACES_OF_TWO).map(at);
+    let by = |one, other| axes * Vector2::new(one, other);
+    all()
+        .flat_map(|one| all().map(move |other| by(one, other)))
+        .map(|by| vec![(0, by[0]), (1, by[1])])
+        .collect()
 }

@@ -5,21 +5,22 @@
 //! whitened, tells how far its next value can be foreseen by the last ones; beside that it is white, whatever its
 //! spectrum was, and so is what the effect's own curve has to be held against.
 
-use crate::model::Problem;
+use super::uneven::taken;
+use crate::model::{Columns, Fit, Problem, State};
 use crate::noise::{Block, Prediction};
 use crate::numerics::count;
 use crate::numerics::least_squares::dot;
 use crate::policy::chance::LOUDEST_LOBE;
 
-/// By what the gain of a whitened curve, which has the rest `left`, exceeds the one it has beside the last values; 1 where
-/// these tell nothing.
-pub(super) fn inflation(problem: &Problem, curve: &[f64], left: &[f64]) -> f64 {
+/// By what the gain of an effect exceeds the one it has beside the last values; 1 where these tell nothing.
+pub(super) fn inflation(problem: &Problem, now: &State, columns: &Columns, fit: &Fit) -> f64 {
+    let [curve, left] = taken(problem, now, columns, fit);
     let mut gain = 0.0;
     let mut beside = Beside::default();
     for sensor in 0..problem.sensors.len() {
         let blocks = || problem.layout.blocks.iter().filter(|block| block.sensor == sensor);
         let of = |values| -> Vec<&[f64]> { blocks().map(|block| rows_of(values, block)).collect() };
-        let (curves, lefts) = (of(curve), of(left));
+        let (curves, lefts) = (of(&curve), of(&left));
         gain += square(&curves) / variance(&lefts);
         beside.add(&curves, &lefts);
     }

@@ -158,8 +158,8 @@ fn clear_winner(
     (wins && best.is_beyond_noise(problem, now) && best.is_mutual(problem, now)).then_some(best)
 }
 
-/// Two effects in the place of one of many numbers, which may bend to what they draw together: one of a single
-/// number, such as a slope, and one that is accepted beside it. `None` unless they are clearly ahead.
+/// Two effects in the place of one of many numbers, which may bend to what they draw together: one of few, such as a
+/// play, and one that is accepted beside it. `None` unless they are clearly ahead.
 pub(super) fn instead(
     problem: &Problem,
     now: &State,
@@ -171,7 +171,7 @@ pub(super) fn instead(
         return None;
     }
     let mut firsts: Vec<&Judged> = Vec::new();
-    for one in single.iter().filter(|one| numbers(one) == 1) {
+    for one in single.iter().filter(|one| numbers(one) < MANY_NUMBERS) {
         let is_like = |other: &&Judged| (other.gain - one.gain).abs() < SAME_CURVE;
         if !firsts.iter().any(is_like) {
             firsts.push(one);

@@ -8,7 +8,6 @@
 
 use std::ops::Range;
 
-use super::other_spectrum;
 use crate::model::{Columns, Fit, Problem, Stage, State};
 use crate::noise::{Block, Whitener, fit_noise};
 use crate::numerics::least_squares::dot;
@@ -26,15 +25,7 @@ const SCATTER_OF_MEDIAN: f64 = 5.4;
 /// scatter.
 #[must_use]
 pub(crate) fn inflation(problem: &Problem, now: &State, columns: &Columns, fit: &Fit) -> f64 {
-    let stage = Stage::new(problem, &now.columns, &fit.noises);
-    let (mut curve, mut left) = (vec![0.0; stage.target.len()], stage.target.clone());
-    for direction in stage.span(columns) {
-        let along = dot(&direction, &stage.target);
-        for (row, value) in direction.iter().enumerate() {
-            curve[row] += along * value;
-            left[row] -= along * value;
-        }
-    }
+    let [curve, left] = taken(problem, now, columns, fit);
     let rows = problem.samples.len();
     let square = dot(&curve[..rows], &curve[..rows]);
     let size = square * dot(&left[..rows], &left[..rows]);
@@ -48,9 +39,21 @@ pub(crate) fn inflation(problem: &Problem, now: &State, columns: &Columns, fit: 
     let along = along(problem, &scores, stands_on);
     let Some(block) = block_of(problem, &curve[..rows]) else { return along };
     let beside = beside(problem, block, (&curve, &left), stands_on);
-    let nearby = nearby(problem, block, now, fit, (&curve[..rows], square));
-    let other = other_spectrum::inflation(problem, &curve[..rows], &left[..rows]);
-    along.max(beside).max(nearby).max(other)
+    along.max(beside).max(nearby(problem, block, now, fit, (&curve[..rows], square)))
+}
+
+/// What an effect takes of the whitened residual of a model, and what it leaves.
+pub(super) fn taken(problem: &Problem, now: &State, columns: &Columns, fit: &Fit) -> [Vec<f64>; 2] {
+    let stage = Stage::new(problem, &now.columns, &fit.noises);
+    let (mut curve, mut left) = (vec![0.0; stage.target.len()], stage.target.clone());
+    for direction in stage.span(columns) {
+        let along = dot(&direction, &stage.target);
+        for (row, value) in direction.iter().enumerate() {
+            curve[row] += along * value;
+            left[row] -= along * value;
+        }
+    }
+    [curve, left]
 }
 
 /// The largest of the ratios over windows of 1, 2, 4 … lags that stands out of its scatter; `rows`
