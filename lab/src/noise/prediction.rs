@@ -19,14 +19,11 @@ impl Prediction {
         let rows: usize = passes.iter().map(|pass| pass.len()).sum();
         let most = PREDICTED_BY_MOST.min(rows / ROWS_A_LAG);
         let products: Vec<f64> = (0..=most).map(|lag| product(passes, lag)).collect();
-        let (mut weights, mut left) = (Vec::new(), products[0]);
+        let (mut weights, mut left) = (Vec::<f64>::new(), products[0]);
         let (mut best, mut least) = (Vec::new(), 0.0);
         for lag in 1..=most {
-            let foreseen: f64 = weights
-                .iter()
-                .zip(products[1..lag].iter().rev())
-                .map(|(a, b): (&f64, _)| a * b)
-                .sum();
+            let older = weights.iter().zip(products[1..lag].iter().rev());
+            let foreseen: f64 = older.map(|(weight, product)| weight * product).sum();
             let reflected = (products[lag] - foreseen) / left;
             if !reflected.is_finite() || 1.0 <= reflected.abs() {
                 break;
@@ -43,7 +40,12 @@ impl Prediction {
         Self { weights: best }
     }
 
-    /// What a pass shows beside what its last values tell; nothing of its first rows.
+    /// The rows of a pass that have enough rows before them.
+    pub(crate) fn told<'a>(&self, pass: &'a [f64]) -> &'a [f64] {
+        &pass[self.weights.len().min(pass.len())..]
+    }
+
+    /// What a pass shows there beside what its last values tell.
     pub(crate) fn beside(&self, pass: &[f64]) -> Vec<f64> {
         let windows = pass.windows(self.weights.len() + 1);
         let foreseen = |before: &[f64]| -> f64 {

@@ -7,7 +7,7 @@
 
 use super::uneven::taken;
 use crate::model::{Columns, Fit, Problem, State};
-use crate::noise::{Block, Prediction};
+use crate::noise::Prediction;
 use crate::numerics::count;
 use crate::numerics::least_squares::dot;
 use crate::policy::chance::LOUDEST_LOBE;
@@ -15,51 +15,53 @@ use crate::policy::chance::LOUDEST_LOBE;
 /// By what the gain of an effect exceeds the one it has beside the last values; 1 where these tell nothing.
 pub(super) fn inflation(problem: &Problem, now: &State, columns: &Columns, fit: &Fit) -> f64 {
     let [curve, left] = taken(problem, now, columns, fit);
-    let mut gain = 0.0;
-    let mut beside = Beside::default();
+    let mut gains = Gains::default();
     for sensor in 0..problem.sensors.len() {
-        let blocks = || problem.layout.blocks.iter().filter(|block| block.sensor == sensor);
-        let of = |values| -> Vec<&[f64]> { blocks().map(|block| rows_of(values, block)).collect() };
-        let (curves, lefts) = (of(&curve), of(&left));
-        gain += square(&curves) / variance(&lefts);
-        beside.add(&curves, &lefts);
+        let blocks = problem.layout.blocks.iter().filter(|block| block.sensor == sensor);
+        let (curves, lefts): (Vec<&[f64]>, Vec<&[f64]>) =
+            blocks.map(|block| (&curve[block.rows.clone()], &left[block.rows.clone()])).unzip();
+        gains.add(&curves, &lefts);
     }
-    let then = beside.along * beside.along.max(0.0) / beside.size.max(f64::MIN_POSITIVE);
-    (gain / then.max(f64::MIN_POSITIVE)).clamp(1.0, LOUDEST_LOBE)
+    gains.ratio()
 }
 
-fn rows_of<'a>(values: &'a [f64], block: &Block) -> &'a [f64] {
-    &values[block.rows.clone()]
-}
-
-/// A curve beside what the last values tell, over the variance of the noise there: times what was measured, and times
-/// itself.
+/// What a whitened curve gains in rows that have enough rows before them, and beside what those tell: times what was
+/// measured, and times itself.
 #[derive(Default)]
-struct Beside {
+struct Gains {
+    white: f64,
     along: f64,
     size: f64,
 }
 
-impl Beside {
+impl Gains {
     /// Adds the passes of one sensor.
     fn add(&mut self, curves: &[&[f64]], lefts: &[&[f64]]) {
         let prediction = Prediction::of(lefts);
-        let [curves, lefts] = [curves, lefts]
-            .map(|passes| passes.iter().map(|pass| prediction.beside(pass)).collect::<Vec<_>>());
-        let noise = variance(&lefts);
-        for (curve, left) in curves.iter().zip(&lefts) {
-            self.size += dot(curve, curve) / noise;
-            self.along += (dot(curve, curve) + dot(curve, left)) / noise;
+        let white = variance(lefts);
+        let beside = |passes: &[&[f64]]| -> Vec<Vec<f64>> {
+            passes.iter().map(|pass| prediction.beside(pass)).collect()
+        };
+        let (shown, rest) = (beside(curves), beside(lefts));
+        let noise = variance(&rest);
+        for ((curve, shown), left) in curves.iter().zip(&shown).zip(&rest) {
+            let told = prediction.told(curve);
+            self.white += dot(told, told) / white;
+            self.size += dot(shown, shown) / noise;
+            self.along += (dot(shown, shown) + dot(shown, left)) / noise;
         }
     }
-}
 
-fn square<P: AsRef<[f64]>>(passes: &[P]) -> f64 {
-    passes.iter().map(|pass| dot(pass.as_ref(), pass.as_ref())).sum()
+    fn ratio(&self) -> f64 {
+        let beside = self.along * self.along.max(0.0) / self.size.max(f64::MIN_POSITIVE);
+        (self.white / beside.max(f64::MIN_POSITIVE)).clamp(1.0, LOUDEST_LOBE)
+    }
 }
 
 /// Mean square.
 fn variance<P: AsRef<[f64]>>(passes: &[P]) -> f64 {
-    let rows: usize = passes.iter().map(|pass| pass.as_ref().len()).sum();
-    (square(passes) / count(rows.max(1))).max(f64::MIN_POSITIVE)
+    let all = || passes.iter().map(AsRef::as_ref);
+    let rows: usize = all().map(<[f64]>::len).sum();
+    let square: f64 = all().map(|pass| dot(pass, pass)).sum();
+    (square / count(rows.max(1))).max(f64::MIN_POSITIVE)
 }
