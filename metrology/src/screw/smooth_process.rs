@@ -13,12 +13,19 @@ pub(super) trait Process {
     /// Sum of the logarithms of the variances of what readings are off what is expected of them.
     fn log_variances(&self) -> f64;
 
-    /// What readings are off what is expected of them, in standard deviations.
-    fn innovations(&self, readings: &[f64]) -> Vec<f64>;
+    /// What readings from a place on are off what is expected of them, in standard deviations, those before
+    /// it being zero.
+    fn innovations(&self, from: usize, readings: &[f64]) -> Vec<f64>;
+
+    /// The most probable values, given readings.
+    fn smoothed(&self, readings: &[f64]) -> Vec<f64>;
 
     /// Values as they may have been, given readings.
     fn drawn(&self, readings: &[f64], random: &mut ChaCha8Rng) -> Vec<f64>;
 }
+
+/// How often what changes the size of a wave by chance is integrated: it has no kinks.
+const WAVE_ORDER: usize = 2;
 
 /// How many integrals a value is of what changes by chance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,12 +46,38 @@ impl Order {
     }
 
     /// The process at places that never decrease, of readings with a variance.
-    pub(super) fn process(self, strength: f64, places: &[f64], variance: f64) -> Box<dyn Process> {
-        match self {
-            Self::First => Box::new(Integral::<1>::new(strength, places, variance)),
-            Self::Second => Box::new(Integral::<2>::new(strength, places, variance)),
-            Self::Third => Box::new(Integral::<3>::new(strength, places, variance)),
-            Self::Fourth => Box::new(Integral::<4>::new(strength, places, variance)),
+    pub(super) fn process(
+        self,
+        strength: f64,
+        places: &[f64],
+        variance: f64,
+        wandering: Option<&Wandering>,
+    ) -> Box<dyn Process> {
+        match (self, wandering) {
+            (Self::First, None) => {
+                Box::new(Integral::<1, 1>::new(strength, places, variance, None))
+            }
+            (Self::Second, None) => {
+                Box::new(Integral::<2, 2>::new(strength, places, variance, None))
+            }
+            (Self::Third, None) => {
+                Box::new(Integral::<3, 3>::new(strength, places, variance, None))
+            }
+            (Self::Fourth, None) => {
+                Box::new(Integral::<4, 4>::new(strength, places, variance, None))
+            }
+            (Self::First, some) => {
+                Box::new(Integral::<1, 5>::new(strength, places, variance, some))
+            }
+            (Self::Second, some) => {
+                Box::new(Integral::<2, 6>::new(strength, places, variance, some))
+            }
+            (Self::Third, some) => {
+                Box::new(Integral::<3, 7>::new(strength, places, variance, some))
+            }
+            (Self::Fourth, some) => {
+                Box::new(Integral::<4, 8>::new(strength, places, variance, some))
+            }
         }
     }
 }
@@ -56,90 +89,97 @@ fn share(order: usize, one: usize, other: usize) -> f64 {
     1.0 / (number(2 * order - 1 - one - other) * below)
 }
 
-/// A process whose state is its value and the derivatives of it that do not jump.
-struct Integral<const N: usize> {
-    strength: f64,
+/// A wave whose cosine and sine go on as integrals of the second order of what changes by chance.
+pub(super) struct Wandering<'a> {
+    pub(super) strength: f64,
+    /// Cosine and sine at the places.
+    pub(super) wave: [&'a [f64]; 2],
+}
+
+/// A process whose state is its value and the derivatives of it that do not jump, and, beyond `N`, the sizes of
+/// a wave's cosine and sine, each with its derivative.
+struct Integral<const N: usize, const ALL: usize> {
+    strengths: [f64; ALL],
     /// Variance of a reading.
     variance: f64,
-    steps: Vec<Step<N>>,
+    steps: Vec<Step<N, ALL>>,
 }
 
 /// One place: what its reading tells.
-struct Step<const N: usize> {
+struct Step<const N: usize, const ALL: usize> {
+    /// How much of each part is read.
+    seen: [f64; ALL],
     /// Covariance of the value with the state, before the reading.
-    before: [f64; N],
+    before: [f64; ALL],
     /// Variance of what the reading is off.
     variance: f64,
     /// Distance to the next place.
     distance: f64,
 }
 
-impl<const N: usize> Step<N> {
+impl<const N: usize, const ALL: usize> Step<N, ALL> {
+    /// The value of a state.
+    fn value(&self, state: &[f64; ALL]) -> f64 {
+        (N..ALL).step_by(WAVE_ORDER).fold(state[0], |sum, part| sum + self.seen[part] * state[part])
+    }
+
     /// The state at the next place, this reading so much off what was expected.
-    fn next(&self, state: [f64; N], off: f64) -> [f64; N] {
+    fn next(&self, state: [f64; ALL], off: f64) -> [f64; ALL] {
         let told = off / self.variance;
-        ahead(std::array::from_fn(|part| state[part] + self.before[part] * told), self.distance)
+        let state = std::array::from_fn(|part| state[part] + self.before[part] * told);
+        ahead::<N, ALL>(state, self.distance)
     }
 }
 
-impl<const N: usize> Integral<N> {
-    fn new(strength: f64, places: &[f64], variance: f64) -> Self {
-        let shares: [[f64; N]; N] =
-            std::array::from_fn(|i| std::array::from_fn(|j| share(N, i, j)));
-        let mut covariance = [[0.0; N]; N];
+impl<const N: usize, const ALL: usize> Integral<N, ALL> {
+    fn new(strength: f64, places: &[f64], variance: f64, wandering: Option<&Wandering>) -> Self {
+        let of_wave = wandering.map_or(0.0, |wandering| wandering.strength);
+        let strengths = std::array::from_fn(|part| if part < N { strength } else { of_wave });
+        let shares: [[f64; ALL]; ALL] =
+            std::array::from_fn(|i| std::array::from_fn(|j| share_of::<N>(i, j)));
+        let mut covariance = [[0.0; ALL]; ALL];
         let mut steps = Vec::with_capacity(places.len());
         for (row, place) in places.iter().enumerate() {
             let distance = places.get(row + 1).map_or(0.0, |next| next - place);
-            let before = covariance[0];
-            let step = Step { before, variance: before[0] + variance, distance };
-            for (row, cross) in covariance.iter_mut().zip(before) {
-                for (value, other) in row.iter_mut().zip(before) {
+            let seen = std::array::from_fn(|part| match (part, wandering) {
+                (0, _) => 1.0,
+                (part, Some(wandering)) if part == N => wandering.wave[0][row],
+                (part, Some(wandering)) if part == N + WAVE_ORDER => wandering.wave[1][row],
+                _ => 0.0,
+            });
+            let mut step = Step { seen, before: [0.0; ALL], variance, distance };
+            step.before = std::array::from_fn(|part| step.value(&covariance[part]));
+            step.variance += step.value(&step.before);
+            for (row, cross) in covariance.iter_mut().zip(step.before) {
+                for (value, other) in row.iter_mut().zip(step.before) {
                     *value -= cross * other / step.variance;
                 }
             }
-            let rows = covariance.map(|row| ahead(row, distance));
-            let columns: [[f64; N]; N] =
-                std::array::from_fn(|j| ahead(rows.map(|row| row[j]), distance));
-            let powers = powers::<N>(distance);
+            let rows = covariance.map(|row| ahead::<N, ALL>(row, distance));
+            let columns: [[f64; ALL]; ALL] =
+                std::array::from_fn(|j| ahead::<N, ALL>(rows.map(|row| row[j]), distance));
+            let powers = powers::<N, ALL>(distance);
             covariance = std::array::from_fn(|i| {
                 std::array::from_fn(|j| {
-                    columns[j][i] + strength * distance * powers[i] * powers[j] * shares[i][j]
+                    columns[j][i] + strengths[i] * distance * powers[i] * powers[j] * shares[i][j]
                 })
             });
             steps.push(step);
         }
-        Self { strength, variance, steps }
-    }
-
-    /// The most probable values, given readings.
-    fn smoothed(&self, readings: &[f64]) -> Vec<f64> {
-        let mut state = [0.0; N];
-        let mut values: Vec<f64> = Vec::with_capacity(readings.len());
-        for (step, reading) in self.steps.iter().zip(readings) {
-            values.push(state[0]);
-            state = step.next(state, reading - state[0]);
-        }
-        let mut later = [0.0; N];
-        for ((step, reading), value) in self.steps.iter().zip(readings).zip(&mut values).rev() {
-            let mut told = behind(later, step.distance);
-            told[0] += (reading - *value - dot(&step.before, &told)) / step.variance;
-            *value += dot(&step.before, &told);
-            later = told;
-        }
-        values
+        Self { strengths, variance, steps }
     }
 
     /// Values as they may be without readings.
     fn unread(&self, random: &mut ChaCha8Rng) -> Vec<f64> {
-        let roots = roots::<N>();
-        let mut state = [0.0; N];
-        let one = |step: &Step<N>| {
-            let value = state[0];
-            let chance: [f64; N] = std::array::from_fn(|_| StandardNormal.sample(random));
-            let powers = powers::<N>(step.distance);
-            let size = (self.strength * step.distance).sqrt();
-            let carried = ahead(state, step.distance);
+        let roots = roots::<N, ALL>();
+        let mut state = [0.0; ALL];
+        let one = |step: &Step<N, ALL>| {
+            let value = step.value(&state);
+            let chance: [f64; ALL] = std::array::from_fn(|_| StandardNormal.sample(random));
+            let powers = powers::<N, ALL>(step.distance);
+            let carried = ahead::<N, ALL>(state, step.distance);
             state = std::array::from_fn(|part| {
+                let size = (self.strengths[part] * step.distance).sqrt();
                 carried[part] + size * powers[part] * dot(&roots[part], &chance)
             });
             value
@@ -148,19 +188,40 @@ impl<const N: usize> Integral<N> {
     }
 }
 
-impl<const N: usize> Process for Integral<N> {
+impl<const N: usize, const ALL: usize> Process for Integral<N, ALL> {
     fn log_variances(&self) -> f64 {
         self.steps.iter().map(|step| libm::log(step.variance)).sum()
     }
 
-    fn innovations(&self, readings: &[f64]) -> Vec<f64> {
-        let mut state = [0.0; N];
-        let one = |(step, reading): (&Step<N>, &f64)| {
-            let off = reading - state[0];
+    fn innovations(&self, from: usize, readings: &[f64]) -> Vec<f64> {
+        let mut state = [0.0; ALL];
+        let one = |(step, reading): (&Step<N, ALL>, &f64)| {
+            let off = reading - step.value(&state);
             state = step.next(state, off);
             off / step.variance.sqrt()
         };
-        self.steps.iter().zip(readings).map(one).collect()
+        self.steps[from..].iter().zip(readings).map(one).collect()
+    }
+
+    fn smoothed(&self, readings: &[f64]) -> Vec<f64> {
+        let mut state = [0.0; ALL];
+        let mut values: Vec<f64> = Vec::with_capacity(readings.len());
+        for (step, reading) in self.steps.iter().zip(readings) {
+            let value = step.value(&state);
+            values.push(value);
+            state = step.next(state, reading - value);
+        }
+        let mut later = [0.0; ALL];
+        for ((step, reading), value) in self.steps.iter().zip(readings).zip(&mut values).rev() {
+            let mut told = behind::<N, ALL>(later, step.distance);
+            let off = (reading - *value - dot(&step.before, &told)) / step.variance;
+            for (told, seen) in told.iter_mut().zip(step.seen) {
+                *told += seen * off;
+            }
+            *value += dot(&step.before, &told);
+            later = told;
+        }
+        values
     }
 
     fn drawn(&self, readings: &[f64], random: &mut ChaCha8Rng) -> Vec<f64> {
@@ -177,12 +238,26 @@ impl<const N: usize> Process for Integral<N> {
     }
 }
 
+/// How often what changes by chance is integrated in a part of the state, and which derivative that part is.
+fn place_of<const N: usize>(part: usize) -> (usize, usize) {
+    if part < N { (N, part) } else { (WAVE_ORDER, (part - N) % WAVE_ORDER) }
+}
+
+/// Covariance of two parts of the state at a distance of one.
+fn share_of<const N: usize>(one: usize, other: usize) -> f64 {
+    let block = |part: usize| if part < N { 0 } else { 1 + (part - N) / WAVE_ORDER };
+    if block(one) != block(other) {
+        return 0.0;
+    }
+    share(place_of::<N>(one).0, place_of::<N>(one).1, place_of::<N>(other).1)
+}
+
 /// Lower triangle whose square the covariance at a distance of one is.
-fn roots<const N: usize>() -> [[f64; N]; N] {
-    let mut roots = [[0.0; N]; N];
-    for row in 0..N {
+fn roots<const N: usize, const ALL: usize>() -> [[f64; ALL]; ALL] {
+    let mut roots = [[0.0; ALL]; ALL];
+    for row in 0..ALL {
         for column in 0..=row {
-            let left = share(N, row, column) - dot(&roots[row], &roots[column]);
+            let left = share_of::<N>(row, column) - dot(&roots[row], &roots[column]);
             roots[row][column] =
                 if row == column { left.sqrt() } else { left / roots[column][column] };
         }
@@ -191,27 +266,28 @@ fn roots<const N: usize>() -> [[f64; N]; N] {
 }
 
 /// By which power of the distance each part of the state grows, beside its root.
-fn powers<const N: usize>(distance: f64) -> [f64; N] {
-    let mut powers = [1.0; N];
-    for part in (1..N).rev() {
-        powers[part - 1] = powers[part] * distance;
-    }
-    powers
+fn powers<const N: usize, const ALL: usize>(distance: f64) -> [f64; ALL] {
+    std::array::from_fn(|part| {
+        let (order, derivative) = place_of::<N>(part);
+        (derivative + 1..order).fold(1.0, |power, _| power * distance)
+    })
 }
 
 /// The state a distance on: the Taylor series of every part.
-fn ahead<const N: usize>(state: [f64; N], distance: f64) -> [f64; N] {
+fn ahead<const N: usize, const ALL: usize>(state: [f64; ALL], distance: f64) -> [f64; ALL] {
     std::array::from_fn(|part| {
-        (part..N)
+        let (order, derivative) = place_of::<N>(part);
+        (part..part + order - derivative)
             .rev()
             .fold(0.0, |sum, later| state[later] + sum * distance / number(later + 1 - part))
     })
 }
 
 /// What is told of the state by what is told of it a distance on.
-fn behind<const N: usize>(told: [f64; N], distance: f64) -> [f64; N] {
+fn behind<const N: usize, const ALL: usize>(told: [f64; ALL], distance: f64) -> [f64; ALL] {
     std::array::from_fn(|part| {
-        (0..=part)
+        let first = part - place_of::<N>(part).1;
+        (first..=part)
             .fold(0.0, |sum, earlier| told[earlier] + sum * distance / number(part + 1 - earlier))
     })
 }
@@ -247,8 +323,8 @@ mod tests {
         let factor = matrix.factor().expect("a covariance");
         let solved = factor.solve(&READINGS);
         let square: f64 = solved.iter().zip(READINGS).map(|(one, other)| one * other).sum();
-        let process = Order::Second.process(STRENGTH, &PLACES, VARIANCE);
-        let found: f64 = process.innovations(&READINGS).iter().map(|off| off * off).sum();
+        let process = Order::Second.process(STRENGTH, &PLACES, VARIANCE, None);
+        let found: f64 = process.innovations(0, &READINGS).iter().map(|off| off * off).sum();
         assert!((found - square).abs() < 1e-9, "{found} {square}");
         let (found, all) = (process.log_variances(), factor.log_determinant());
         assert!((found - all).abs() < 1e-9, "{found} {all}");
@@ -264,7 +340,7 @@ mod tests {
     #[test]
     fn what_is_drawn_has_the_variance_of_the_process() {
         for order in Order::ALL {
-            let process = order.process(STRENGTH, &PLACES, 1e12);
+            let process = order.process(STRENGTH, &PLACES, 1e12, None);
             let mut random = ChaCha8Rng::seed_from_u64(2);
             let squares: Vec<f64> =
                 (0..4000).map(|_| process.drawn(&READINGS, &mut random)[3].powi(2)).collect();

@@ -1,12 +1,13 @@
 //! What the deviation of a screw may be, given readings with noise.
 //!
-//! A cubic, waves of a turn, and what bends by chance: how often integrated, how strong, and with how many
-//! waves is not chosen. Each is weighed by how probable it makes the readings (Bayesian model averaging, Hoeting
+//! What bends by chance, beside a line or what else it begins with up to a cubic, and waves of a turn: how often
+//! integrated, how strong, and with how many waves is not chosen. Each is weighed by how probable it makes the readings (Bayesian model averaging, Hoeting
 //! et al., *Statistical Science* 14, 1999, 382), and curves are drawn of all. What bends by chance has no steps,
-//! waves or bumps: where they make the readings more probable, with all places that they might have, they are
+//! kinks, waves or bumps: where they make the readings more probable, with all places that they might have, they are
 //! among what every curve has (de Jong and Penzer, *Diagnosing shocks in time series*, JASA 93, 1998, 796).
 
 mod features;
+mod gains;
 
 use std::f64::consts::TAU;
 
@@ -14,7 +15,7 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use super::smooth_process::{Order, Process};
+use super::smooth_process::{Order, Process, Wandering};
 use super::{Curve, Weighting, fit_mean_line};
 use crate::banded::{Banded, Factor};
 use crate::number::{dot, mean, number};
@@ -26,15 +27,22 @@ const UNKNOWN: usize = 2;
 const MOST_WAVES: usize = 3;
 /// Cosine and sine of a wave, or of how it grows evenly along the travel.
 const A_PAIR: usize = 2;
+/// Pairs of a wave of a turn that grows.
+const GROWING: usize = 2;
 /// Samples that a wave needs, lest two or three a turn be one.
 const SAMPLES_A_WAVE: f64 = 2.5;
 /// A process is too weak to be seen whose deviation at the end is a tenth of what the mean of all readings leaves.
 const UNSEEN: f64 = 0.01;
-/// Steps of the logarithm of a strength, rough ones to compare by, and finer ones about the most probable.
+/// Steps of the logarithm of a strength, rough ones to compare by, halved towards the most probable, and finer ones
+/// about it, to a quarter: a record of hundreds of readings tells the logarithm to about as much.
 const STEP: f64 = 2.0;
 const ROUGH_STEP: f64 = 4.0;
+const ROUGH_HALVINGS: i32 = 4;
 const FINE_STEP: f64 = 0.15;
 const FINE_STEPS: i8 = 10;
+/// Models that are less probable than the most probable by this much, of the logarithm, are drawn once in
+/// millions of curves.
+const NEVER_DRAWN: f64 = 15.0;
 /// Most places by which the models are weighed. Of a longer record, means of neighbours are.
 const MOST_PLACES: usize = 4000;
 
@@ -45,7 +53,11 @@ struct Model {
     pairs: usize,
 }
 
+/// Models of one order by the logarithm of its strength.
+type Strengths = Vec<(f64, Vec<(Model, f64)>)>;
+
 /// Readings in units of their noise, and what every model may have beside its process.
+#[derive(Clone)]
 struct Readings {
     /// Share of the travel.
     places: Vec<f64>,
@@ -56,6 +68,10 @@ struct Readings {
     columns: Vec<Vec<f64>>,
     /// What every curve has: the cubic and the features.
     every: usize,
+    /// A turn, as a share of the travel, where its wave is shown.
+    turn: Option<f64>,
+    /// How strongly the sizes of the wave of a turn change by chance, where they do.
+    wandering: Option<f64>,
     /// Variance of the readings about their mean line, which is what a bend or a wave may be.
     of_curve: f64,
 }
@@ -118,8 +134,18 @@ impl Readings {
             });
             columns.extend(even.into_iter().chain(grows));
         }
+        let turn = (1.0 <= a_turn).then(|| lead_mm / curve.length_mm());
         let of_curve = mean(&values.iter().map(|value| value * value).collect::<Vec<_>>()).max(1.0);
-        Self { places, values, variance: 1.0, columns, every: CUBIC, of_curve }
+        Self {
+            places,
+            values,
+            variance: 1.0,
+            columns,
+            every: CUBIC,
+            turn,
+            wandering: None,
+            of_curve,
+        }
     }
 
     fn means_of_neighbours(&self) -> Self {
@@ -131,47 +157,94 @@ impl Readings {
             variance: 1.0 / number(neighbours),
             columns: self.columns.iter().map(means).collect(),
             every: self.every,
+            turn: self.turn,
+            wandering: self.wandering,
             of_curve: self.of_curve,
         }
+    }
+
+    /// A process with the wave of a turn that wanders beside it, if it does.
+    fn process(&self, process: Option<(Order, f64)>) -> Option<Box<dyn Process>> {
+        let wave = [0, 1].map(|part| self.every + part);
+        let wandering = self.wandering.map(|strength| Wandering {
+            strength,
+            wave: wave.map(|part| self.columns[part].as_slice()),
+        });
+        let (order, strength) = process.or(wandering.as_ref().map(|_| (Order::First, 0.0)))?;
+        Some(order.process(strength, &self.places, self.variance, wandering.as_ref()))
+    }
+
+    /// Columns that stand beside a process: of the cubic what the process begins with, and no less than a line.
+    fn beside(&self, process: Option<(Order, f64)>) -> impl Iterator<Item = &Vec<f64>> {
+        let begins = process.map_or(UNKNOWN, |(order, _)| UNKNOWN.max(order as usize));
+        self.columns[..begins].iter().chain(&self.columns[CUBIC..])
     }
 
     fn most_pairs(&self) -> usize {
         (self.columns.len() - self.every) / A_PAIR
     }
 
-    /// All models with the logarithms of how probable they make the readings.
+    /// All models with the logarithms of how probable they make the readings, finely where they may be drawn.
     fn weighed(&self) -> Vec<(Model, f64)> {
-        let without = self.evidence_of(None, 1.0);
-        let orders = Order::ALL.into_iter().flat_map(|order| self.of_order(order));
-        without.into_iter().chain(orders).collect()
+        let mut models = self.evidence_of(None, 1.0);
+        let coarse = Order::ALL.map(|order| (order, self.coarsely_of_order(order, STEP)));
+        let all = |coarse: &Strengths| -> Vec<(Model, f64)> {
+            coarse.iter().flat_map(|(_, found)| found.iter().copied()).collect()
+        };
+        let most = |models: &[(Model, f64)]| most_probable(models).1;
+        let of_orders = coarse.iter().map(|(_, coarse)| most(&all(coarse)));
+        let bar = of_orders.fold(most(&models), f64::max) - NEVER_DRAWN;
+        for (order, coarse) in coarse {
+            let found = all(&coarse);
+            models.extend(if most(&found) < bar { found } else { self.of_order(order, coarse) });
+        }
+        models
     }
 
-    /// The same by coarse steps of the strength, to compare readings with more columns and fewer.
+    /// The same by coarse steps of the strength, and closer ones towards the most probable, to compare readings with
+    /// more columns and fewer: a strength that is far off makes of any feature that brings it nearer a gain.
     fn roughly_weighed(&self) -> Vec<(Model, f64)> {
         let without = self.evidence_of(None, 1.0);
         let orders =
             Order::ALL.into_iter().flat_map(|order| self.coarsely_of_order(order, ROUGH_STEP));
-        without.into_iter().chain(orders.flat_map(|(_, found)| found)).collect()
+        let mut models: Vec<(Model, f64)> =
+            without.into_iter().chain(orders.flat_map(|(_, found)| found)).collect();
+        for halving in 1..=ROUGH_HALVINGS {
+            let Some((order, strength)) = most_probable(&models).0.process else { break };
+            let (from, to) = self.range(order);
+            let step = libm::ldexp(ROUGH_STEP, -halving);
+            for nearer in [-step, step] {
+                let strength = strength * libm::exp(nearer);
+                let share = ROUGH_STEP / (to - from);
+                models.extend(self.evidence_of(Some((order, strength)), share));
+            }
+        }
+        models
     }
 
-    /// The models of one order by coarse steps of the logarithm of its strength.
-    fn coarsely_of_order(&self, order: Order, step: f64) -> Vec<(f64, Vec<(Model, f64)>)> {
+    /// The models of one order by coarse steps of the logarithm of its strength, up to where they are never drawn.
+    fn coarsely_of_order(&self, order: Order, step: f64) -> Strengths {
         let (from, to) = self.range(order);
         let steps = ((to - from) / step).ceil();
-        let at = |log: f64, share: f64| self.evidence_of(Some((order, libm::exp(log))), share);
-        let middles = std::iter::successors(Some(0.5), |step| Some(step + 1.0));
-        middles
-            .take_while(|step| *step < steps)
-            .map(|step| from + (to - from) * step / steps)
-            .map(|strength| (strength, at(strength, 1.0 / steps)))
-            .collect()
+        let at = |log: f64| self.evidence_of(Some((order, libm::exp(log))), 1.0 / steps);
+        let (mut coarse, mut middle, mut most) = (Vec::new(), 0.5, f64::NEG_INFINITY);
+        while middle < steps {
+            let strength = from + (to - from) * middle / steps;
+            let found = at(strength);
+            let here = most_probable(&found).1;
+            coarse.push((strength, found));
+            if here < most - NEVER_DRAWN {
+                break;
+            }
+            (most, middle) = (most.max(here), middle + 1.0);
+        }
+        coarse
     }
 
-    /// The models of one order, by steps of their strength, and by finer ones about the most probable.
-    fn of_order(&self, order: Order) -> Vec<(Model, f64)> {
+    /// The models of one order, by coarse steps of their strength, and by finer ones about the most probable.
+    fn of_order(&self, order: Order, coarse: Strengths) -> Vec<(Model, f64)> {
         let (from, to) = self.range(order);
         let at = |step: f64, share: f64| self.evidence_of(Some((order, libm::exp(step))), share);
-        let coarse = self.coarsely_of_order(order, STEP);
         let most = |found: &[(Model, f64)]| most_probable(found).1;
         let best = coarse.iter().fold((f64::NEG_INFINITY, from), |best, (strength, found)| {
             if best.0 < most(found) { (most(found), *strength) } else { best }
@@ -185,18 +258,24 @@ impl Readings {
 
     /// Logarithms of the strengths from one that is not seen to one that is all there is from sample to sample.
     fn range(&self, order: Order) -> (f64, f64) {
-        let samples = number(self.values.len());
-        let unseen = UNSEEN / samples / order.variance(1.0);
-        let all = self.of_curve / order.variance(1.0 / samples);
+        self.range_within(order, 1.0 / number(self.values.len()))
+    }
+
+    /// The same to one that is all there is within a distance.
+    fn range_within(&self, order: Order, distance: f64) -> (f64, f64) {
+        let unseen = UNSEEN / number(self.values.len()) / order.variance(1.0);
+        let all = self.of_curve / order.variance(distance);
         (libm::log(unseen), libm::log(all))
     }
 
     /// Logarithm of how probable a process makes the readings, by the number of pairs beside it, times a share.
     fn evidence_of(&self, process: Option<(Order, f64)>, share: f64) -> Vec<(Model, f64)> {
         let whitened = Whitened::of(self, process);
-        let kinds = self.most_pairs() + 1;
-        let share = libm::log(share / number(kinds));
-        let each = (0..kinds).map(|pairs| {
+        // A wave that wanders begins with one that grows evenly.
+        let fewest = if self.wandering.is_some() { GROWING } else { 0 };
+        let kinds = fewest..=self.most_pairs();
+        let share = libm::log(share / number(kinds.clone().count()));
+        let each = kinds.map(|pairs| {
             let evidence =
                 whitened.beside(pairs).map_or(f64::NEG_INFINITY, |beside| beside.evidence);
             (Model { process, pairs }, share + evidence)
@@ -210,7 +289,7 @@ impl Readings {
         let Some(beside) = whitened.beside(model.pairs) else { return Vec::new() };
         let one = |_| {
             let sizes = beside.drawn(random);
-            let terms = self.columns.iter().zip(&sizes);
+            let terms = self.beside(model.process).zip(&sizes);
             let mut drawn = vec![0.0; self.values.len()];
             for (column, size) in terms {
                 for (value, part) in drawn.iter_mut().zip(column) {
@@ -262,19 +341,17 @@ struct Beside {
 
 impl<'a> Whitened<'a> {
     fn of(readings: &'a Readings, process: Option<(Order, f64)>) -> Self {
-        let process = process
-            .map(|(order, strength)| order.process(strength, &readings.places, readings.variance));
         let mut whitened = Self {
             readings,
-            process,
+            process: readings.process(process),
             values: Vec::new(),
             columns: Vec::new(),
             products: Vec::new(),
             squares: Vec::new(),
         };
-        whitened.values = whitened.white(&readings.values);
-        for column in &readings.columns {
-            let column = whitened.white(column);
+        whitened.values = whitened.white(0, &readings.values);
+        for column in readings.beside(process) {
+            let column = whitened.white(0, column);
             whitened.products.push(dot(&column, &whitened.values));
             whitened.columns.push(column);
             let (this, all) = (whitened.columns.len() - 1, &whitened.columns);
@@ -283,11 +360,20 @@ impl<'a> Whitened<'a> {
         whitened
     }
 
-    fn white(&self, values: &[f64]) -> Vec<f64> {
+    /// Values from a place on, those before it being zero.
+    fn white(&self, from: usize, values: &[f64]) -> Vec<f64> {
         match &self.process {
-            Some(process) => process.innovations(values),
+            Some(process) => process.innovations(from, values),
             None => values.iter().map(|value| value / self.readings.variance.sqrt()).collect(),
         }
+    }
+
+    /// The inverse of the covariance times values.
+    fn weighted(&self, values: &[f64]) -> Vec<f64> {
+        let smoothed = self.process.as_ref().map(|process| process.smoothed(values));
+        let bent = smoothed.unwrap_or_else(|| vec![0.0; values.len()]);
+        let left = values.iter().zip(bent).map(|(value, bent)| value - bent);
+        left.map(|left| left / self.readings.variance).collect()
     }
 
     fn log_variances(&self) -> f64 {
@@ -298,7 +384,8 @@ impl<'a> Whitened<'a> {
 
     /// Beside so many pairs; `None` where the columns are not told apart.
     fn beside(&self, pairs: usize) -> Option<Beside> {
-        let width = self.readings.every + A_PAIR * pairs;
+        let others = self.readings.most_pairs() - pairs;
+        let width = self.columns.len() - A_PAIR * others;
         let mut precision = Banded::zeros(width, width - 1);
         for (row, squares) in self.squares[..width].iter().enumerate() {
             for (column, square) in squares.iter().enumerate() {
@@ -314,27 +401,6 @@ impl<'a> Whitened<'a> {
         let sizes = number(width - UNKNOWN) * libm::log(self.readings.of_curve);
         let logs = self.log_variances() + precision.log_determinant() + sizes;
         Some(Beside { best, precision, evidence: -0.5 * (left + logs) })
-    }
-
-    /// What twice the log likelihood gains by columns beside others, up to two.
-    fn gain(&self, beside: &Beside, columns: &[Vec<f64>]) -> f64 {
-        let width = columns.len();
-        let mut own = Banded::zeros(width, width.saturating_sub(1));
-        let mut along = vec![0.0; width];
-        for (row, column) in columns.iter().enumerate() {
-            let others = self.columns.iter().take(beside.best.len());
-            let shared: Vec<f64> = others.map(|one| dot(one, column)).collect();
-            along[row] = dot(column, &self.values) - dot(&beside.best, &shared);
-            let told = beside.precision.solve(&shared);
-            for (place, other) in columns.iter().take(row + 1).enumerate() {
-                let others = self.columns.iter().take(beside.best.len());
-                let by_others: f64 =
-                    others.zip(&told).map(|(one, told)| dot(one, other) * told).sum();
-                let size = if place == row { 1.0 / self.readings.of_curve } else { 0.0 };
-                own.add(row, place, dot(column, other) - by_others + size);
-            }
-        }
-        own.factor().map_or(0.0, |own| dot(&own.solve(&along), &along))
     }
 
     /// What a model leaves of the readings.

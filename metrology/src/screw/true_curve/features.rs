@@ -1,12 +1,16 @@
-//! Steps, waves and bumps that every curve has, since they make the readings more probable.
+//! Steps, kinks, waves and bumps that every curve has, since they make the readings more probable.
 //!
-//! What bends by chance is as rough everywhere: a step, a wave that goes on, and a bump make it rougher than a screw is
-//! beside them, and its widest bands wider. Which is there is asked of what a model leaves; one after the
-//! other is taken in, at the price of all places, lengths and widths that it might have had.
+//! What bends by chance is as rough everywhere: a step, a kink, a wave that goes on, and a bump make it rougher than a
+//! screw is beside them, and its widest bands wider. Which is there is asked of what a model leaves; one after the
+//! other is taken in, at the price of all places, lengths and widths that it might have had. Of those that are
+//! likely one by one the best is not always the best together: each is asked again beside the later ones, and
+//! all with the wave of a turn going on evenly and with its size wandering.
 
 use std::f64::consts::TAU;
 
-use super::{Model, Readings, Whitened, evidence, most_probable};
+use super::super::smooth_process::Order;
+use super::gains::Gains;
+use super::{A_PAIR, GROWING, Model, Readings, Whitened, evidence, most_probable};
 use crate::number::number;
 
 /// Waves tried, for one that can be told from its neighbour over the travel.
@@ -14,8 +18,8 @@ const WAVES_A_CYCLE: f64 = 2.0;
 /// The longest wave, in lengths of the travel: a longer one is a bow.
 const LONGEST: f64 = 1.0;
 /// Tallest of the waves tried that are looked at closely, and halvings of their distance then.
-const CLOSELY: usize = 2;
-const HALVINGS: i32 = 4;
+pub(super) const CLOSELY: usize = 2;
+pub(super) const HALVINGS: i32 = 4;
 /// Widths of bumps, in samples: each twice the last. Chosen: from what three samples show to a sixteenth of a
 /// record of a few hundred.
 const WIDTHS: [f64; 5] = [1.0, 2.0, 4.0, 8.0, 16.0];
@@ -24,69 +28,192 @@ const BUMPS_A_WIDTH: f64 = 1.0;
 /// Widths of a bump beyond which nothing of it is left.
 const REACH: f64 = 5.0;
 
+/// How steep a kink may be: as what bends by the size of the whole curve within a sixteenth of the travel. Chosen; more is
+/// a step.
+const KINK_WITHIN: f64 = 1.0 / 16.0;
+/// Features that may be worth their price only together. Chosen: of two bumps that are alike the first leaves the
+/// curve as rough as it was, and is worth nothing without the second.
+const AT_ONCE: usize = 2;
+
 /// What a curve may have beside a cubic, waves of a turn, and what bends by chance.
-#[derive(Clone, Copy, Debug)]
-enum Feature {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Feature {
     /// From a place on.
     Step(f64),
-    /// So many over the travel; with one that grows evenly, as a wave of a length a little off does.
-    Wave(f64),
-    /// A place and a width.
+    /// A slope from a place on.
+    Kink(f64),
+    /// A wave of a turn whose sizes change by chance, so strongly.
+    Wandering(f64),
+    /// So many over the travel, and a phase; with one that grows evenly beside it, as a wave of a length a little
+    /// off does.
+    Wave(f64, f64),
+    /// So many over the travel, whose size grows.
+    Growing(f64),
+    /// A place and a width; with its first two derivatives, as bumps have that are a little off in either, or of
+    /// another shape.
     Bump(f64, f64),
 }
 
 impl Feature {
-    fn columns(self, places: &[f64]) -> Vec<Vec<f64>> {
+    /// Those about it that are looked at closely, nearer at each halving; a step's and a kink's are all asked.
+    pub(super) fn neighbours(self, halving: i32) -> Vec<Self> {
+        let step = libm::ldexp(1.0, -halving);
+        match self {
+            Self::Step(_) | Self::Kink(_) | Self::Growing(_) | Self::Wandering(_) => Vec::new(),
+            Self::Wave(waves, phase) => {
+                [-step, step].map(|more| Self::Wave(waves + more / WAVES_A_CYCLE, phase)).to_vec()
+            }
+            Self::Bump(at, width) => {
+                let wider = libm::exp2(step);
+                vec![
+                    Self::Bump(at - step * width, width),
+                    Self::Bump(at + step * width, width),
+                    Self::Bump(at, width / wider),
+                    Self::Bump(at, width * wider),
+                ]
+            }
+        }
+    }
+
+    pub(super) fn columns(self, places: &[f64]) -> Vec<Vec<f64>> {
         let column =
             |value: &dyn Fn(f64) -> f64| places.iter().map(|place| value(*place)).collect();
         match self {
             Self::Step(at) => vec![column(&|place| f64::from(u8::from(at <= place)))],
+            Self::Kink(at) => vec![column(&|place| (place - at).max(0.0) / KINK_WITHIN)],
+            Self::Wandering(_) => Vec::new(),
             Self::Bump(at, width) => {
-                vec![column(&|place| {
-                    let off = (place - at) / width;
-                    if off.abs() < REACH { libm::exp(-0.5 * off * off) } else { 0.0 }
-                })]
+                let bell =
+                    |off: f64| if off.abs() < REACH { libm::exp(-0.5 * off * off) } else { 0.0 };
+                let off = |place: f64| (place - at) / width;
+                vec![
+                    column(&|place| bell(off(place))),
+                    column(&|place| off(place) * bell(off(place))),
+                    column(&|place| (off(place).powi(2) - 1.0) * bell(off(place))),
+                ]
             }
-            Self::Wave(waves) => {
-                let angle = |place: f64| TAU * waves * (place - 0.5);
-                let grows = |place: f64| 2.0 * (place - 0.5);
+            Self::Wave(waves, phase) => {
+                let angle = |place: f64| TAU * waves * (place - 0.5) - phase;
                 vec![
                     column(&|place| libm::cos(angle(place))),
                     column(&|place| libm::sin(angle(place))),
-                    column(&|place| grows(place) * libm::cos(angle(place))),
-                    column(&|place| grows(place) * libm::sin(angle(place))),
+                    column(&|place| 2.0 * (place - 0.5) * libm::sin(angle(place))),
                 ]
+            }
+            Self::Growing(waves) => {
+                let grows = |place: f64| 2.0 * (place - 0.5);
+                let angle = |place: f64| TAU * waves * (place - 0.5);
+                let mut columns = Self::Wave(waves, 0.0).columns(places);
+                columns.push(column(&|place| grows(place) * libm::cos(angle(place))));
+                columns
             }
         }
     }
 }
 
 /// A feature, and the logarithm of how many might have been it.
-type Priced = (Feature, f64);
-/// Readings, the means of their neighbours, and the models of these.
-type Weighed = (Readings, Readings, Vec<(Model, f64)>);
+pub(super) type Priced = (Feature, f64);
+
+/// Readings with the features that were taken in so far.
+struct Path<'a> {
+    bare: &'a Readings,
+    features: Vec<Priced>,
+    readings: Readings,
+    /// Means of neighbours, and the models of these.
+    few: Readings,
+    models: Vec<(Model, f64)>,
+}
+
+impl<'a> Path<'a> {
+    fn of(bare: &'a Readings, features: Vec<Priced>) -> Self {
+        let all = features.iter();
+        let readings = all.fold(bare.clone(), |readings, (feature, _)| readings.with(*feature));
+        let few = readings.means_of_neighbours();
+        let models = few.roughly_weighed();
+        Self { bare, features, readings, few, models }
+    }
+
+    fn with(&self, priced: Priced) -> Self {
+        Self::of(self.bare, self.features.iter().copied().chain([priced]).collect())
+    }
+
+    /// With every feature where it is likeliest beside the others, which were not there when it was taken in, and
+    /// without it if that is worth more.
+    fn tuned(mut self) -> Self {
+        let model = most_probable(&self.models).0;
+        for place in (0..self.features.len()).rev() {
+            let mut features = self.features.clone();
+            let (feature, price) = features.remove(place);
+            let without = Self::of(self.bare, features.clone());
+            let tuned = without.few.gains(model, |gains| gains.closely(vec![feature]));
+            features.insert(place, (tuned.flatten().unwrap_or(feature), price));
+            for other in [without, Self::of(self.bare, features)] {
+                if self.worth() < other.worth() {
+                    self = other;
+                }
+            }
+        }
+        self
+    }
+
+    /// How probable it makes the readings, what it was chosen from taken off.
+    fn worth(&self) -> f64 {
+        evidence(&self.models) - self.features.iter().map(|(_, price)| price).sum::<f64>()
+    }
+
+    /// With a wave of a turn that wanders, if that is worth more.
+    fn wandering(&self) -> Option<Self> {
+        let wandering = self.with(self.few.wandering(most_probable(&self.models).0)?);
+        (self.worth() < wandering.worth()).then_some(wandering)
+    }
+
+    /// The path to its end: with every feature that is worth its price.
+    fn followed(self) -> Self {
+        let mut path = self;
+        while let Some(more) = path.with_more(path.worth(), AT_ONCE) {
+            path = more;
+        }
+        path.tuned()
+    }
+
+    /// With the feature that is worth most, if that is more than a bar; or with the one that is so before its
+    /// price and others, so many at once, if these are.
+    fn with_more(&self, bar: f64, at_once: usize) -> Option<Self> {
+        let features = self.few.likeliest(most_probable(&self.models).0);
+        let most = |worth: fn(&(f64, Priced)) -> f64| {
+            let all = features.iter();
+            all.max_by(|one, other| worth(one).total_cmp(&worth(other))).map(|(_, priced)| *priced)
+        };
+        let worthiest = most(|(evidence, (_, price))| evidence - price)?;
+        let more = self.with(worthiest);
+        if bar < more.worth() {
+            return Some(more);
+        }
+        let likeliest = most(|(evidence, _)| *evidence).filter(|_| 1 < at_once)?;
+        let more = if likeliest == worthiest { more } else { self.with(likeliest) };
+        more.with_more(bar, at_once - 1)
+    }
+}
 
 impl Readings {
     /// With the features that make the readings more probable, and the models beside them.
     pub(super) fn with_features(self) -> (Self, Vec<(Model, f64)>) {
-        let mut few = self.means_of_neighbours();
-        let (mut readings, mut models) = (self, few.roughly_weighed());
-        while let Some((more, few_more, others)) = readings.with_one_more(&few, &models) {
-            (readings, few, models) = (more, few_more, others);
-        }
-        let models = few.weighed();
-        (readings, models)
+        let path = Path::of(&self, Vec::new());
+        // A wave that swells evenly is two waves, of which the first is worth less than one that wanders.
+        let wandering = path.wandering().map(Path::followed);
+        let path = path.followed();
+        let path = wandering
+            .into_iter()
+            .fold(path, |path, other| if path.worth() < other.worth() { other } else { path });
+        let models = path.few.weighed();
+        (path.readings, models)
     }
 
-    /// The likeliest feature that makes the readings more probable, if any does.
-    fn with_one_more(&self, few: &Self, models: &[(Model, f64)]) -> Option<Weighed> {
-        few.likeliest(most_probable(models).0).into_iter().find_map(|(feature, price)| {
-            let more = self.with(feature);
-            let few_more = more.means_of_neighbours();
-            let others = few_more.roughly_weighed();
-            let better = evidence(models) < evidence(&others) - price;
-            better.then_some((more, few_more, others))
-        })
+    /// With no more pairs of columns of waves than so many.
+    fn of_pairs(&self, pairs: usize) -> Self {
+        let mut few = self.clone();
+        few.columns.truncate(self.every + A_PAIR * pairs);
+        few
     }
 
     fn with(&self, feature: Feature) -> Self {
@@ -94,35 +221,45 @@ impl Readings {
         let new = feature.columns(&self.places);
         let every = self.every + new.len();
         columns.splice(self.every..self.every, new);
-        Self { places: self.places.clone(), values: self.values.clone(), columns, every, ..*self }
+        let wandering = if let Feature::Wandering(strength) = feature {
+            Some(strength)
+        } else {
+            self.wandering
+        };
+        Self {
+            places: self.places.clone(),
+            values: self.values.clone(),
+            columns,
+            every,
+            wandering,
+            ..*self
+        }
     }
 
-    /// Of each kind the one that a model gains most by, those first that gain most beyond their price.
-    fn likeliest(&self, model: Model) -> Vec<Priced> {
+    /// What is asked of the gains of a model.
+    fn gains<T>(&self, model: Model, ask: impl FnOnce(&Gains) -> T) -> Option<T> {
         let whitened = Whitened::of(self, model.process);
-        let Some(beside) = whitened.beside(model.pairs) else { return Vec::new() };
-        let gain = |feature: Feature| -> f64 {
-            let columns = feature.columns(&self.places);
-            let even: Vec<Vec<f64>> =
-                columns.iter().take(2).map(|column| whitened.white(column)).collect();
-            whitened.gain(&beside, &even)
+        let beside = whitened.beside(model.pairs)?;
+        Some(ask(&Gains::of(model, &whitened, &beside)))
+    }
+
+    /// Of each kind the one that a model gains most by, and how probable it makes the readings.
+    fn likeliest(&self, model: Model) -> Vec<(f64, Priced)> {
+        let at_places = |feature: fn(f64) -> Feature| -> Vec<Feature> {
+            self.places[1..].iter().map(|at| feature(*at)).collect()
         };
-        let steps: Vec<Feature> = self.places[1..].iter().map(|at| Feature::Step(*at)).collect();
-        let (waves, tried) = self.waves(&whitened.left(&beside), &gain);
-        let kinds = [(steps, None), (waves, Some(tried)), (self.bumps(), None)];
-        let mut best: Vec<(f64, Priced)> = Vec::new();
-        for (kind, tried) in kinds {
-            let price = libm::log(tried.unwrap_or(number(kind.len())).max(1.0));
-            let gains = kind.into_iter().map(|one| (0.5 * gain(one) - price, (one, price)));
-            best.extend(gains.max_by(|one, other| one.0.total_cmp(&other.0)));
-        }
-        best.retain(|(gain, _)| 0.0 < *gain);
-        best.sort_by(|one, other| other.0.total_cmp(&one.0));
-        best.into_iter().map(|(_, priced)| priced).collect()
+        let kinds = self.gains(model, |gains| {
+            let one = [Feature::Step, Feature::Kink].map(|kind| gains.best(at_places(kind)));
+            let [bump, waves] = [gains.bump(self.bumps()), gains.waves(self.waves(&gains.left))];
+            one.into_iter().flatten().chain(bump).chain(waves).collect::<Vec<Priced>>()
+        });
+        let few = self.of_pairs(model.pairs.max(GROWING));
+        let worth = |priced: Priced| (evidence(&few.with(priced.0).roughly_weighed()), priced);
+        kinds.into_iter().flatten().map(worth).collect()
     }
 
     /// The waves that are tallest in what a model leaves, and how many were tried.
-    fn waves(&self, left: &[f64], gain: &dyn Fn(Feature) -> f64) -> (Vec<Feature>, f64) {
+    fn waves(&self, left: &[f64]) -> (Vec<Feature>, f64) {
         let most = number(self.places.len()) / super::SAMPLES_A_WAVE;
         let tried: Vec<f64> = (0..self.places.len())
             .map(|step| 1.0 / LONGEST + number(step) / WAVES_A_CYCLE)
@@ -138,21 +275,23 @@ impl Readings {
         };
         let mut powers: Vec<(f64, f64)> = tried.iter().map(power).collect();
         powers.sort_by(|one, other| other.0.total_cmp(&one.0));
-        let closer = |(_, waves): &(f64, f64)| {
-            let mut best = (gain(Feature::Wave(*waves)), *waves);
-            for halving in 1..=HALVINGS {
-                let step = libm::ldexp(1.0 / WAVES_A_CYCLE, -halving);
-                for waves in [best.1 - step, best.1 + step] {
-                    let found = gain(Feature::Wave(waves));
-                    if best.0 < found {
-                        best = (found, waves);
-                    }
-                }
-            }
-            Feature::Wave(best.1)
+        let tallest = powers.iter().take(CLOSELY).map(|(_, waves)| Feature::Wave(*waves, 0.0));
+        (tallest.collect(), number(tried.len()))
+    }
+
+    /// The strength of a wandering wave of a turn that a model gains most by.
+    fn wandering(&self, model: Model) -> Option<Priced> {
+        let (from, to) = self.range_within(Order::Second, self.turn?);
+        let steps = std::iter::successors(Some(from), |strength| Some(strength + super::STEP));
+        let strengths: Vec<f64> = steps.take_while(|strength| *strength < to).collect();
+        let price = libm::log(number(strengths.len().max(1)));
+        let of_strength = |strength: f64| {
+            let feature = Feature::Wandering(libm::exp(strength));
+            let found = self.with(feature).evidence_of(model.process, 1.0);
+            (most_probable(&found).1, (feature, price))
         };
-        let tallest = powers.iter().take(CLOSELY).map(closer).collect();
-        (tallest, number(tried.len()))
+        let all = strengths.into_iter().map(of_strength);
+        all.max_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, priced)| priced)
     }
 
     fn bumps(&self) -> Vec<Feature> {
