@@ -15,3 +15,14 @@ pub(crate) fn mean(values: &[f64]) -> f64 {
 pub(crate) fn dot(one: &[f64], other: &[f64]) -> f64 {
     one.iter().zip(other).map(|(one, other)| one * other).sum()
 }
+
+/// The same of long ones in four sums, which a processor adds up side by side.
+pub(crate) fn long_dot(one: &[f64], other: &[f64]) -> f64 {
+    let length = one.len().min(other.len());
+    let ((ones, one), (others, other)) =
+        (one[..length].as_chunks::<4>(), other[..length].as_chunks::<4>());
+    let sums = ones.iter().zip(others).fold([0.0; 4], |sums: [f64; 4], (one, other)| {
+        std::array::from_fn(|lane| sums[lane] + one[lane] * other[lane])
+    });
+    sums.iter().sum::<f64>() + dot(one, other)
+}

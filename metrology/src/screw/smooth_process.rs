@@ -111,8 +111,11 @@ struct Step<const N: usize, const ALL: usize> {
     seen: [f64; ALL],
     /// Covariance of the value with the state, before the reading.
     before: [f64; ALL],
-    /// Variance of what the reading is off.
+    /// The same by the variance of what the reading is off, which is what that tells of the state.
+    gain: [f64; ALL],
+    /// Variance of what the reading is off, and its root.
     variance: f64,
+    deviation: f64,
     /// Distance to the next place.
     distance: f64,
 }
@@ -125,8 +128,7 @@ impl<const N: usize, const ALL: usize> Step<N, ALL> {
 
     /// The state at the next place, this reading so much off what was expected.
     fn next(&self, state: [f64; ALL], off: f64) -> [f64; ALL] {
-        let told = off / self.variance;
-        let state = std::array::from_fn(|part| state[part] + self.before[part] * told);
+        let state = std::array::from_fn(|part| state[part] + self.gain[part] * off);
         ahead::<N, ALL>(state, self.distance)
     }
 }
@@ -147,9 +149,13 @@ impl<const N: usize, const ALL: usize> Integral<N, ALL> {
                 (part, Some(wandering)) if part == N + WAVE_ORDER => wandering.wave[1][row],
                 _ => 0.0,
             });
-            let mut step = Step { seen, before: [0.0; ALL], variance, distance };
+            let none = [0.0; ALL];
+            let mut step =
+                Step { seen, before: none, gain: none, variance, deviation: 0.0, distance };
             step.before = std::array::from_fn(|part| step.value(&covariance[part]));
             step.variance += step.value(&step.before);
+            step.deviation = step.variance.sqrt();
+            step.gain = step.before.map(|before| before / step.variance);
             for (row, cross) in covariance.iter_mut().zip(step.before) {
                 for (value, other) in row.iter_mut().zip(step.before) {
                     *value -= cross * other / step.variance;
@@ -198,7 +204,7 @@ impl<const N: usize, const ALL: usize> Process for Integral<N, ALL> {
         let one = |(step, reading): (&Step<N, ALL>, &f64)| {
             let off = reading - step.value(&state);
             state = step.next(state, off);
-            off / step.variance.sqrt()
+            off / step.deviation
         };
         self.steps[from..].iter().zip(readings).map(one).collect()
     }

@@ -18,7 +18,7 @@ use rand_distr::{Distribution, StandardNormal};
 use super::smooth_process::{Order, Process, Wandering};
 use super::{Curve, Weighting, fit_mean_line};
 use crate::banded::{Banded, Factor};
-use crate::number::{dot, mean, number};
+use crate::number::{dot, long_dot, mean, number};
 
 /// Level, slope, and two terms that bend; of what bends, as of steps and waves, it is known how large it may be.
 const CUBIC: usize = 4;
@@ -352,10 +352,10 @@ impl<'a> Whitened<'a> {
         whitened.values = whitened.white(0, &readings.values);
         for column in readings.beside(process) {
             let column = whitened.white(0, column);
-            whitened.products.push(dot(&column, &whitened.values));
+            whitened.products.push(long_dot(&column, &whitened.values));
             whitened.columns.push(column);
             let (this, all) = (whitened.columns.len() - 1, &whitened.columns);
-            whitened.squares.push(all.iter().map(|other| dot(&all[this], other)).collect());
+            whitened.squares.push(all.iter().map(|other| long_dot(&all[this], other)).collect());
         }
         whitened
     }

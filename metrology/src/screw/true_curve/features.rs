@@ -31,6 +31,8 @@ const REACH: f64 = 5.0;
 /// How steep a kink may be: as what bends by the size of the whole curve within a sixteenth of the travel. Chosen; more is
 /// a step.
 const KINK_WITHIN: f64 = 1.0 / 16.0;
+/// Steps, kinks, waves and bumps.
+const KINDS: f64 = 4.0;
 /// Features that may be worth their price only together. Chosen: of two bumps that are alike the first leaves the
 /// curve as rough as it was, and is worth nothing without the second.
 const AT_ONCE: usize = 2;
@@ -254,7 +256,10 @@ impl Readings {
             one.into_iter().flatten().chain(bump).chain(waves).collect::<Vec<Priced>>()
         });
         let few = self.of_pairs(model.pairs.max(GROWING));
-        let worth = |priced: Priced| (evidence(&few.with(priced.0).roughly_weighed()), priced);
+        let worth = |(feature, price): Priced| {
+            let models = few.with(feature).roughly_weighed();
+            (evidence(&models), (feature, price + libm::log(KINDS)))
+        };
         kinds.into_iter().flatten().map(worth).collect()
     }
 

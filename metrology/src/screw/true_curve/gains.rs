@@ -3,7 +3,7 @@
 
 use super::features::{CLOSELY, Feature, HALVINGS, Priced};
 use super::{Banded, Beside, Model, Whitened};
-use crate::number::{dot, number};
+use crate::number::{dot, long_dot, number};
 
 /// What a model gains by features.
 pub(super) struct Gains<'a> {
@@ -101,7 +101,7 @@ impl<'a> Gains<'a> {
                 let size = if column == row { 1.0 / readings.of_curve } else { 0.0 };
                 let from = part.from.max(other.from);
                 let together =
-                    dot(&part.white[from - part.from..], &other.white[from - other.from..]);
+                    long_dot(&part.white[from - part.from..], &other.white[from - other.from..]);
                 own.add(row, column, together - dot(&told, &other.shared) + size);
             }
         }
@@ -121,6 +121,6 @@ impl<'a> Gains<'a> {
 
 impl Part {
     fn with(&self, weighted: &[f64]) -> f64 {
-        dot(&self.values, &weighted[self.from..self.from + self.values.len()])
+        long_dot(&self.values, &weighted[self.from..self.from + self.values.len()])
     }
 }
