@@ -119,6 +119,8 @@ pub(super) type Priced = (Feature, f64);
 /// Readings with the features that were taken in so far.
 struct Path<'a> {
     bare: &'a Readings,
+    /// Whether bumps are asked.
+    bumps: bool,
     features: Vec<Priced>,
     readings: Readings,
     /// Means of neighbours, and the models of these.
@@ -127,16 +129,16 @@ struct Path<'a> {
 }
 
 impl<'a> Path<'a> {
-    fn of(bare: &'a Readings, features: Vec<Priced>) -> Self {
+    fn of(bare: &'a Readings, bumps: bool, features: Vec<Priced>) -> Self {
         let all = features.iter();
         let readings = all.fold(bare.clone(), |readings, (feature, _)| readings.with(*feature));
         let few = readings.means_of_neighbours();
         let models = few.roughly_weighed();
-        Self { bare, features, readings, few, models }
+        Self { bare, bumps, features, readings, few, models }
     }
 
     fn with(&self, priced: Priced) -> Self {
-        Self::of(self.bare, self.features.iter().copied().chain([priced]).collect())
+        Self::of(self.bare, self.bumps, self.features.iter().copied().chain([priced]).collect())
     }
 
     /// With every feature where it is likeliest beside the others, which were not there when it was taken in, and
@@ -146,10 +148,10 @@ impl<'a> Path<'a> {
         for place in (0..self.features.len()).rev() {
             let mut features = self.features.clone();
             let (feature, price) = features.remove(place);
-            let without = Self::of(self.bare, features.clone());
+            let without = Self::of(self.bare, self.bumps, features.clone());
             let tuned = without.few.gains(model, |gains| gains.closely(vec![feature]));
             features.insert(place, (tuned.flatten().unwrap_or(feature), price));
-            for other in [without, Self::of(self.bare, features)] {
+            for other in [without, Self::of(self.bare, self.bumps, features)] {
                 if self.worth() < other.worth() {
                     self = other;
                 }
@@ -181,7 +183,7 @@ impl<'a> Path<'a> {
     /// With the feature that is worth most, if that is more than a bar; or with the one that is so before its
     /// price and others, so many at once, if these are.
     fn with_more(&self, bar: f64, at_once: usize) -> Option<Self> {
-        let features = self.few.likeliest(most_probable(&self.models).0);
+        let features = self.few.likeliest(most_probable(&self.models).0, self.bumps);
         let most = |worth: fn(&(f64, Priced)) -> f64| {
             let all = features.iter();
             all.max_by(|one, other| worth(one).total_cmp(&worth(other))).map(|(_, priced)| *priced)
@@ -200,12 +202,16 @@ impl<'a> Path<'a> {
 impl Readings {
     /// With the features that make the readings more probable, and the models beside them.
     pub(super) fn with_features(self) -> (Self, Vec<(Model, f64)>) {
-        let path = Path::of(&self, Vec::new());
+        let begin = Path::of(&self, true, Vec::new());
         // A wave that swells evenly is two waves, of which the first is worth less than one that wanders.
-        let wandering = path.wandering().map(Path::followed);
-        let path = path.followed();
+        let wandering = begin.wandering().map(Path::followed);
+        let path = begin.followed();
+        // Two steps are a short rise, of which the first is worth less than a bump.
+        let with_bumps = path.features.iter().any(|(one, _)| matches!(one, Feature::Bump(..)));
+        let stepped = with_bumps.then(|| Path::of(&self, false, Vec::new()).followed());
         let path = wandering
             .into_iter()
+            .chain(stepped)
             .fold(path, |path, other| if path.worth() < other.worth() { other } else { path });
         let models = path.few.weighed();
         (path.readings, models)
@@ -246,13 +252,16 @@ impl Readings {
     }
 
     /// Of each kind the one that a model gains most by, and how probable it makes the readings.
-    fn likeliest(&self, model: Model) -> Vec<(f64, Priced)> {
+    fn likeliest(&self, model: Model, bumps: bool) -> Vec<(f64, Priced)> {
         let at_places = |feature: fn(f64) -> Feature| -> Vec<Feature> {
             self.places[1..].iter().map(|at| feature(*at)).collect()
         };
         let kinds = self.gains(model, |gains| {
             let one = [Feature::Step, Feature::Kink].map(|kind| gains.best(at_places(kind)));
-            let [bump, waves] = [gains.bump(self.bumps()), gains.waves(self.waves(&gains.left))];
+            let [bump, waves] = [
+                gains.bump(if bumps { self.bumps() } else { Vec::new() }),
+                gains.waves(self.waves(&gains.left)),
+            ];
             one.into_iter().flatten().chain(bump).chain(waves).collect::<Vec<Priced>>()
         });
         let few = self.of_pairs(model.pairs.max(GROWING));
