@@ -179,11 +179,12 @@ impl Now {
     fn without_gone(self, problem: &Problem) -> Self {
         let named = self.state.components.len() - self.granted.len();
         let gone: Vec<usize> = (0..named).filter(|&index| is_gone(&self.state, index)).collect();
-        let others = self.state.without(&gone);
-        match State::settled(problem, others, &self.state.fit.noises).filter(|_| !gone.is_empty()) {
-            Some(state) => Self { state, ..self },
-            None => self,
+        if gone.is_empty() {
+            return self;
         }
+        let others = self.state.without(&gone);
+        let state = State::settled(problem, others, &self.state.fit.noises);
+        Self { state: state.unwrap_or_else(|| self.state.clone()), ..self }
     }
 
     /// What targets show at every visit, where no formula explains it, or none better than errors of their own do.
@@ -360,18 +361,25 @@ impl Now {
         (left, beaten)
     }
 
-    /// The model without some names.
-    fn without(&self, problem: &Problem, names: &[usize]) -> Option<State> {
+    /// The same without some names, and without those that are superfluous then.
+    fn without(self, problem: &Problem, names: &[usize]) -> Self {
+        if names.is_empty() {
+            return self;
+        }
         let others = self.state.without(names);
-        Some(pruned(problem, State::settled(problem, others, &self.state.fit.noises)?).0)
+        let state = State::settled(problem, others, &self.state.fit.noises);
+        let state = state.map_or_else(|| self.state.clone(), |state| pruned(problem, state).0);
+        Self { state, ..self }
     }
 
     /// The answer, fitted to all rows.
-    fn told(mut self, problem: &Problem, small: &Problem, steps: &[Step]) -> Discovery {
+    fn told(self, problem: &Problem, small: &Problem, steps: &[Step]) -> Discovery {
         let (residual, beaten) = self.left(small, steps);
-        if let Some(others) = self.without(small, &beaten).filter(|_| !beaten.is_empty()) {
-            self.state = others;
-        }
+        self.without(small, &beaten).with_rest(problem, small, residual)
+    }
+
+    /// The same, where it is known what is left.
+    fn with_rest(&self, problem: &Problem, small: &Problem, residual: Vec<Structure>) -> Discovery {
         let mut whole = problem.clone();
         let state = if small.samples.len() == problem.samples.len() {
             whole = small.clone();
@@ -438,8 +446,8 @@ fn told(problem: &Problem, state: &State) -> Discovery {
     }
 }
 
-/// Why a claim may not join: it must be ahead by the margin and help on unseen data; beside what was granted it must be
-/// beyond chance and large enough, as what it else takes the place of has been.
+/// Why a claim may not join: it must be ahead by the margin and help on unseen data. Beside all others it must be
+/// beyond chance and large enough, which of what it would take the place of is known.
 fn kept_out(problem: &Problem, state: &State, claim: &Claim<'_>) -> Option<&'static str> {
     let is_chance = claim.group.is_empty() && SIGNIFICANCE <= claim.p_value;
     if claim.ahead <= MARGIN || is_chance {

@@ -10,8 +10,7 @@ use crate::model::{Columns, Component, Gain, Problem, Stage, State};
 const HALVINGS: usize = 8;
 
 /// Doublings that look for such an interval.
-const DOUBLINGS: usize = 40;
-const MOST_DOUBLED: i32 = 40;
+const DOUBLINGS: i32 = 40;
 
 /// Share of a gain that is rounding.
 const NOTHING: f64 = 1e-9;
@@ -78,11 +77,11 @@ impl<'a> Likelihood<'a> {
         let is_free = |by: f64| self.loss(&[(place, way * by)]) <= NOTHING * self.best.gain;
         let values = self.component.term.nonlinear();
         let first = values.get(place).map_or(FIRST, |value| FIRST * value.abs().max(FIRST));
-        let ends = |doubled: &i32| !is_free(first * 2.0_f64.powi(*doubled));
-        let Some(doubled) = (0..MOST_DOUBLED).find(ends).filter(|doubled| 0 < *doubled) else {
+        let ends = |doubled: &i32| !is_free(libm::ldexp(first, *doubled));
+        let Some(doubled) = (0..DOUBLINGS).find(ends).filter(|doubled| 0 < *doubled) else {
             return 0.0;
         };
-        let mut high = first * 2.0_f64.powi(doubled);
+        let mut high = libm::ldexp(first, doubled);
         let mut low = 0.5 * high;
         for _ in 0..HALVINGS {
             let middle = 0.5 * (low + high);
