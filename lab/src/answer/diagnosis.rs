@@ -356,7 +356,7 @@ fn take_out(
         name: last.components[index].term.name.clone(),
         reason: reason.to_owned(),
     });
-    let Some(state) = State::settled(problem, last.without(out), &last.fit.noises) else {
+    let Some(state) = last.settled_without(problem, out) else {
         return found;
     };
     let (state, useless) = pruned(problem, state);

@@ -182,8 +182,7 @@ impl Now {
         if gone.is_empty() {
             return self;
         }
-        let others = self.state.without(&gone);
-        let state = State::settled(problem, others, &self.state.fit.noises);
+        let state = self.state.settled_without(problem, &gone);
         Self { state: state.unwrap_or_else(|| self.state.clone()), ..self }
     }
 
@@ -325,9 +324,7 @@ impl Now {
                 continue;
             }
             let index = self.state.components.len() - self.granted.len() + place;
-            let others = self.state.without(&[index]);
-            let state = State::settled(problem, others, &self.state.fit.noises);
-            let Some(state) = state else { return self };
+            let Some(state) = self.state.settled_without(problem, &[index]) else { return self };
             self.granted.remove(place);
             (self.state, place) = (polished(problem, state), 0);
         }
@@ -366,8 +363,7 @@ impl Now {
         if names.is_empty() {
             return self;
         }
-        let others = self.state.without(names);
-        let state = State::settled(problem, others, &self.state.fit.noises);
+        let state = self.state.settled_without(problem, names);
         let state = state.map_or_else(|| self.state.clone(), |state| pruned(problem, state).0);
         Self { state, ..self }
     }

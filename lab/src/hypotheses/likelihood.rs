@@ -76,18 +76,9 @@ impl<'a> Likelihood<'a> {
     fn free(&self, place: usize, way: f64) -> f64 {
         let is_free = |by: f64| self.loss(&[(place, way * by)]) <= NOTHING * self.best.gain;
         let values = self.component.term.nonlinear();
-        let first = values.get(place).map_or(FIRST, |value| FIRST * value.abs().max(FIRST));
-        let ends = |doubled: &i32| !is_free(libm::ldexp(first, *doubled));
-        let Some(doubled) = (0..DOUBLINGS).find(ends).filter(|doubled| 0 < *doubled) else {
-            return 0.0;
-        };
-        let mut high = libm::ldexp(first, doubled);
-        let mut low = 0.5 * high;
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            *(if is_free(middle) { &mut low } else { &mut high }) = middle;
-        }
-        low
+        let first = values.get(place).map_or(FIRST, |value| first_step(*value));
+        let ends = |by: f64| !is_free(by);
+        bracket(first, ends).map_or(0.0, |[low, _]| if low < first { 0.0 } else { low })
     }
 
     /// How far a nonlinear value goes either way before twice the log likelihood falls by 1, the
@@ -104,20 +95,7 @@ impl<'a> Likelihood<'a> {
     fn falling(&self, place: usize, of: impl Fn(f64, f64) -> f64) -> Option<f64> {
         let value = *self.component.term.nonlinear().get(place)?;
         let falls = |by: f64| 1.0 <= of(self.loss(&[(place, by)]), self.loss(&[(place, -by)]));
-        let first = FIRST * value.abs().max(FIRST);
-        let mut high = first;
-        let doubled = (0..DOUBLINGS).find(|_| {
-            let there = falls(high);
-            high *= if there { 1.0 } else { 2.0 };
-            there
-        });
-        doubled?;
-        let mut low = if high <= first { 0.0 } else { 0.5 * high };
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            *(if falls(middle) { &mut high } else { &mut low }) = middle;
-        }
-        Some(high)
+        bracket(first_step(value), falls).map(|[_, high]| high)
     }
 
     /// Standard deviation of a nonlinear value about its best, each value of its range as probable as it
@@ -193,6 +171,23 @@ impl<'a> Likelihood<'a> {
         all.together /= weights;
         all
     }
+}
+
+/// The first step that is tried from a value.
+fn first_step(value: f64) -> f64 {
+    FIRST * value.abs().max(FIRST)
+}
+
+/// The interval in which something begins to hold, looked for from a first step on; `None` when it never does.
+fn bracket(first: f64, holds: impl Fn(f64) -> bool) -> Option<[f64; 2]> {
+    let doubled = (0..DOUBLINGS).find(|doubled| holds(libm::ldexp(first, *doubled)))?;
+    let mut high = libm::ldexp(first, doubled);
+    let mut low = if doubled == 0 { 0.0 } else { 0.5 * high };
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        *(if holds(middle) { &mut high } else { &mut low }) = middle;
+    }
+    Some([low, high])
 }
 
 /// By how much some nonlinear values are moved.

@@ -6,7 +6,7 @@ use statrs::distribution::{ContinuousCDF, Normal};
 
 use crate::model::{Fit, Problem};
 use crate::noise::Whitener;
-use crate::numerics::least_squares::dot;
+use crate::numerics::least_squares::{dot, lagged};
 use crate::numerics::{count, mean};
 use crate::policy::extent::{CELLS_OF_WAYS, COMMON_SAMPLES};
 
@@ -203,7 +203,7 @@ fn centre(values: &mut [f64]) {
 fn autocorrelations(values: &[f64]) -> Vec<f64> {
     let power = dot(values, values).max(f64::MIN_POSITIVE);
     let lags = (values.len() / 10).clamp(1, 100);
-    (1..=lags).map(|lag| dot(&values[lag..], &values[..values.len() - lag]) / power).collect()
+    (1..=lags).map(|lag| lagged(values, lag) / power).collect()
 }
 
 #[cfg(test)]

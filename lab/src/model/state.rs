@@ -46,6 +46,12 @@ impl State {
         Some(if likelier { Self { fit: anew, ..near } } else { near })
     }
 
+    /// It without some of its effects, its noise settled anew.
+    #[must_use]
+    pub(crate) fn settled_without(&self, problem: &Problem, group: &[usize]) -> Option<Self> {
+        Self::settled(problem, self.without(group), &self.fit.noises)
+    }
+
     /// The effects and one more.
     #[must_use]
     pub(crate) fn with(&self, one: &Component) -> Vec<Component> {

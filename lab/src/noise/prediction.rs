@@ -1,7 +1,7 @@
 //! The best prediction of a noise by its last values, whatever its spectrum.
 
 use crate::numerics::count;
-use crate::numerics::least_squares::dot;
+use crate::numerics::least_squares::lagged;
 use crate::policy::extent::{PREDICTED_BY_MOST, ROWS_A_LAG};
 
 /// Weights of the last values of a pass, the newest first; none where the values do not tell the next.
@@ -61,5 +61,5 @@ impl Prediction {
 /// Sum of the products of values so many rows apart.
 fn product(passes: &[&[f64]], lag: usize) -> f64 {
     let long = passes.iter().filter(|pass| lag < pass.len());
-    long.map(|pass| dot(&pass[lag..], &pass[..pass.len() - lag])).sum()
+    long.map(|pass| lagged(pass, lag)).sum()
 }

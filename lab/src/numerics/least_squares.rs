@@ -108,6 +108,12 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + rest
 }
 
+/// Sum of the products of values that stand so many rows apart, of which there are no fewer.
+#[must_use]
+pub(crate) fn lagged(values: &[f64], lag: usize) -> f64 {
+    dot(&values[lag..], &values[..values.len() - lag])
+}
+
 /// A part of a covariance as plain rows.
 #[must_use]
 pub(crate) fn covariance_rows(matrix: &DMatrix<f64>, from: usize, width: usize) -> Vec<Vec<f64>> {

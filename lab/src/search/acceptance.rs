@@ -6,6 +6,7 @@ use helixlock_plant::{Role, Search, Term};
 
 use super::orders::{not_told_by_targets, turns_as_well};
 use super::refusal::Refusal;
+use super::uneven::Taken;
 use super::{likeness, other_spectrum, uneven};
 use crate::hypotheses::{chance_in_noise, chance_with_tails, gain_at, least_above_hunting};
 use crate::model::{
@@ -156,9 +157,9 @@ fn chance_in_slow_noise(problem: &Problem, now: &State, judged: &Judged, limit: 
 fn chance_in_uneven_noise(problem: &Problem, now: &State, judged: &Judged) -> f64 {
     let itself = judged.component.without_starts();
     let Ok(columns) = Columns::of(problem, &[itself]) else { return judged.p_value };
-    let laws = [uneven::inflation, other_spectrum::inflation];
-    let inflation =
-        laws.iter().map(|law| law(problem, now, &columns, &judged.fit)).fold(1.0, f64::max);
+    let taken = Taken::by(problem, now, &columns, &judged.fit);
+    let inflation = uneven::inflation(problem, now, &judged.fit, &taken)
+        .max(other_spectrum::inflation(problem, &taken));
     let freedom = judged.component.freedom();
     let of_gain = |gain| chi_squared_tail(gain, freedom) * judged.looks.max(1.0);
     if inflation <= 1.0 { judged.p_value } else { of_gain(judged.gain / inflation).min(1.0) }

@@ -63,7 +63,7 @@ fn beside(problem: &Problem, now: &State, one: &Judged) -> Option<(usize, State)
     let more = State::settled(problem, now.with(&one.component), &one.fit.noises)?;
     let (index, state) = with_other_values(problem, &more, now.components.len())?;
     let place = state.components.len() - 2;
-    let others = State::settled(problem, state.without(&[place]), &state.fit.noises)?;
+    let others = state.settled_without(problem, &[place])?;
     let again = tried_of(problem, &others, (&one.component.term, &state.fit.noises))?;
     refusal(problem, &others, &again).is_none().then_some((index, state))
 }
@@ -71,7 +71,7 @@ fn beside(problem: &Problem, now: &State, one: &Judged) -> Option<(usize, State)
 /// A model with an effect, the last of it then, as it is chosen beside all others, where that is clearly ahead.
 fn chosen(problem: &Problem, now: &State, index: usize) -> Option<State> {
     let own = &now.components[index];
-    let fewer = State::settled(problem, now.without(&[index]), &now.fit.noises)?;
+    let fewer = now.settled_without(problem, &[index])?;
     let best = tried_of(problem, &fewer, (&own.term, &now.fit.noises))?;
     let state = State::settled(problem, fewer.with(&best.component), &best.fit.noises)?;
     // Outliers have been marked since the model was fitted.

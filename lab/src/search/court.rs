@@ -17,7 +17,7 @@ use super::refusal::Refusal;
 use super::rivals::Rivals;
 use super::seats::{self, Seat, Tried};
 use super::span::{Span, shown};
-use super::uneven;
+use super::uneven::{self, Taken};
 use crate::formulas::{Placed, Shape, nameless};
 use crate::hypotheses::{Structure, chance_with_tails, is_left};
 use crate::model::{
@@ -549,7 +549,8 @@ impl<'a> Court<'a> {
         if SIGNIFICANCE <= chance {
             return chance.min(1.0);
         }
-        let uneven = uneven::inflation(self.problem, self.state, &placed.columns, fit);
+        let taken = Taken::by(self.problem, self.state, &placed.columns, fit);
+        let uneven = uneven::inflation(self.problem, self.state, fit, &taken);
         let with_tails = chance_with_tails(self.problem, [&self.state.fit, fit], of_gain);
         chance.max(with_tails).max(of_gain(gain / uneven)).min(1.0)
     }

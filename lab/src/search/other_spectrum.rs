@@ -5,16 +5,16 @@
 //! whitened, tells how far its next value can be foreseen by the last ones; beside that it is white, whatever its
 //! spectrum was, and so is what the effect's own curve has to be held against.
 
-use super::uneven::taken;
-use crate::model::{Columns, Fit, Problem, State};
+use super::uneven::Taken;
+use crate::model::Problem;
 use crate::noise::Prediction;
 use crate::numerics::count;
 use crate::numerics::least_squares::dot;
 use crate::policy::chance::LOUDEST_LOBE;
 
 /// By what the gain of an effect exceeds the one it has beside the last values; 1 where these tell nothing.
-pub(super) fn inflation(problem: &Problem, now: &State, columns: &Columns, fit: &Fit) -> f64 {
-    let [curve, left] = taken(problem, now, columns, fit);
+pub(super) fn inflation(problem: &Problem, taken: &Taken) -> f64 {
+    let Taken { curve, left } = taken;
     let mut gains = Gains::default();
     for sensor in 0..problem.sensors.len() {
         let blocks = problem.layout.blocks.iter().filter(|block| block.sensor == sensor);

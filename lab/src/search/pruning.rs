@@ -45,7 +45,7 @@ pub(crate) fn pruned_in_doubt(
     (means, of_means): (&Problem, &State),
 ) -> (State, Vec<Dropped>) {
     let is_needed = |index: usize| {
-        let Some(fewer) = without(means, of_means, index) else { return false };
+        let Some(fewer) = of_means.settled_without(means, &[index]) else { return false };
         let gain = gain(means, of_means, &fewer, index);
         let price = state.components[index].price(problem);
         SURE_ON_MEANS * price < gain && too_small(problem, state, index, gain).is_none()
@@ -62,7 +62,7 @@ pub(crate) fn pruned_in_doubt(
 fn weakest(problem: &Problem, state: &State) -> Option<(State, Dropped)> {
     let covariance = joint_covariance(problem, state);
     let found = in_parallel(0..state.components.len(), |index| {
-        let smaller = without(problem, state, index)?;
+        let smaller = state.settled_without(problem, &[index])?;
         let reason = superfluous(problem, state, &smaller, index)
             .or_else(|| no_better(problem, state, &smaller))
             .or_else(|| useless(state, &covariance, index))?;
@@ -73,10 +73,6 @@ fn weakest(problem: &Problem, state: &State) -> Option<(State, Dropped)> {
         .into_iter()
         .flatten()
         .max_by(|a, b| a.0.fit.log_likelihood.total_cmp(&b.0.fit.log_likelihood))
-}
-
-fn without(problem: &Problem, state: &State, index: usize) -> Option<State> {
-    State::settled(problem, state.without(&[index]), &state.fit.noises)
 }
 
 /// Why an effect is not needed; `None` when it is.
@@ -127,8 +123,7 @@ fn counting(problem: &Problem, state: State) -> (State, Vec<Dropped>) {
         return (state, Vec::new());
     }
     let indices: Vec<usize> = out.iter().map(|(index, _)| *index).collect();
-    let fewer = State::settled(problem, state.without(&indices), &state.fit.noises);
-    let Some(fewer) = fewer else { return (state, Vec::new()) };
+    let Some(fewer) = state.settled_without(problem, &indices) else { return (state, Vec::new()) };
     let name = |index: usize| state.components[index].term.name.clone();
     let dropped = out.into_iter().map(|(index, reason)| Dropped { name: name(index), reason });
     (fewer, dropped.collect())

@@ -10,7 +10,7 @@ use std::ops::Range;
 
 use crate::model::{Columns, Fit, Problem, Stage, State};
 use crate::noise::{Block, Whitener, fit_noise};
-use crate::numerics::least_squares::dot;
+use crate::numerics::least_squares::{dot, lagged};
 use crate::numerics::{count, median};
 use crate::policy::chance::{
     A_PART, ANOTHER_NOISE, NEARLY_ALL, NEIGHBOURHOOD, ROWS_A_LAG, UNEVEN_DEVIATIONS,
@@ -24,8 +24,8 @@ const SCATTER_OF_MEDIAN: f64 = 5.4;
 /// By what the variance of an effect's coefficient exceeds the model's, 1 where that is no more than
 /// scatter.
 #[must_use]
-pub(crate) fn inflation(problem: &Problem, now: &State, columns: &Columns, fit: &Fit) -> f64 {
-    let [curve, left] = taken(problem, now, columns, fit);
+pub(super) fn inflation(problem: &Problem, now: &State, fit: &Fit, taken: &Taken) -> f64 {
+    let Taken { curve, left } = taken;
     let rows = problem.samples.len();
     let square = dot(&curve[..rows], &curve[..rows]);
     let size = square * dot(&left[..rows], &left[..rows]);
@@ -38,22 +38,30 @@ pub(crate) fn inflation(problem: &Problem, now: &State, columns: &Columns, fit: 
     let stands_on = square * square / fourth;
     let along = along(problem, &scores, stands_on);
     let Some(block) = block_of(problem, &curve[..rows]) else { return along };
-    let beside = beside(problem, block, (&curve, &left), stands_on);
+    let beside = beside(problem, block, (curve, left), stands_on);
     along.max(beside).max(nearby(problem, block, now, fit, (&curve[..rows], square)))
 }
 
 /// What an effect takes of the whitened residual of a model, and what it leaves.
-pub(super) fn taken(problem: &Problem, now: &State, columns: &Columns, fit: &Fit) -> [Vec<f64>; 2] {
-    let stage = Stage::new(problem, &now.columns, &fit.noises);
-    let (mut curve, mut left) = (vec![0.0; stage.target.len()], stage.target.clone());
-    for direction in stage.span(columns) {
-        let along = dot(&direction, &stage.target);
-        for (row, value) in direction.iter().enumerate() {
-            curve[row] += along * value;
-            left[row] -= along * value;
+pub(super) struct Taken {
+    pub(super) curve: Vec<f64>,
+    pub(super) left: Vec<f64>,
+}
+
+impl Taken {
+    /// By some columns, under the noise of the fit with them.
+    pub(super) fn by(problem: &Problem, now: &State, columns: &Columns, fit: &Fit) -> Self {
+        let stage = Stage::new(problem, &now.columns, &fit.noises);
+        let (mut curve, mut left) = (vec![0.0; stage.target.len()], stage.target.clone());
+        for direction in stage.span(columns) {
+            let along = dot(&direction, &stage.target);
+            for (row, value) in direction.iter().enumerate() {
+                curve[row] += along * value;
+                left[row] -= along * value;
+            }
         }
+        Self { curve, left }
     }
-    [curve, left]
 }
 
 /// The largest of the ratios over windows of 1, 2, 4 … lags that stands out of its scatter; `rows`
@@ -79,7 +87,7 @@ fn ratio(problem: &Problem, scores: &[f64], window: usize) -> f64 {
         let scores = &scores[block.rows.clone()];
         for lag in 0..window.min(scores.len()) {
             let weight = if lag == 0 { 1.0 } else { 2.0 - 2.0 * count(lag) / count(window) };
-            sum += weight * dot(&scores[lag..], &scores[..scores.len() - lag]);
+            sum += weight * lagged(scores, lag);
         }
     }
     sum

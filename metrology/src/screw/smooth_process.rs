@@ -53,33 +53,27 @@ impl Order {
         variance: f64,
         wandering: Option<&Wandering>,
     ) -> Box<dyn Process> {
-        match (self, wandering) {
-            (Self::First, None) => {
-                Box::new(Integral::<1, 1>::new(strength, places, variance, None))
-            }
-            (Self::Second, None) => {
-                Box::new(Integral::<2, 2>::new(strength, places, variance, None))
-            }
-            (Self::Third, None) => {
-                Box::new(Integral::<3, 3>::new(strength, places, variance, None))
-            }
-            (Self::Fourth, None) => {
-                Box::new(Integral::<4, 4>::new(strength, places, variance, None))
-            }
-            (Self::First, some) => {
-                Box::new(Integral::<1, 5>::new(strength, places, variance, some))
-            }
-            (Self::Second, some) => {
-                Box::new(Integral::<2, 6>::new(strength, places, variance, some))
-            }
-            (Self::Third, some) => {
-                Box::new(Integral::<3, 7>::new(strength, places, variance, some))
-            }
-            (Self::Fourth, some) => {
-                Box::new(Integral::<4, 8>::new(strength, places, variance, some))
-            }
-        }
+        let of_order = match (self, wandering.is_some()) {
+            (Self::First, false) => boxed::<1, 1>,
+            (Self::Second, false) => boxed::<2, 2>,
+            (Self::Third, false) => boxed::<3, 3>,
+            (Self::Fourth, false) => boxed::<4, 4>,
+            (Self::First, true) => boxed::<1, 5>,
+            (Self::Second, true) => boxed::<2, 6>,
+            (Self::Third, true) => boxed::<3, 7>,
+            (Self::Fourth, true) => boxed::<4, 8>,
+        };
+        of_order(strength, places, variance, wandering)
     }
+}
+
+fn boxed<const N: usize, const ALL: usize>(
+    strength: f64,
+    places: &[f64],
+    variance: f64,
+    wandering: Option<&Wandering>,
+) -> Box<dyn Process> {
+    Box::new(Integral::<N, ALL>::new(strength, places, variance, wandering))
 }
 
 /// Covariance of two derivatives of the value at a distance of one, for a strength of one.

@@ -1,10 +1,11 @@
 //! What the deviation of a screw may be, given readings with noise.
 //!
 //! What bends by chance, beside a line or what else it begins with up to a cubic, and waves of a turn: how often
-//! integrated, how strong, and with how many waves is not chosen. Each is weighed by how probable it makes the readings (Bayesian model averaging, Hoeting
-//! et al., *Statistical Science* 14, 1999, 382), and curves are drawn of all. What bends by chance has no steps,
-//! kinks, waves or bumps: where they make the readings more probable, with all places that they might have, they are
-//! among what every curve has (de Jong and Penzer, *Diagnosing shocks in time series*, JASA 93, 1998, 796).
+//! integrated, how strong, and with how many waves is not chosen. Each is weighed by how probable it makes the
+//! readings (Bayesian model averaging, Hoeting et al., *Statistical Science* 14, 1999, 382), and curves are drawn of
+//! all. What bends by chance has no steps, kinks, waves or bumps: where they make the readings more probable, with
+//! all places that they might have, they are among what every curve has (de Jong and Penzer, *Diagnosing shocks in
+//! time series*, JASA 93, 1998, 796).
 
 mod features;
 mod gains;
@@ -188,15 +189,18 @@ impl Readings {
     fn weighed(&self) -> Vec<(Model, f64)> {
         let mut models = self.evidence_of(None, 1.0);
         let coarse = Order::ALL.map(|order| (order, self.coarsely_of_order(order, STEP)));
-        let all = |coarse: &Strengths| -> Vec<(Model, f64)> {
-            coarse.iter().flat_map(|(_, found)| found.iter().copied()).collect()
+        let most = |coarse: &Strengths| {
+            let each = coarse.iter().map(|(_, found)| most_probable(found).1);
+            each.fold(f64::NEG_INFINITY, f64::max)
         };
-        let most = |models: &[(Model, f64)]| most_probable(models).1;
-        let of_orders = coarse.iter().map(|(_, coarse)| most(&all(coarse)));
-        let bar = of_orders.fold(most(&models), f64::max) - NEVER_DRAWN;
+        let of_orders = coarse.iter().map(|(_, coarse)| most(coarse));
+        let bar = of_orders.fold(most_probable(&models).1, f64::max) - NEVER_DRAWN;
         for (order, coarse) in coarse {
-            let found = all(&coarse);
-            models.extend(if most(&found) < bar { found } else { self.of_order(order, coarse) });
+            if most(&coarse) < bar {
+                models.extend(coarse.into_iter().flat_map(|(_, found)| found));
+            } else {
+                models.extend(self.of_order(order, coarse));
+            }
         }
         models
     }
