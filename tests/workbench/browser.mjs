@@ -54,9 +54,10 @@ export async function idle(page) {
   await page.waitForFunction(() => document.getElementById("work").hidden);
 }
 
+// Opens a screen; back when everything stands on it that needs no button.
 export async function screen(page, name) {
   await page.click(`#tab-${name}`);
-  await page.waitForSelector(`#${name} h2`);
+  await page.waitForSelector(`#${name}[aria-busy=false] h2`);
 }
 
 // A picture for the documentation, where the test that runs this asks for them.

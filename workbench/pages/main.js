@@ -72,10 +72,13 @@ async function show(name) {
     tab.tabIndex = own ? 0 : -1;
     element(tab.getAttribute("aria-controls")).hidden = !own;
   }
-  element(name).replaceChildren();
+  const root = element(name);
+  root.replaceChildren();
   // A command is that of the screen it was begun on.
   showLine("");
-  await page.attempt(() => screens[name].show(element(name), page));
+  root.ariaBusy = "true";
+  await page.attempt(() => screens[name].show(root, page));
+  root.ariaBusy = "false";
 }
 
 function wireTabs() {
