@@ -19,6 +19,7 @@ pub(crate) mod renishaw;
 pub(crate) mod sigrok;
 pub(crate) mod spreadsheet;
 pub(crate) mod twincat;
+mod unpacked;
 
 use crate::error::ImportError;
 use crate::place::Place;

@@ -2,17 +2,17 @@
 //!
 //! Format: `numpy.savez`, which gives every file the name of its array and the ending `.npy`.
 
-use std::io::{Cursor, Read};
+use std::io::Cursor;
 
 use zip::ZipArchive;
 use zip::result::ZipError;
 
 use super::arrays::{self, Array};
 use super::npy;
+use super::unpacked::Room;
 use crate::decide::Decisions;
 use crate::error::ImportError;
 use crate::grid::Grid;
-use crate::limits;
 use crate::place::Place;
 
 /// Reads the arrays as a grid with one row of names.
@@ -23,19 +23,13 @@ pub(crate) fn grid(bytes: &[u8], decisions: &mut Decisions<'_>) -> Result<Grid, 
     };
     let broken = |error: ZipError| refuse(error.to_string(), "a whole archive of NumPy");
     let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(broken)?;
-    let (mut found, mut passed_over, mut unpacked) = (Vec::new(), Vec::new(), 0);
+    let (mut found, mut passed_over, mut room) = (Vec::new(), Vec::new(), Room::of_an_archive());
     for index in 0..archive.len() {
         let part = archive.by_index(index).map_err(broken)?;
         let name = part.name().map_err(broken)?.into_owned();
         let Some(name) = name.strip_suffix(".npy").map(str::to_owned) else { continue };
-        // A byte more than may be, so that an archive of zeros is refused and not unpacked.
-        let (room, mut data) = ((limits::UNPACKED - unpacked) as u64 + 1, Vec::new());
-        let read = part.take(room).read_to_end(&mut data);
-        read.map_err(|error| broken(error.into()))?;
-        unpacked += data.len();
-        if limits::UNPACKED < unpacked {
-            return Err(refuse("more numbers".to_owned(), "up to 512 MB of them"));
-        }
+        let data = room.unpack(part).map_err(|error| broken(error.into()))?;
+        let data = data.ok_or_else(|| refuse("more numbers".to_owned(), "up to 512 MB of them"))?;
         match npy::columns(&name, &data) {
             Ok(columns) => found.extend(arrays_of(&name, columns)),
             Err(_) => passed_over.push((name, arrays::NO_NUMBERS.to_owned())),

@@ -9,10 +9,10 @@ use std::io::{Cursor, Read};
 use helixlock_traces::Column;
 use zip::ZipArchive;
 
+use super::unpacked::Room;
 use crate::build::Built;
 use crate::decide::Decisions;
 use crate::error::{ImportError, quoted};
-use crate::limits;
 use crate::number::number;
 use crate::place::Place;
 use crate::question::Answer;
@@ -56,7 +56,7 @@ pub(crate) fn read(bytes: &[u8], decisions: &mut Decisions<'_>) -> Result<Built,
     };
     let direction = channel(&session, "direction", "dir", decisions);
     let mut counted = Counted::default();
-    let mut unpacked = 0;
+    let mut room = Room::of_an_archive();
     // Older sessions have all samples in one part, without a number.
     let parts = (1..=archive.len()).map(|part| format!("{}-{part}", session.part));
     let parts: Vec<String> = std::iter::once(session.part.clone())
@@ -65,15 +65,8 @@ pub(crate) fn read(bytes: &[u8], decisions: &mut Decisions<'_>) -> Result<Built,
         .collect();
     for name in parts {
         let samples = archive.by_name(&name).map_err(broken)?;
-        let mut data = Vec::new();
-        // A byte more than may be, so that an archive of zeros is refused and not unpacked.
-        let room = (limits::UNPACKED - unpacked) as u64 + 1;
-        let read = samples.take(room).read_to_end(&mut data);
-        read.map_err(|error| refuse(error.to_string(), "samples"))?;
-        unpacked += data.len();
-        if limits::UNPACKED < unpacked {
-            return Err(refuse("more samples".into(), "up to 512 MB of them"));
-        }
+        let data = room.unpack(samples).map_err(|error| refuse(error.to_string(), "samples"))?;
+        let data = data.ok_or_else(|| refuse("more samples".into(), "up to 512 MB of them"))?;
         for unit in data.chunks_exact(session.unit_size) {
             let lines = unit.iter().rev().fold(0, |word, byte| word << 8 | u64::from(*byte));
             counted.sample(lines, step, direction, session.rate_hz);
