@@ -246,11 +246,11 @@ pub(crate) const ROWS_A_COLUMN: usize = 6;
 /// Source: ISO 230-2 asks for five a metre. Doubled: a dent at one target of nine is wear.
 pub(crate) const FEWEST_TARGETS: usize = 5;
 
-/// Order of the curve that one pass may have and no other.
+/// Orders of the curves that one pass may have and no other.
 ///
-/// Chosen: a slope, a bow and an S, as what warms up bends. Doubled: three waves, which the rows of
-/// a table of targets do not tell from noise.
-pub(crate) const BEND_OF_A_PASS: usize = 3;
+/// Chosen: a slope, a bow and an S, as what warms up bends; and two waves, as a run that was disturbed
+/// swings. Doubled: a run with one wave is noise of them all.
+pub(crate) const BENDS_OF_A_PASS: [usize; 2] = [3, 7];
 
 /// Rows of a pass beyond that and its level, which tell its noise.
 ///
