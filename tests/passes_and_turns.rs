@@ -163,3 +163,36 @@ fn a_warming_up_at_the_start_is_named() {
     let found = diagnosed(vec![("time_s", time), ("position_mm", position), ("error_um", error)]);
     assert!(names(&found).contains(&"headstock-growth"), "{:?}", names(&found));
 }
+
+/// An axis whose screw and slope the file has, so that it says which fringe the meter stands on.
+const AXIS: &str = r#"
+spindle.speed = "100 rpm"
+lead_screw.lead = "10 mm"
+laser.wavelength = "0.633 um"
+[[effect]]
+kind = "screw-progressive"
+linear = "12 um/m"
+quadratic = "20 um/m^2"
+[[effect]]
+kind = "screw-periodic"
+amplitude = "0.4 um"
+phase = "30 deg"
+"#;
+
+/// A pass out and one back, which begins elsewhere. The laser counts on: its ripple has one phase over what it
+/// reads, and another one over what each pass has gone since its own beginning.
+#[test]
+fn a_ripple_of_the_fringes_goes_on_from_pass_to_pass() {
+    let [pass, position, error] = columns([2, 300], 0.01, |pass, row| {
+        let way_mm = 1.6 * f64::from(row);
+        let at_mm = if pass == 0 { 10.0 + way_mm } else { 490.0 - way_mm };
+        let (at_m, turns) = (at_mm / 1000.0, at_mm / 10.0);
+        let moved_um =
+            12.0 * at_m + 20.0 * at_m * at_m + 0.4 * libm::sin(TAU * turns + 30.0_f64.to_radians());
+        let ripple_um = 0.015 * libm::sin(2.0 * TAU * -moved_um / 0.633 + 0.7);
+        [f64::from(pass), at_mm, ripple_um - moved_um]
+    });
+    let columns = vec![("pass", pass), ("position_mm", position), ("error_um", error)];
+    let found = diagnosed_on(AXIS, columns);
+    assert_eq!((names(&found), found.verdict), (vec!["fringe-nonlinearity"], Verdict::Explained));
+}

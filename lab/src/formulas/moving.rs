@@ -428,6 +428,18 @@ pub(super) fn of_each_pass(all: &Quantities) -> Vec<Shape> {
                 .curve("slope", of(way) * middle.clone())
                 .curve("size", of(way) * Expression::Power(Box::new(middle), 2)),
         );
+        let off = (of(x) - unknown(0)) / unknown(1);
+        let range = spread(&x.values);
+        shapes.push(
+            at_one_of(all, 24, "play that is larger at one place", "a nut or a screw worn there")
+                .unknown(
+                    all.in_unit("width_mm", "width_rev"),
+                    &x.dimension,
+                    by_factors(0.04 * range, 0.4 * range, 5),
+                )
+                .curve("play", of(way))
+                .curve("size", of(way) * bell(off)),
+        );
     }
     let longest = spread(&since.values);
     let over = || by_factors(0.005 * longest, 0.5 * longest, 12);

@@ -7,7 +7,9 @@ use helixlock_plant::{CATALOGUE, Card, Entry, Formula, Parameter, Role, Search, 
 use super::corrections::{corrections, is_correctable};
 use super::unfolding::unfolded;
 use crate::model::{Component, Problem, Stage};
-use crate::numerics::{Looks, by_factors, count, evenly, longest, may_resolve, product, spread};
+use crate::numerics::{
+    Looks, by_factors, count, evenly, longest, may_resolve, product, spread, usual_rate,
+};
 use crate::policy::evidence::{ANOTHER_MATERIAL, HIGH_HARMONIC_PRICE, LOOSELY_KNOWN, MARGIN};
 use crate::policy::extent::{FREQUENCIES, LONGEST, NARROWEST, OVERTONES, SHORTEST, SLOWEST_WAVES};
 use crate::spectrum::{Scan, gear_orders, strongest_first};
@@ -100,6 +102,7 @@ fn candidates_of(
                 doubled(stage, &candidate),
                 at_once(stage, &candidate),
                 in_motion(stage, &candidate),
+                within_the_rate(stage, &candidate),
             ];
             others.into_iter().chain([Some(candidate)])
         })
@@ -168,6 +171,21 @@ fn at_once(stage: &Stage<'_>, candidate: &Candidate) -> Option<Candidate> {
     let nonlinear = term.parameters.iter().filter(|what| what.is_nonlinear());
     let axes = nonlinear.map(|what| axis(stage, what)).collect();
     on_axes(stage, term, axes)
+}
+
+/// A wave in time of those that rows resolve at their usual rate, where uneven ones resolve more: chance
+/// lines far above, which are many, would drown it, and their number cost it its significance. A look of its own.
+fn within_the_rate(stage: &Stage<'_>, candidate: &Candidate) -> Option<Candidate> {
+    let usual_hz = 0.5 * usual_rate(&row_times(stage.problem));
+    let mut term = candidate.term.clone();
+    let what = term.parameters.iter_mut().find(|what| what.is_frequency())?;
+    let (low, high) = (*what.range.start(), *what.range.end());
+    if high.min(stage.problem.highest_hz()) <= usual_hz || usual_hz <= low {
+        return None;
+    }
+    what.range = low..=usual_hz;
+    let within = self::candidate(stage, term)?;
+    Some(Candidate { looks: within.looks.times(2.0), ..within })
 }
 
 /// An effect whatever its passes began with, at rest or, where it delays, in motion.
@@ -263,7 +281,7 @@ fn looks(stage: &Stage<'_>, term: &Term, axes: &[Vec<f64>]) -> Looks {
     nonlinear.zip(axes).fold(Looks::at_places(1.0), |looks, (what, axis)| match what.search {
         _ if what.is_frequency() => {
             let times = row_times(stage.problem);
-            looks.along(time_scan(stage, &times, 0.0, f64::INFINITY).arc())
+            looks.along(time_scan(stage, &times, 0.0, *what.range.end()).arc())
         }
         Search::Time | Search::Linear | Search::Logarithmic | Search::Position => looks,
         Search::Whole | Search::GearOrder | Search::Fixed => looks.times(count(axis.len())),
@@ -519,5 +537,36 @@ mod tests {
         let found = try_candidate(&stage, &lag).expect("it explains something");
         let found_s = found.component.term.nonlinear()[0];
         assert!((found_s - tau_s).abs() < 0.05 * tau_s, "{found_s} s");
+    }
+
+    /// Rows that come unevenly resolve frequencies far above the rate they have: those below are looked at by
+    /// themselves. Even ones resolve none.
+    #[test]
+    fn waves_that_uneven_rows_resolve_at_their_rate_are_looked_at_alone() {
+        let axis = "spindle.speed = '6 rpm'\nlead_screw.lead = '6 mm'\n";
+        let model = Model::parse(axis, Path::new("machine.toml")).unwrap();
+        let highest_hz = |uneven_s: f64| {
+            let time_s =
+                |row: u32| 2.0 * f64::from(row) + uneven_s * f64::from(row * row * 7919 % 101);
+            let column = |name: &str, value: &dyn Fn(u32) -> f64| Column {
+                name: name.to_owned(),
+                values: (0..300).map(value).collect(),
+            };
+            let table = Table::new(vec![
+                column("time_s", &time_s),
+                column("position_mm", &|row| 0.6 * f64::from(row)),
+                column("error_um", &|row| libm::sin(f64::from(row * row))),
+            ]);
+            let measurement = Measurement::from_table(&table, &Nominal::of(&model)).unwrap();
+            let problem = Problem::new(&model, &measurement).unwrap();
+            let noises = noises_of(&problem, &problem.residual());
+            let stage = Stage::new(&problem, &Columns::default(), &noises);
+            let in_time = |term: &Term| term.parameters.iter().any(Parameter::is_frequency);
+            let highest = |one: &Candidate| one.grid.iter().map(|at| at[0]).fold(0.0, f64::max);
+            candidates_of(&stage, &[], in_time).iter().map(highest).collect::<Vec<f64>>()
+        };
+        assert_eq!(highest_hz(0.0).len(), 1);
+        let uneven = highest_hz(0.01);
+        assert!(uneven[0] < 0.26 && 0.26 < uneven[1], "{uneven:?} Hz");
     }
 }

@@ -517,8 +517,11 @@ impl Problem {
     ) -> Result<Vec<f64>, EffectError> {
         let effects = self.effects_on(record)?;
         record.error_um = meter_um(&self.model, record, &effects).into();
+        let begun = self.begun_from(record);
+        record.error_um = counted_on(record, &begun);
         if let Some(finer) = finer.as_mut().map(Arc::make_mut) {
             finer.record.error_um = meter_um(&self.model, &finer.record, &effects).into();
+            finer.record.error_um = counted_on(&finer.record, &begun);
         }
         let predicted = self.stacked(|sensor| match &*finer {
             None => shown(&self.model, record, &effects, sensor),
@@ -533,6 +536,21 @@ impl Problem {
         Ok(predicted)
     }
 
+    /// Where the meter stood as each pass began, against the first, µm: its reading, as far above what a record
+    /// says from the pass's own zero. A count that nobody sets back goes on from pass to pass.
+    fn begun_from(&self, record: &Record) -> Vec<(usize, f64)> {
+        let of_meter = |block: &&Block| self.sensors[block.sensor] == Sensor::Recorder;
+        let above = |block: &Block| {
+            let rows = block.rows.clone();
+            let from_zero = |row: usize| self.observed[row] - record.error_um[self.samples[row]];
+            (block.pass, median(&mut rows.map(from_zero).collect::<Vec<f64>>()))
+        };
+        let begun: Vec<(usize, f64)> =
+            self.layout.blocks.iter().filter(of_meter).map(above).collect();
+        let first = begun.first().map_or(0.0, |(_, above)| *above);
+        begun.into_iter().map(|(pass, above)| (pass, above - first)).collect()
+    }
+
     /// Names the first sample at which an effect has no value that a machine could follow.
     ///
     /// # Errors
@@ -542,6 +560,17 @@ impl Problem {
         let record = self.finer.as_deref().map_or(&self.record, |finer| &finer.record);
         term.must_be_in_reach(&self.model, record)
     }
+}
+
+/// The error at the meter of a record, each pass from where it begun.
+fn counted_on(record: &Record, begun: &[(usize, f64)]) -> Column {
+    let from = |pass: usize| begun.iter().find(|(of, _)| *of == pass).map_or(0.0, |(_, um)| *um);
+    let mut error_um = record.error_um.to_vec();
+    for rows in record.passes() {
+        let from_um = from(record.pass[rows.start]);
+        error_um[rows].iter_mut().for_each(|error| *error += from_um);
+    }
+    error_um.into()
 }
 
 /// The machine as the samples show it: where the steps are known, a closed loop is an open one

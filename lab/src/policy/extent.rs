@@ -21,7 +21,7 @@ pub(crate) const SAME_CURVE: f64 = 0.5;
 /// Chosen: beyond two, a sum of shapes imitates anything. Doubled: four, at twice the time.
 pub(crate) const MOST_FORMULAS: usize = 2;
 
-/// Candidates whose noise is fitted anew before one is chosen.
+/// Effects whose noise is fitted anew before one is chosen, in each way that they are looked for.
 ///
 /// Chosen. Doubled: twice the time of a round.
 pub(crate) const SHORTLIST: usize = 4;

@@ -1,6 +1,6 @@
 //! Effects judged on what a model leaves: the strongest trials, their noise fitted anew.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use helixlock_plant::Term;
 
@@ -78,14 +78,19 @@ fn strongest(
     trials.sort_by(|a, b| b.1.gain.total_cmp(&a.1.gain));
     let tried = trials.len();
     let best = trials.first().map_or(0.0, |(_, trial)| trial.gain);
-    let near = |place: usize, trial: &Trial| place < SHORTLIST || NEAR_THE_BEST * best < trial.gain;
-    let strongest = trials.into_iter().enumerate().filter(|(place, (_, one))| near(*place, one));
-    let strongest = strongest.map(|(_, one)| one);
+    // One effect that is looked for in several ways takes the place of no other.
+    let mut names = BTreeSet::new();
+    let mut is_near = |trial: &Trial| {
+        let before = names.len();
+        names.insert(trial.component.term.name.clone());
+        before < SHORTLIST || NEAR_THE_BEST * best < trial.gain
+    };
+    trials.retain(|(_, trial)| is_near(trial));
     let with_looks = |(candidate, trial): (Option<&Candidate>, Trial)| match candidate {
         Some(candidate) => trial.with_looks(stage, candidate),
         None => trial,
     };
-    (in_parallel(strongest, with_looks), tried)
+    (in_parallel(trials, with_looks), tried)
 }
 
 /// Trials with their noise fitted anew, the best of each name.

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! φ is where in a fringe the count began: the report's device sets it, an instrument that starts
-//! anywhere does not.
+//! anywhere does not. From pass to pass it counts on.
 //! ε = 0.1 is at most 0.005 µm: it matters where everything else has gone.
 
 use std::f64::consts::{FRAC_PI_2, PI};
