@@ -196,3 +196,30 @@ fn a_ripple_of_the_fringes_goes_on_from_pass_to_pass() {
     let found = diagnosed_on(AXIS, columns);
     assert_eq!((names(&found), found.verdict), (vec!["fringe-nonlinearity"], Verdict::Explained));
 }
+
+/// A table whose wheel turns twenty-two times and a half in one turn of it.
+const TABLE: &str = r#"
+output.rotary = true
+spindle.speed = "2 rpm"
+gear = [{ name = "worm", order = 90 }, { name = "intermediate", order = 22.5 }]
+grating = { lines = 36000, diameter = "150 mm" }
+"#;
+
+/// A wheel whose wave swells twice in a turn has lines at 20.5 and 24.5. In a log of one turn the whole orders
+/// about them draw them nearly as well, and the disc's divisions err at any of those.
+#[test]
+fn a_wheel_that_swells_with_the_table_is_no_division_of_its_disc() {
+    let wheel = |swells: f64| {
+        let [pass, angle, error] = columns([2, 350], 1.0, |pass, row| {
+            let turn = f64::from(row) / 350.0;
+            let size = 4.0 * (1.0 + swells * libm::sin(TAU * 2.0 * turn + 1.0));
+            [f64::from(pass), turn, size * libm::sin(TAU * 22.5 * turn)]
+        });
+        diagnosed_on(TABLE, vec![("pass", pass), ("angle_rev", angle), ("error_arcsec", error)])
+    };
+    let even = wheel(0.0);
+    assert_eq!((names(&even), even.verdict), (vec!["gear-error"], Verdict::Explained));
+    let swelling = wheel(0.8);
+    assert!(!names(&swelling).contains(&"grating-graduation"), "{:?}", names(&swelling));
+    assert_eq!(swelling.verdict, Verdict::Unexplained);
+}

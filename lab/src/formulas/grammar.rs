@@ -36,6 +36,7 @@ pub(crate) fn nameless(problem: &Problem) -> Vec<Shape> {
     }
     all.extend(logged::products(&quantities));
     all.extend(turning::sized_by_a_column(&quantities, problem));
+    all.extend(turning::swelling(&quantities, problem));
     all
 }
 
@@ -46,7 +47,6 @@ pub(crate) fn formulas(problem: &Problem) -> Vec<Shape> {
     let mut all = nameless(problem);
     all.extend(each_turn(&quantities, problem, true));
     all.extend(turning::waves(&quantities, problem));
-    all.extend(turning::swelling(&quantities, problem));
     all.extend(turning::resonances(&quantities, problem));
     all.extend(moving::powers(&quantities));
     all.extend(moving::of_the_way(&quantities));

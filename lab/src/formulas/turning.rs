@@ -10,7 +10,7 @@ use super::quantities::{Quantities, about_mean, of, shaft_turns};
 use super::shape::{Band, ORDER, Shape};
 use crate::model::Problem;
 use crate::numerics::{evenly, spread, usual_rate};
-use crate::policy::extent::{LONGEST_WAVE, SLOWEST_WAVES, TURNS};
+use crate::policy::extent::{LONGEST_WAVE, MOST_OF_A_TURN, SLOWEST_WAVES, TURNS};
 use crate::spectrum::gear_orders;
 
 /// Shapes that come with every turn of a shaft and are no sine.
@@ -101,11 +101,18 @@ fn orders(all: &Quantities, problem: &Problem) -> Vec<f64> {
     orders
 }
 
-/// A shaft's sine that swells with the turn of another: two sidebands.
+/// A shaft's sine that swells with the turn of another, or once or twice with the spindle's: two sidebands. On a
+/// record of one turn they are not told from whole waves of it.
 pub(super) fn swelling(all: &Quantities, problem: &Problem) -> Vec<Shape> {
     let angle = |order| turns(shaft_turns(&all.turns, order));
-    let orders = orders(all, problem);
-    let pairs = orders.iter().flat_map(|a| orders.iter().map(move |b| (*a, *b)));
+    let carriers = orders(all, problem);
+    let mut slow = carriers.clone();
+    if MOST_OF_A_TURN < spread(&all.turns.values) {
+        slow.extend([1.0, 2.0]);
+        slow.sort_by(f64::total_cmp);
+        slow.dedup();
+    }
+    let pairs = carriers.iter().flat_map(|a| slow.iter().map(move |b| (*a, *b)));
     let physics = "a wheel that another one drives: its wave swells with the other's turn";
     pairs
         .filter(|(carrier, slow)| carrier.to_bits() != slow.to_bits())

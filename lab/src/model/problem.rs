@@ -562,7 +562,7 @@ impl Problem {
     }
 }
 
-/// The error at the meter of a record, each pass from where it begun.
+/// The error at the meter of a record, each pass counted on from where it began.
 fn counted_on(record: &Record, begun: &[(usize, f64)]) -> Column {
     let from = |pass: usize| begun.iter().find(|(of, _)| *of == pass).map_or(0.0, |(_, um)| *um);
     let mut error_um = record.error_um.to_vec();
