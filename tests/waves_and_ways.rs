@@ -227,3 +227,24 @@ fn play_that_half_of_the_strokes_do_not_take_up_gets_no_width() {
     let found = to_and_fro(&[90, 24, 50, 22, 110, 30, 26]);
     assert_eq!((found.verdict, names(&found)), (Verdict::Unexplained, vec![]));
 }
+
+/// A nut that is worn in the middle, six strokes to and fro in one pass: its play looks slow from stroke to stroke,
+/// and no bow of each way leaves noise.
+#[test]
+fn play_that_is_larger_in_the_middle_is_no_slow_noise() {
+    let mut noise = white(3, 1.0);
+    let mut columns = [const { Vec::new() }; 3];
+    for row in 0..210_u16 {
+        let (stroke, gone) = (row / 35, f64::from(row % 35) + 0.5);
+        let (way, mm) =
+            if stroke % 2 == 0 { (1.0, gone / 0.35) } else { (-1.0, 100.0 - gone / 0.35) };
+        let worn = libm::exp(-0.5 * ((mm - 45.0) / 15.0).powi(2));
+        let cells = [f64::from(row), mm, 2.2 * way * worn + noise()];
+        columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+    }
+    let names = ["time_s", "position_mm", "error_um"];
+    let found = diagnosed_on(AXIS, names.into_iter().zip(columns).collect());
+    let shapes: Vec<&str> = found.residual.iter().map(|one| one.shape.as_str()).collect();
+    assert_eq!(found.verdict, Verdict::Unexplained);
+    assert!(shapes.iter().any(|shape| shape.starts_with("play that is larger")), "{shapes:?}");
+}
