@@ -223,3 +223,23 @@ fn a_wheel_that_swells_with_the_table_is_no_division_of_its_disc() {
     assert!(!names(&swelling).contains(&"grating-graduation"), "{:?}", names(&swelling));
     assert_eq!(swelling.verdict, Verdict::Unexplained);
 }
+
+/// Five passes with a ram drawn out from pass to pass, which bows as far as it stands out: no screw's lead does. A
+/// bow of one size has its name beside a column that hardly changes.
+#[test]
+fn a_bow_as_large_as_a_column_is_no_screw() {
+    let over = |height_mm: [f64; 5], bow_um: fn(f64) -> f64| {
+        let [pass, position, height, error] = columns([5, 60], 1.0, |pass, row| {
+            let (at, height_mm) = (f64::from(row) / 60.0, height_mm[usize::from(pass)]);
+            let bow_um = bow_um(height_mm) * 4.0 * at * (1.0 - at);
+            [f64::from(pass), 600.0 * at, height_mm, bow_um]
+        });
+        let (pass, position) = (("pass", pass), ("position_mm", position));
+        let (height, error) = (("z_mm", height), ("error_um", error));
+        diagnosed(vec![pass, position, height, error])
+    };
+    let drawn_out = over([0.0, 200.0, 50.0, 250.0, 100.0], |height_mm| 0.02 * height_mm);
+    assert_eq!((names(&drawn_out), drawn_out.verdict), (vec![], Verdict::Unexplained));
+    let still = over([200.0, 204.0, 198.0, 202.0, 203.0], |_| 4.0);
+    assert_eq!(names(&still), ["screw-progressive"]);
+}

@@ -47,8 +47,19 @@ pub(super) fn of_a_column(all: &Quantities, column: &Arc<Quantity>) -> Vec<Shape
             .curve("slope", of(x))
             .curve("level", of(column))
             .curve("tilt", middle.clone() * about_mean(column))
-            .curve("size", Expression::Power(Box::new(middle), 2) * about_mean(column)),
+            .curve("size", Expression::Power(Box::new(middle.clone()), 2) * about_mean(column)),
         );
+        let largest = column.values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+        if OF_THE_LARGEST * largest < spread(&column.values) {
+            let physics = "a ram, arm or load that bends what carries it";
+            shapes.push(
+                of_column("bow as large as the column", physics)
+                    .curve("slope", of(x))
+                    .curve("level", of(column))
+                    .curve("tilt", middle.clone() * of(column))
+                    .curve("size", Expression::Power(Box::new(middle), 2) * of(column)),
+            );
+        }
         let late_times_travel = |words, physics, stretch| {
             of_column(words, physics)
                 .unknown("late_s", &time.dimension, constants())
@@ -83,6 +94,12 @@ pub(super) fn not_followed(all: &Quantities, column: &Arc<Quantity>) -> Shape {
         .curve("slope", of(column))
         .curve("size", of(column) - late)
 }
+
+/// Part of its largest value that a column changes by, for what may be as large as it.
+///
+/// Chosen: the rest bends no more than what changes, so that a bow of one size is another curve. Doubled: a force
+/// that never falls to a quarter makes none.
+const OF_THE_LARGEST: f64 = 0.5;
 
 /// A square, a kink at a value, and each way its own.
 pub(super) fn beyond_a_line(all: &Quantities, column: &Arc<Quantity>) -> Vec<Shape> {
