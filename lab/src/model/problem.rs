@@ -41,6 +41,9 @@ pub struct Problem {
     pub(crate) least_variance: Vec<f64>,
     /// What the model predicts, each pass from its own zero.
     pub(crate) predicted: Column,
+    /// Where the meter stood as each pass began, against the first, µm: its reading, as far above what the model
+    /// says from the pass's own zero. A count that nobody sets back goes on from pass to pass.
+    pub(crate) begun: Vec<(usize, f64)>,
     /// Effects of the user's own to be tried beside the catalogue.
     pub extra: Vec<Term>,
     /// See [`Self::highest_order`]; most problems are laid out to be compared, and never ask.
@@ -66,7 +69,7 @@ impl Problem {
     ///
     /// [`EffectError`] when an effect of the machine needs a column the measurement lacks.
     pub fn new(model: &Model, measurement: &Measurement) -> Result<Self, EffectError> {
-        Self::laid_out(model, measurement, None)
+        Self::laid_out(model, measurement, None, None)
     }
 
     /// Highest order of the spindle that the samples resolve.
@@ -118,13 +121,14 @@ impl Problem {
             }
             _ => Finer::of(self.record.clone(), groups),
         };
-        Self::laid_out(&self.model, &measurement, Some(finer))
+        Self::laid_out(&self.model, &measurement, Some(finer), Some(self.begun.clone()))
     }
 
     fn laid_out(
         model: &Model,
         measurement: &Measurement,
         finer: Option<Finer>,
+        begun: Option<Vec<(usize, f64)>>,
     ) -> Result<Self, EffectError> {
         let record = Record::new(model, measurement);
         let sensors: Vec<Sensor> = measurement.observations.keys().copied().collect();
@@ -142,6 +146,7 @@ impl Problem {
             observed: Column::default(),
             least_variance: Vec::new(),
             predicted: Column::default(),
+            begun: Vec::new(),
             extra: Vec::new(),
             highest_order: OnceLock::new(),
             highest_hz: OnceLock::new(),
@@ -153,6 +158,7 @@ impl Problem {
         };
         problem.stack_rows();
         problem.least_variance = problem.finest(&[]);
+        problem.begun = begun.map_or_else(|| problem.begun_from(), Ok)?;
         let (mut record, mut finer) = (problem.record.clone(), problem.finer.clone());
         problem.predicted = problem.predicted(&mut record, &mut finer)?.into();
         (problem.record, problem.finer) = (record, finer);
@@ -516,12 +522,12 @@ impl Problem {
         finer: &mut Option<Arc<Finer>>,
     ) -> Result<Vec<f64>, EffectError> {
         let effects = self.effects_on(record)?;
-        record.error_um = meter_um(&self.model, record, &effects).into();
-        let begun = self.begun_from(record);
-        record.error_um = counted_on(record, &begun);
+        let counted = |record: &Record| {
+            counted_on(record, meter_um(&self.model, record, &effects), &self.begun)
+        };
+        record.error_um = counted(record);
         if let Some(finer) = finer.as_mut().map(Arc::make_mut) {
-            finer.record.error_um = meter_um(&self.model, &finer.record, &effects).into();
-            finer.record.error_um = counted_on(&finer.record, &begun);
+            finer.record.error_um = counted(&finer.record);
         }
         let predicted = self.stacked(|sensor| match &*finer {
             None => shown(&self.model, record, &effects, sensor),
@@ -536,19 +542,18 @@ impl Problem {
         Ok(predicted)
     }
 
-    /// Where the meter stood as each pass began, against the first, µm: its reading, as far above what a record
-    /// says from the pass's own zero. A count that nobody sets back goes on from pass to pass.
-    fn begun_from(&self, record: &Record) -> Vec<(usize, f64)> {
+    /// What [`Self::begun`] is, of these samples.
+    fn begun_from(&self) -> Result<Vec<(usize, f64)>, EffectError> {
+        let from_zero_um = meter_um(&self.model, &self.record, &self.effects_on(&self.record)?);
         let of_meter = |block: &&Block| self.sensors[block.sensor] == Sensor::Recorder;
         let above = |block: &Block| {
-            let rows = block.rows.clone();
-            let from_zero = |row: usize| self.observed[row] - record.error_um[self.samples[row]];
-            (block.pass, median(&mut rows.map(from_zero).collect::<Vec<f64>>()))
+            let above = |row: usize| self.observed[row] - from_zero_um[self.samples[row]];
+            (block.pass, median(&mut block.rows.clone().map(above).collect::<Vec<f64>>()))
         };
         let begun: Vec<(usize, f64)> =
             self.layout.blocks.iter().filter(of_meter).map(above).collect();
         let first = begun.first().map_or(0.0, |(_, above)| *above);
-        begun.into_iter().map(|(pass, above)| (pass, above - first)).collect()
+        Ok(begun.into_iter().map(|(pass, above)| (pass, above - first)).collect())
     }
 
     /// Names the first sample at which an effect has no value that a machine could follow.
@@ -563,9 +568,8 @@ impl Problem {
 }
 
 /// The error at the meter of a record, each pass counted on from where it began.
-fn counted_on(record: &Record, begun: &[(usize, f64)]) -> Column {
+fn counted_on(record: &Record, mut error_um: Vec<f64>, begun: &[(usize, f64)]) -> Column {
     let from = |pass: usize| begun.iter().find(|(of, _)| *of == pass).map_or(0.0, |(_, um)| *um);
-    let mut error_um = record.error_um.to_vec();
     for rows in record.passes() {
         let from_um = from(record.pass[rows.start]);
         error_um[rows].iter_mut().for_each(|error| *error += from_um);
