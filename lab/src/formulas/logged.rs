@@ -38,28 +38,7 @@ pub(super) fn of_a_column(all: &Quantities, column: &Arc<Quantity>) -> Vec<Shape
             .curve("slope", of(x))
             .curve("size", of(x) * about_mean(column)),
         );
-        let (middle, _) = about_middle(x);
-        shapes.push(
-            of_column(
-                "relation that bends along the travel",
-                "a bed, beam or screw that bows with the column",
-            )
-            .curve("slope", of(x))
-            .curve("level", of(column))
-            .curve("tilt", middle.clone() * about_mean(column))
-            .curve("size", Expression::Power(Box::new(middle.clone()), 2) * about_mean(column)),
-        );
-        let largest = column.values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
-        if OF_THE_LARGEST * largest < spread(&column.values) {
-            let physics = "a ram, arm or load that bends what carries it";
-            shapes.push(
-                of_column("bow as large as the column", physics)
-                    .curve("slope", of(x))
-                    .curve("level", of(column))
-                    .curve("tilt", middle.clone() * of(column))
-                    .curve("size", Expression::Power(Box::new(middle), 2) * of(column)),
-            );
-        }
+        shapes.extend(bows(x, column));
         let late_times_travel = |words, physics, stretch| {
             of_column(words, physics)
                 .unknown("late_s", &time.dimension, constants())
@@ -80,6 +59,30 @@ pub(super) fn of_a_column(all: &Quantities, column: &Arc<Quantity>) -> Vec<Shape
         ]);
     }
     shapes
+}
+
+/// A bow that changes with a column, and one that is none where the column is.
+fn bows(x: &Arc<Quantity>, column: &Arc<Quantity>) -> Vec<Shape> {
+    let (middle, _) = about_middle(x);
+    let bow = |words, physics, by: Expression| {
+        shape(words, &column.name, physics)
+            .curve("slope", of(x))
+            .curve("level", of(column))
+            .curve("tilt", middle.clone() * by.clone())
+            .curve("size", Expression::Power(Box::new(middle.clone()), 2) * by)
+    };
+    let bends = bow(
+        "relation that bends along the travel",
+        "a bed, beam or screw that bows with the column",
+        about_mean(column),
+    );
+    let largest = column.values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    let grows = OF_THE_LARGEST * largest < spread(&column.values);
+    let as_large = grows.then(|| {
+        let physics = "a ram, arm or load that bends what carries it";
+        bow("bow as large as the column", physics, of(column))
+    });
+    std::iter::once(bends).chain(as_large).collect()
 }
 
 /// What follows a column ahead of its time, or by what it has not followed yet.
