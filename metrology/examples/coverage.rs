@@ -1,7 +1,8 @@
 //! Prints the tables of coverage in docs/metrology.md: what is drawn has a known truth.
 //!
 //! `cargo run --release -p helixlock-metrology --example coverage`; with a word, only the tables
-//! that have it in their name: `straightness`, `screw`, `axis`.
+//! that have it in their name: `straightness`, `screw`, `axis`; with a number behind it, over so many
+//! records a row of screws.
 
 use std::io::Write;
 
@@ -15,13 +16,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         of_straightness(&mut out)?;
     }
     if "screw".contains(&asked) {
-        of_screws(&mut out)?;
+        let records = std::env::args().nth(2).map_or(Ok(SCREWS), |number| number.parse())?;
+        of_screws(&mut out, records)?;
     }
     if "axis".contains(&asked) {
         of_axes(&mut out)?;
     }
     Ok(())
 }
+
+/// Drawn screws a row.
+const SCREWS: u32 = 300;
 
 type Printed = Result<(), Box<dyn std::error::Error>>;
 
@@ -49,25 +54,33 @@ fn of_straightness(out: &mut impl Write) -> Printed {
     Ok(writeln!(out)?)
 }
 
-fn of_screws(out: &mut impl Write) -> Printed {
-    let header = "| screw | noise | | widened by | left of it | u | ±1.96 u holds |";
-    writeln!(out, "{header}\n|---|---|---|---|---|---|---|")?;
+fn of_screws(out: &mut impl Write, records: u32) -> Printed {
+    let sizes = "widened by | left of it | u | holds";
+    writeln!(out, "| screw | noise | V300 {sizes} | V2π {sizes} | ΔL300 holds | ΔLu | ΔP | e |")?;
+    writeln!(out, "|---|---|{}", "---|".repeat(12))?;
     for kind in screw::coverage::Screw::ALL {
         for noise_um in [0.05, 0.25, 0.6] {
-            let found = screw::coverage::coverage(kind, noise_um, 500, 1);
-            // The figures of JB/T 2886 are those of the same curve, the line left in.
-            let all = kind == screw::coverage::Screw::TooLong;
-            let of_variation = |symbol: &str| symbol == "V300" || symbol == "V2π";
-            for found in found.into_iter().filter(|one| all || of_variation(one.symbol)) {
-                let (symbol, widened, left) = (found.symbol, found.widening_um, found.left_um);
-                let (kind, held) = (kind.in_words(), 100.0 * found.held);
-                let sizes =
-                    format!("{widened:.2} µm | {left:+.3} µm | {:.3} µm", found.uncertainty_um);
-                writeln!(out, "| {kind} | {noise_um} µm | {symbol} | {sizes} | {held:.1} % |")?;
+            let found = screw::coverage::coverage(kind, noise_um, records, 1);
+            let of = |symbol: &str| {
+                found.iter().find(|one| one.symbol == symbol).ok_or("it is one of those shown")
+            };
+            write!(out, "| {} | {noise_um} µm |", kind.in_words())?;
+            for one in [of("V300")?, of("V2π")?] {
+                let (widened, left, u) = (one.widening_um, one.left_um, one.uncertainty_um);
+                write!(out, " {widened:.2} µm | {left:+.3} µm | {u:.3} µm |{}", holds(one))?;
             }
+            for symbol in ["ΔL300", "ΔLu", "ΔP", "e"] {
+                write!(out, "{}", holds(of(symbol)?))?;
+            }
+            writeln!(out)?;
         }
     }
     Ok(writeln!(out)?)
+}
+
+/// A cell: how often ±1.96 u holds the truth.
+fn holds(one: &screw::coverage::Coverage) -> String {
+    format!(" {:.1} % |", 100.0 * one.held)
 }
 
 fn of_axes(out: &mut impl Write) -> Printed {
