@@ -542,18 +542,21 @@ impl Problem {
         Ok(predicted)
     }
 
-    /// What [`Self::begun`] is, of these samples.
+    /// What [`Self::begun`] is, of these samples; a single pass needs none.
     fn begun_from(&self) -> Result<Vec<(usize, f64)>, EffectError> {
-        let from_zero_um = meter_um(&self.model, &self.record, &self.effects_on(&self.record)?);
         let of_meter = |block: &&Block| self.sensors[block.sensor] == Sensor::Recorder;
+        let passes: Vec<&Block> = self.layout.blocks.iter().filter(of_meter).collect();
+        if passes.len() < 2 {
+            return Ok(Vec::new());
+        }
+        let from_zero_um = meter_um(&self.model, &self.record, &self.effects_on(&self.record)?);
         let above = |block: &Block| {
             let above = |row: usize| self.observed[row] - from_zero_um[self.samples[row]];
-            (block.pass, median(&mut block.rows.clone().map(above).collect::<Vec<f64>>()))
+            median(&mut block.rows.clone().map(above).collect::<Vec<f64>>())
         };
-        let begun: Vec<(usize, f64)> =
-            self.layout.blocks.iter().filter(of_meter).map(above).collect();
-        let first = begun.first().map_or(0.0, |(_, above)| *above);
-        Ok(begun.into_iter().map(|(pass, above)| (pass, above - first)).collect())
+        let above_um: Vec<f64> = passes.iter().map(|block| above(block)).collect();
+        let from_first = above_um.iter().map(|above| above - above_um[0]);
+        Ok(passes.iter().map(|block| block.pass).zip(from_first).collect())
     }
 
     /// Names the first sample at which an effect has no value that a machine could follow.
