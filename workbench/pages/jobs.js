@@ -5,6 +5,7 @@ import { t } from "./words.js";
 
 const element = (id) => document.getElementById(id);
 let current = null;
+let begun = 0;
 let stopped = false;
 
 // The line of a machine file that is not saved does the same once it is.
@@ -32,36 +33,42 @@ export function wireJobs() {
 
 const pause = (ms) => new Promise((done) => setTimeout(done, ms));
 
-// Runs a command of the workbench; gives its number and what it printed, or nothing when stopped.
+// Runs a command of the workbench; gives its number and what it printed, or nothing when it was
+// stopped or other work was begun after it.
 export async function run(command, words = {}, body = {}) {
-  if (current) await post("stop", { job: current }).catch(() => {});
-  let job = await post("begin", { command, ...words }, body);
-  const number = job.job;
-  current = number;
-  showLine(job.line, "text" in body && body.text !== app.state.machine.text);
+  const turn = ++begun;
+  const last = () => turn === begun;
+  stopped = false;
   showMessage("");
   element("work").hidden = false;
   try {
-    while (job.running) {
+    if (current) await post("stop", { job: current }).catch(() => {});
+    let job = await post("begin", { command, ...words }, body);
+    if (stopped || !last()) await post("stop", { job: job.job });
+    if (!last()) return null;
+    current = job.job;
+    showLine(job.line, "text" in body && body.text !== app.state.machine.text);
+    while (job.running && last()) {
       element("seconds").textContent = t("work.seconds", { n: job.seconds.toFixed(0) });
       // What is soon done is soon seen.
       await pause(Math.min(400, 40 + 100 * job.seconds));
-      job = await get("job", { job: number });
+      job = await get("job", { job: job.job });
     }
+    // Work that gave way to other work needs no word.
+    if (!last()) return null;
+    if (job.error === "stopped") {
+      if (stopped) showMessage(t("work.stopped"));
+      return null;
+    }
+    if (job.error) throw new Error(job.error);
+    const result = sameKeys(await get("result", { job: job.job }));
+    return last() ? { job: job.job, seconds: job.seconds, result } : null;
   } finally {
-    if (current === number) {
+    if (last()) {
       current = null;
       element("work").hidden = true;
     }
   }
-  if (job.error === "stopped") {
-    // Work that gave way to other work needs no word.
-    if (stopped) showMessage(t("work.stopped"));
-    stopped = false;
-    return null;
-  }
-  if (job.error) throw new Error(job.error);
-  return { job: number, seconds: job.seconds, result: sameKeys(await get("result", { job: number })) };
 }
 
 // Runs a command beside what is shown, and says nothing of it; gives its number, or nothing where
