@@ -54,3 +54,9 @@ fn the_index_of_pandas_is_left_out() {
     assert_eq!(table.names().count(), EXPECTED.len());
     assert_eq!(table.column("steps").map(|steps| steps[4]), Some(4095.0));
 }
+
+/// pyarrow keeps 6.000 as two bytes, 6000 thousandths.
+#[test]
+fn decimals_are_numbers() {
+    assert_eq!(read("decimal.parquet").column("lead_mm"), Some(&[6.0, 6.0][..]));
+}

@@ -1,5 +1,7 @@
 //! Cells in rows, as text, each with its place in the file.
 
+use std::borrow::Cow;
+
 use crate::error::ImportError;
 use crate::limits;
 use crate::place::Place;
@@ -41,6 +43,31 @@ enum Origin {
     Sheet(String),
 }
 
+/// A column of a format that has columns.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Cells<'a> {
+    Numbers(&'a [f64]),
+    Words(&'a [String]),
+}
+
+impl Cells<'_> {
+    pub(crate) fn len(&self) -> usize {
+        match self {
+            Self::Numbers(values) => values.len(),
+            Self::Words(words) => words.len(),
+        }
+    }
+
+    /// The text of a cell, empty where none is.
+    fn text(&self, row: usize) -> Cow<'_, str> {
+        match self {
+            Self::Numbers(values) if values[row].is_nan() => Cow::Borrowed(""),
+            Self::Numbers(values) => Cow::Owned(values[row].to_string()),
+            Self::Words(words) => Cow::Borrowed(words[row].trim()),
+        }
+    }
+}
+
 /// A row of cells.
 #[derive(Clone, Copy, Debug)]
 struct Row {
@@ -72,23 +99,22 @@ impl Grid {
         Self { origin: Origin::Sheet(sheet.to_owned()), ..Self::of_text(file) }
     }
 
-    /// Columns of numbers below a row of names; what is no number is an empty cell, infinity a word.
+    /// Columns below a row of their names; what is no number is an empty cell, infinity a word.
     pub(crate) fn of_columns(
         file: &str,
         sheet: &str,
-        columns: &[(String, &[f64])],
+        columns: &[(&str, Cells<'_>)],
     ) -> Result<Self, ImportError> {
         let mut grid = Self::of_sheet(file, sheet);
         grid.start_row(0, false);
         for (index, (name, _)) in columns.iter().enumerate() {
             grid.push(name, index + 1)?;
         }
-        let rows = columns.first().map_or(0, |(_, values)| values.len());
+        let rows = columns.first().map_or(0, |(_, cells)| cells.len());
         for row in 0..rows {
             grid.start_row(row + 1, false);
-            for (index, (_, values)) in columns.iter().enumerate() {
-                let value = Some(values[row]).filter(|value| !value.is_nan());
-                grid.push(&value.map_or_else(String::new, |value| value.to_string()), index + 1)?;
+            for (index, (_, cells)) in columns.iter().enumerate() {
+                grid.push(&cells.text(row), index + 1)?;
             }
         }
         Ok(grid)

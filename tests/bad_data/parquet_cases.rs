@@ -15,7 +15,6 @@ const COLUMNS: &[(&str, &str)] = &[
     ("old time stamps", "bad_int96.parquet"),
     ("dates", "bad_date.parquet"),
     ("times of day", "bad_time_of_day.parquet"),
-    ("decimals", "bad_decimal.parquet"),
     ("lists", "bad_list.parquet"),
     ("a text inside a structure", "bad_struct.parquet"),
     ("bytes", "bad_bytes.parquet"),

@@ -1,7 +1,7 @@
 //! Parquet: the same columns as the text form, in binary.
 //!
-//! Null and NaN are missing values. Booleans count as 0 and 1. A column of words is left out and
-//! remembered; times and nested columns are refused by name.
+//! Null and NaN are missing values. Booleans count as 0 and 1, decimals as the nearest number. A column
+//! of words is left out and remembered; times and nested columns are refused by name.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -18,17 +18,22 @@ use ::parquet::schema::types::{ColumnDescriptor, Type};
 use bytes::Bytes;
 
 use crate::error::{At, TraceError};
-use crate::table::{Column, Table, TextColumn, shortened};
+use crate::table::{Column, Table, TextColumn};
 
 mod checks;
 mod checksum;
+mod decimals;
 mod instants;
+mod words;
 
 use checks::{
     check_compression, check_dictionary, check_places, check_rows, check_type, declared_rows,
     is_text,
 };
 use instants::{read_instants, ticks_in_a_second};
+use words::{first_word, read_words};
+
+pub use words::Words;
 
 /// Rows decoded at a time, and rows written to a group.
 const BATCH_ROWS: usize = 1 << 16;
@@ -42,18 +47,27 @@ const GROUP_ROWS: usize = 1 << 20;
 ///
 /// A file that contradicts itself, a column that holds no numbers, an infinite value, no rows.
 pub fn read_parquet(bytes: Vec<u8>, path: &Path) -> Result<Table, TraceError> {
-    guarded(bytes, path, Others::Refused)
+    Ok(guarded(bytes, path, Others::Refused)?.table)
 }
 
-/// Reads what is numbers or instants of a Parquet file that another program wrote.
+/// What another program wrote.
+#[derive(Clone, Debug, Default)]
+pub struct Foreign {
+    /// Columns of numbers and of instants; what is left out is remembered there.
+    pub table: Table,
+    /// Columns of words.
+    pub words: Vec<Words>,
+}
+
+/// Reads the numbers, instants and words of a Parquet file that another program wrote.
 ///
 /// Instants are seconds since the first of their column, which is then called `NAME (s)`; whatever else is
-/// no number is left out and remembered.
+/// there is left out and remembered.
 ///
 /// # Errors
 ///
 /// As [`read_parquet`], without those of single columns.
-pub fn read_foreign_parquet(bytes: Vec<u8>, path: &Path) -> Result<Table, TraceError> {
+pub fn read_foreign_parquet(bytes: Vec<u8>, path: &Path) -> Result<Foreign, TraceError> {
     guarded(bytes, path, Others::LeftOut)
 }
 
@@ -64,7 +78,7 @@ enum Others {
     LeftOut,
 }
 
-fn guarded(bytes: Vec<u8>, path: &Path, others: Others) -> Result<Table, TraceError> {
+fn guarded(bytes: Vec<u8>, path: &Path, others: Others) -> Result<Foreign, TraceError> {
     // Fuzzing found broken pages on which the library panics; for its user that is an error too.
     std::panic::catch_unwind(|| read_columns(bytes, path, others)).unwrap_or_else(|_| {
         let message = "its pages contradict its footer".into();
@@ -72,61 +86,85 @@ fn guarded(bytes: Vec<u8>, path: &Path, others: Others) -> Result<Table, TraceEr
     })
 }
 
-fn read_columns(bytes: Vec<u8>, path: &Path, others: Others) -> Result<Table, TraceError> {
-    let broken = |error: ParquetError| TraceError::Parquet {
-        path: path.to_owned(),
-        message: error.to_string(),
-    };
+fn read_columns(bytes: Vec<u8>, path: &Path, others: Others) -> Result<Foreign, TraceError> {
+    let broken = |error| broken(path, &error);
     let size = bytes.len();
     let reader = SerializedFileReader::new(Bytes::from(bytes)).map_err(broken)?;
     check_places(&reader, size).map_err(broken)?;
     let rows = declared_rows(&reader).map_err(broken)?;
     let schema = reader.metadata().file_metadata().schema_descr();
-    let mut columns = Vec::with_capacity(schema.num_columns());
-    let (mut text, mut refused) = (Vec::new(), None);
+    let mut table = Table { path: path.to_owned(), ..Table::default() };
+    let (mut words, mut refused) = (Vec::new(), None);
     for (index, descriptor) in schema.columns().iter().enumerate() {
         let name = descriptor.path().string();
         if name.starts_with("__index_level_") {
             continue;
         }
         check_compression(&reader, index, &name, path)?;
-        if is_text(descriptor) {
-            let first = first_word(&reader, index).map_err(broken)?;
-            text.push(TextColumn { name, first, at: At::file(path), hint: "" });
-            continue;
-        }
-        let in_a_second = ticks_in_a_second(descriptor).filter(|_| others == Others::LeftOut);
-        if let Some(in_a_second) = in_a_second {
-            let values =
-                read_instants(&reader, (index, descriptor), rows, in_a_second).map_err(broken)?;
-            columns.push(Column { name: format!("{name} (s)"), values });
-            continue;
-        }
-        match check_type(descriptor, &name, path) {
-            Err(error) if others == Others::LeftOut => {
-                text.push(TextColumn { name, first: String::new(), at: At::file(path), hint: "" });
-                refused.get_or_insert(error);
-                continue;
+        match read_one(&reader, (index, descriptor), rows, path, others)? {
+            Held::Numbers(column) => table.columns.push(column),
+            Held::Words(column) => words.push(column),
+            Held::LeftOut(first, why) => {
+                table.text.push(TextColumn { name, first, at: At::file(path), hint: "" });
+                refused = refused.or(why);
             }
-            checked => checked?,
         }
-        let values = read_column(&reader, index, descriptor, rows).map_err(broken)?;
-        columns.push(Column { name, values });
     }
-    if let (true, Some(error)) = (columns.is_empty(), refused) {
-        return Err(error);
+    if table.columns.is_empty() && words.is_empty() {
+        let first = table.text.first().map(TextColumn::refused);
+        if let Some(error) = refused.or(first) {
+            return Err(error);
+        }
     }
-    if let (true, Some(first)) = (columns.is_empty(), text.first()) {
-        return Err(first.refused());
-    }
-    if !checksum::holds(reader.metadata().file_metadata().created_by(), &columns) {
+    if !checksum::holds(reader.metadata().file_metadata().created_by(), &table.columns) {
         let message =
             "found other numbers than were written, by their checksum: the file is damaged";
         return Err(broken(ParquetError::General(message.into())));
     }
-    let table = Table { path: path.to_owned(), columns, text, ..Table::default() };
-    check_rows(&table)?;
-    Ok(table)
+    check_rows(&table, &words)?;
+    Ok(Foreign { table, words })
+}
+
+/// What a column holds.
+enum Held {
+    Numbers(Column),
+    Words(Words),
+    /// Its first word, and why it is left out where that is no word.
+    LeftOut(String, Option<TraceError>),
+}
+
+fn read_one(
+    file: &SerializedFileReader<Bytes>,
+    (index, descriptor): (usize, &ColumnDescriptor),
+    rows: usize,
+    path: &Path,
+    others: Others,
+) -> Result<Held, TraceError> {
+    let broken = |error| broken(path, &error);
+    let name = descriptor.path().string();
+    let foreign = others == Others::LeftOut;
+    if is_text(descriptor) {
+        let all = if foreign { read_words(file, (index, descriptor), rows) } else { Ok(None) };
+        return Ok(match all.map_err(broken)? {
+            Some(words) => Held::Words(Words { name, words }),
+            None => Held::LeftOut(first_word(file, index).map_err(broken)?, None),
+        });
+    }
+    if let Some(in_a_second) = ticks_in_a_second(descriptor).filter(|_| foreign) {
+        let values = read_instants(file, (index, descriptor), rows, in_a_second);
+        let values = values.map_err(broken)?;
+        return Ok(Held::Numbers(Column { name: format!("{name} (s)"), values }));
+    }
+    match check_type(descriptor, &name, path) {
+        Err(error) if foreign => return Ok(Held::LeftOut(String::new(), Some(error))),
+        checked => checked?,
+    }
+    let values = read_column(file, index, descriptor, rows).map_err(broken)?;
+    Ok(Held::Numbers(Column { name, values }))
+}
+
+fn broken(path: &Path, error: &ParquetError) -> TraceError {
+    TraceError::Parquet { path: path.to_owned(), message: error.to_string() }
 }
 
 /// Writes a table as Parquet, one optional double column each; NaN becomes null.
@@ -179,27 +217,6 @@ fn write_group<W: Write + Send>(
     Ok(())
 }
 
-/// First word of a column of them; empty when there is none.
-fn first_word(file: &SerializedFileReader<Bytes>, index: usize) -> Result<String, ParquetError> {
-    for group in 0..file.num_row_groups() {
-        check_dictionary(file, group, index)?;
-        let reader = file.get_row_group(group)?.get_column_reader(index)?;
-        let ColumnReader::ByteArrayColumnReader(mut column) = reader else { continue };
-        let (mut levels, mut words) = (Vec::new(), Vec::new());
-        while words.is_empty() {
-            levels.clear();
-            let (rows, ..) = column.read_records(1, Some(&mut levels), None, &mut words)?;
-            if rows == 0 {
-                break;
-            }
-        }
-        if let Some(word) = words.first() {
-            return Ok(shortened(&String::from_utf8_lossy(word.data())));
-        }
-    }
-    Ok(String::new())
-}
-
 fn read_column(
     file: &SerializedFileReader<Bytes>,
     index: usize,
@@ -213,8 +230,9 @@ fn read_column(
             | ConvertedType::UINT_32
             | ConvertedType::UINT_64
     );
+    let scale = decimals::scale(descriptor);
     let complete = descriptor.max_def_level();
-    let mut values = Values { numbers: Vec::new(), most: rows };
+    let mut values = Values::numbers(rows);
     for group in 0..file.num_row_groups() {
         check_dictionary(file, group, index)?;
         match file.get_row_group(group)?.get_column_reader(index)? {
@@ -225,13 +243,13 @@ fn read_column(
                 append(column, complete, &mut values, |value| f64::from(value.cast_unsigned()))?;
             }
             ColumnReader::Int32ColumnReader(column) => {
-                append(column, complete, &mut values, f64::from)?;
+                append(column, complete, &mut values, |value| f64::from(value) / scale)?;
             }
             ColumnReader::Int64ColumnReader(column) if unsigned => {
                 append(column, complete, &mut values, |value| nearest_u64(value.cast_unsigned()))?;
             }
             ColumnReader::Int64ColumnReader(column) => {
-                append(column, complete, &mut values, nearest_i64)?;
+                append(column, complete, &mut values, |value| nearest_i64(value) / scale)?;
             }
             ColumnReader::FloatColumnReader(column) => {
                 append(column, complete, &mut values, f64::from)?;
@@ -239,10 +257,22 @@ fn read_column(
             ColumnReader::DoubleColumnReader(column) => {
                 append(column, complete, &mut values, |value| value)?;
             }
-            _ => return Err(ParquetError::General("a column changed its type".into())),
+            ColumnReader::FixedLenByteArrayColumnReader(column) => {
+                append(column, complete, &mut values, |value| {
+                    decimals::whole(value.data()) / scale
+                })?;
+            }
+            ColumnReader::ByteArrayColumnReader(column) => {
+                append(column, complete, &mut values, |value| {
+                    decimals::whole(value.data()) / scale
+                })?;
+            }
+            ColumnReader::Int96ColumnReader(_) => {
+                return Err(ParquetError::General("a column changed its type".into()));
+            }
         }
     }
-    Ok(values.numbers)
+    Ok(values.cells)
 }
 
 #[expect(
@@ -262,18 +292,26 @@ fn nearest_u64(value: u64) -> f64 {
 }
 
 /// A column as it grows.
-struct Values {
-    numbers: Vec<f64>,
+struct Values<V> {
+    cells: Vec<V>,
+    /// What stands for a null.
+    missing: V,
     /// Rows that the file declares.
     most: usize,
 }
 
+impl Values<f64> {
+    fn numbers(most: usize) -> Self {
+        Self { cells: Vec::new(), missing: f64::NAN, most }
+    }
+}
+
 /// Appends all values of a column chunk; a level below `complete` is a null.
-fn append<T: DataType>(
+fn append<T: DataType, V: Clone>(
     mut column: ColumnReaderImpl<T>,
     complete: i16,
-    values: &mut Values,
-    number: impl Fn(T::T) -> f64,
+    values: &mut Values<V>,
+    cell: impl Fn(T::T) -> V,
 ) -> Result<(), ParquetError> {
     let (mut levels, mut present) = (Vec::new(), Vec::new());
     loop {
@@ -283,16 +321,17 @@ fn append<T: DataType>(
         if rows == 0 {
             return Ok(());
         }
-        let mut present = present.drain(..).map(&number);
+        let mut present = present.drain(..).map(&cell);
+        let mut next = || present.next().unwrap_or_else(|| values.missing.clone());
         if complete == 0 {
-            values.numbers.extend(present);
+            values.cells.extend(present);
         } else {
-            values.numbers.extend(levels.iter().map(|level| match *level {
-                level if level == complete => present.next().unwrap_or(f64::NAN),
-                _ => f64::NAN,
+            values.cells.extend(levels.iter().map(|level| match *level {
+                level if level == complete => next(),
+                _ => values.missing.clone(),
             }));
         }
-        if values.most < values.numbers.len() {
+        if values.most < values.cells.len() {
             return Err(ParquetError::General("a column has more rows than declared".into()));
         }
     }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::decide::Decisions;
 use crate::error::ImportError;
-use crate::grid::Grid;
+use crate::grid::{Cells, Grid};
 use crate::place::Place;
 use crate::question::Answer;
 use crate::recipe::Value;
@@ -61,7 +61,8 @@ pub(crate) fn grid(
     let named = chosen.iter().map(|array| (array, short_name(&array.name, &chosen)));
     let columns: Vec<(String, &[f64])> =
         named.flat_map(|(array, name)| array.columns(name, rows)).collect();
-    Grid::of_columns(file, sheet, &columns)
+    let columns = columns.iter().map(|(name, values)| (&**name, Cells::Numbers(values)));
+    Grid::of_columns(file, sheet, &columns.collect::<Vec<_>>())
 }
 
 /// A name without the groups that it stands in, where no other has the same.

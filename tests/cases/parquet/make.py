@@ -25,7 +25,6 @@ bad = {
  "timestamp": pa.table({"time_s": pa.array([datetime.datetime(2026, 1, 1)] * 2, pa.timestamp("us"))}),
  "date": pa.table({"day": pa.array([datetime.date(2026, 1, 1)] * 2)}),
  "time_of_day": pa.table({"clock": pa.array([datetime.time(1, 2)] * 2)}),
- "decimal": pa.table({"lead_mm": pa.array([decimal.Decimal("6.000")] * 2)}),
  "list": pa.table({"samples": pa.array([[1.0, 2.0], [3.0]])}),
  "bytes": pa.table({"raw": pa.array([b"a", b"b"])}),
  "half": pa.table({"error_um": pa.array(np.array([1.0, 2.0], np.float16))}),
@@ -36,6 +35,7 @@ bad = {
 }
 for k, v in bad.items():
     pq.write_table(v, f"{out}bad_{k}.parquet")
+pq.write_table(pa.table({"lead_mm": pa.array([decimal.Decimal("6.000")] * 2)}), out + "decimal.parquet")
 pq.write_table(pa.table({"time_s": [1.0, 2.0], "note": ["a", "b"]}), out + "text.parquet")
 pq.write_table(pa.table({"time_s": [1.0, 2.0], "note": pa.array(["a", "b"]).dictionary_encode()}), out + "dictionary_text.parquet")
 pq.write_table(pa.table({"t": pa.array([datetime.datetime(2026, 1, 1)] * 2, pa.timestamp("ns"))}), out + "bad_int96.parquet", use_deprecated_int96_timestamps=True)

@@ -10,6 +10,8 @@ use ::parquet::file::reader::{FileReader, SerializedFileReader};
 use ::parquet::schema::types::ColumnDescriptor;
 use bytes::Bytes;
 
+use super::decimals::is_decimal;
+use super::words::Words;
 use crate::error::{At, TraceError};
 use crate::number::LARGEST;
 use crate::table::{Column, LONGEST_NAME, MOST_CELLS, MOST_COLUMNS, Table};
@@ -26,6 +28,7 @@ pub(super) fn check_type(
     use ConvertedType::{INT_8, INT_16, INT_32, INT_64, NONE, UINT_8, UINT_16, UINT_32, UINT_64};
     let found = match (column.physical_type(), column.converted_type()) {
         _ if column.max_rep_level() > 0 => "lists".to_owned(),
+        _ if is_decimal(column) => return Ok(()),
         (PhysicalType::BYTE_ARRAY | PhysicalType::FIXED_LEN_BYTE_ARRAY, NONE) => "bytes".to_owned(),
         (PhysicalType::INT96, _) => "times".to_owned(),
         (_, NONE | INT_8 | INT_16 | INT_32 | INT_64 | UINT_8 | UINT_16 | UINT_32 | UINT_64)
@@ -131,13 +134,16 @@ fn is_plain(logical: Option<&LogicalType>) -> bool {
 }
 
 /// Refuses columns of unequal length, values out of range, and a table without rows.
-pub(super) fn check_rows(table: &Table) -> Result<(), TraceError> {
-    let rows = table.rows();
-    let broken = |message: String| TraceError::Parquet { path: table.path.clone(), message };
+pub(super) fn check_rows(table: &Table, words: &[Words]) -> Result<(), TraceError> {
+    let numbers = table.columns.iter().map(|column| (&column.name, column.values.len()));
+    let words = words.iter().map(|column| (&column.name, column.words.len()));
+    let lengths: Vec<(&String, usize)> = numbers.chain(words).collect();
+    let rows = lengths.first().map_or(0, |(_, length)| *length);
+    if let Some((name, length)) = lengths.iter().find(|(_, length)| *length != rows) {
+        let message = format!("column `{name}` has {length} rows of {rows}");
+        return Err(TraceError::Parquet { path: table.path.clone(), message });
+    }
     for Column { name, values } in &table.columns {
-        if values.len() != rows {
-            return Err(broken(format!("column `{name}` has {} rows of {rows}", values.len())));
-        }
         if let Some(row) = values.iter().position(|value| LARGEST < value.abs()) {
             return Err(TraceError::TooLarge {
                 path: table.path.clone(),

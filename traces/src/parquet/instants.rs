@@ -42,7 +42,7 @@ pub(super) fn read_instants(
         first.set(Some(begin));
         nearest_i64(tick.saturating_sub(begin)) / in_a_second
     };
-    let mut values = Values { numbers: Vec::new(), most: rows };
+    let mut values = Values::numbers(rows);
     for group in 0..file.num_row_groups() {
         check_dictionary(file, group, index)?;
         let reader = file.get_row_group(group)?.get_column_reader(index)?;
@@ -51,7 +51,7 @@ pub(super) fn read_instants(
         };
         append(column, descriptor.max_def_level(), &mut values, since)?;
     }
-    Ok(values.numbers)
+    Ok(values.cells)
 }
 
 #[cfg(test)]
@@ -88,7 +88,7 @@ mod tests {
         writer.close().unwrap();
         let path = Path::new("data.parquet");
         assert!(read_parquet(bytes.clone(), path).is_err());
-        let table = read_foreign_parquet(bytes, path).unwrap();
+        let table = read_foreign_parquet(bytes, path).unwrap().table;
         assert_eq!(table.names().collect::<Vec<_>>(), ["t (s)", "error_um"]);
         assert_eq!(table.text[0].name, "day");
         assert!((table.columns[0].values[39] - 39.0 * 100e-9).abs() < 1e-15);
