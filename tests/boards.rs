@@ -107,7 +107,7 @@ fn fits_the_smallest_board_with_room_and_gives_the_same_bytes_twice() {
 }
 
 /// Boards that are like another one to the tools: built when all are asked for.
-const ALIKE: [&str; 4] = ["upduino", "colorlight-i5", "orangecrab", "tang-nano-20k"];
+const ALIKE: [&str; 5] = ["upduino", "tinyfpga-bx", "colorlight-i5", "orangecrab", "tang-nano-20k"];
 
 #[test]
 fn builds_for_every_other_board() {

@@ -94,12 +94,12 @@ fn what_is_named_under_a_ripple_stays_beside_a_formula() {
     for seed in seeds(1, 3) {
         let mut noise = white(seed, 6.0);
         let mut columns = [const { Vec::new() }; 2];
-        for row in 0..3000 {
-            let rad = TAU * f64::from(row) / 3000.0;
+        for row in 0..1500 {
+            let rad = TAU * f64::from(row) / 1500.0;
             let of_poles = 300.0 * libm::sin(100.0 * rad + 1.2 * libm::sin(2.0 * rad + 0.4))
                 + 120.0 * libm::sin(50.0 * rad + 0.8 * libm::sin(rad));
             let long = 900.0 * libm::sin(2.0 * rad + 0.45) + 450.0 * libm::sin(rad + 1.0);
-            let cells = [f64::from(row) / 3000.0, long + of_poles + noise()];
+            let cells = [f64::from(row) / 1500.0, long + of_poles + noise()];
             columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
         }
         let table = ["angle_rev", "error_arcsec"].into_iter().zip(columns).collect();
