@@ -81,23 +81,24 @@ impl<'a> Court<'a> {
         for one in likely {
             let ahead = |rival: f64| one.evidence - (rival - base).max(0.0);
             let of_nothing = ahead(self.nothing(&one));
-            let evidence = of_nothing.min(ahead(self.rival(&one)));
+            let of_one_sensor = ahead(self.freed_on_one());
+            let evidence = of_nothing.min(of_one_sensor).min(ahead(self.rival(&one)));
             if DOUBT < evidence {
                 return (Some(Hypothesis { evidence, ..one }), suspects);
             }
             let is_near = NEAR_THE_BEST_DOUBT * most <= one.evidence;
             if DOUBT < of_nothing && is_near && one.lateness() == 0 {
-                suspects.push(self.suspect(one));
+                suspects.push(self.suspect(one, of_one_sensor));
             }
         }
         (None, suspects)
     }
 
-    fn suspect(&self, one: Hypothesis) -> Suspect {
+    fn suspect(&self, one: Hypothesis, of_one_sensor: f64) -> Suspect {
         let both = self.problem.residual().into_iter().zip(one.mended.residual());
         let change = both.map(|(before, after)| before - after).collect();
         let (price, listed) = (self.price(&one) - self.looks, self.looks);
-        Suspect { doubt: one.doubt(), change, price, listed, mended: one.mended }
+        Suspect { doubt: one.doubt(), change, price, listed, of_one_sensor, mended: one.mended }
     }
 
     fn view(&self, noises: &[crate::noise::Noise]) -> View {
@@ -206,8 +207,22 @@ impl<'a> Court<'a> {
 
     /// Evidence of the file's own effects at any size, integrated over sizes as large as theirs.
     fn freed(&self) -> f64 {
-        let effects = &self.problem.model.effects;
-        self.integrated(effects.iter().filter_map(|term| departures(self.problem, term)))
+        self.integrated(self.departures().into_iter())
+    }
+
+    /// The same at any size on one of several sensors alone: what lags, runs out or was clamped anew changes a
+    /// wave there.
+    fn freed_on_one(&self) -> f64 {
+        let (sensors, all) = (self.problem.sensors.len(), self.departures());
+        let alone = (0..sensors).filter(|_| 1 < sensors).map(|sensor| {
+            self.integrated(all.iter().map(|columns| on_one(self.problem, columns, sensor)))
+        });
+        alone.fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    fn departures(&self) -> Vec<Columns> {
+        let effects = self.problem.model.effects.iter();
+        effects.filter_map(|term| departures(self.problem, term)).collect()
     }
 
     /// That of the effects of known size that the file does not have, by another factor than the textbook's:
@@ -341,6 +356,12 @@ fn departures(problem: &Problem, term: &Term) -> Option<Columns> {
     };
     let priors = (0..raw.len()).map(|at| Some(prior(at))).collect();
     Some(Columns { raw, priors, fixed: None })
+}
+
+/// Columns where one sensor reads.
+fn on_one(problem: &Problem, columns: &Columns, sensor: usize) -> Columns {
+    let raw = columns.raw.iter().map(|raw| problem.of_rows(sensor, |row| raw[row]).into());
+    Columns { raw: raw.collect(), ..columns.clone() }
 }
 
 /// Those that gain enough, or nearly as much as the best, under either noise.

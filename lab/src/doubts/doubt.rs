@@ -33,6 +33,9 @@ pub(crate) struct Suspect {
     pub(crate) price: f64,
     /// What it pays for being one of a list; nothing in the place of a name, which is one of a list, too.
     pub(crate) listed: f64,
+    /// By how much it is ahead of the file's own effects at any size on one of several sensors, which no search
+    /// finds.
+    pub(crate) of_one_sensor: f64,
 }
 
 /// Evidence of rows that each say so by accident no oftener than every second time.

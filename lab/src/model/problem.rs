@@ -177,16 +177,16 @@ impl Problem {
 
     /// Weighs outliers down, as they stand out of what a model leaves.
     pub(crate) fn mark_outliers(&mut self, left: &[f64]) {
-        let left = &self.without_own_errors(left);
+        let (left, telling) = &self.without_own_errors(left);
         if self.measurement.deviations.is_none() {
-            let outliers = outlier_inflation(&self.layout, left, &self.least_variance);
+            let outliers = outlier_inflation(&self.layout, left, telling, &self.least_variance);
             self.layout.inflation = outliers.into();
             return;
         }
         let told = self.told_variances();
         let scaled: Vec<f64> =
             left.iter().zip(&told).map(|(left, variance)| left / variance.sqrt()).collect();
-        let outliers = outlier_inflation(&self.layout, &scaled, &self.least_variance);
+        let outliers = outlier_inflation(&self.layout, &scaled, telling, &self.least_variance);
         self.layout.inflation = outliers.iter().zip(&told).map(|(own, told)| own * told).collect();
     }
 

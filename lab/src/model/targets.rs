@@ -112,10 +112,11 @@ impl Problem {
     }
 
     /// What a model leaves without what each target shows at most of its visits one way: a target that is off
-    /// at every visit is no bad reading.
-    pub(super) fn without_own_errors(&self, left: &[f64]) -> Vec<f64> {
-        let mut rest = left.to_vec();
-        let Some(targets) = self.targets() else { return rest };
+    /// at every visit is no bad reading. And which rows tell how far noise takes one: the visit that all of a
+    /// target are held against does not, and of three it is one.
+    pub(super) fn without_own_errors(&self, left: &[f64]) -> (Vec<f64>, Vec<bool>) {
+        let (mut rest, mut telling) = (left.to_vec(), vec![true; left.len()]);
+        let Some(targets) = self.targets() else { return (rest, telling) };
         let of = self.visited(&targets);
         let mut visits = BTreeMap::<_, Vec<usize>>::new();
         for block in &self.layout.blocks {
@@ -127,13 +128,14 @@ impl Problem {
                 visits.entry((block.sensor, of[sample], is_forward)).or_default().push(row);
             }
         }
-        for rows in visits.values().filter(|rows| VISITS_OF_FEW <= rows.len()) {
-            let usual = median(&mut rows.iter().map(|&row| rest[row]).collect::<Vec<_>>());
-            for &row in rows {
-                rest[row] -= usual;
-            }
+        for rows in visits.values_mut().filter(|rows| VISITS_OF_FEW <= rows.len()) {
+            rows.sort_by(|a, b| rest[*a].total_cmp(&rest[*b]));
+            let middle = rows[(rows.len() - 1) / 2];
+            let usual = rest[middle];
+            rows.iter().for_each(|&row| rest[row] -= usual);
+            telling[middle] = false;
         }
-        rest
+        (rest, telling)
     }
 
     /// The same problem with what each target shows at every visit left free, so that what happens

@@ -206,7 +206,7 @@ pub(super) fn longest_block(layout: &Layout) -> f64 {
 /// A sample is judged against the median of itself and its neighbours, so a slow effect or a step,
 /// which neighbours share, is never an outlier (Hampel's identifier). Where most samples are that
 /// median themselves, as on a smooth curve or a staircase, those that are not tell how far noise takes
-/// one. No deviation is taken to be less than `least_variance` says of its sensor. Where four fifths of the
+/// one, and of rows that are not `telling` none is asked. No deviation is taken to be less than `least_variance` says of its sensor. Where four fifths of the
 /// samples say far more than half of them, as no law of noise does, those are believed: half may lie where
 /// a wave turns slowly.
 ///
@@ -218,6 +218,7 @@ pub(super) fn longest_block(layout: &Layout) -> f64 {
 pub(crate) fn outlier_inflation(
     layout: &Layout,
     residual: &[f64],
+    telling: &[bool],
     least_variance: &[f64],
 ) -> Vec<f64> {
     let mut inflation = vec![1.0; residual.len()];
@@ -225,7 +226,9 @@ pub(crate) fn outlier_inflation(
         let blocks = || layout.blocks.iter().filter(|block| block.sensor == sensor);
         let departures = blocks().flat_map(|block| departures(&residual[block.rows.clone()]));
         let sizes: Vec<f64> = departures.map(f64::abs).collect();
-        let told = told(sizes.clone());
+        let telling = blocks().flat_map(|block| &telling[block.rows.clone()]);
+        let tells = sizes.iter().zip(telling).filter(|(_, telling)| **telling);
+        let told = told(tells.map(|(size, _)| *size).collect());
         if 0.0 < told {
             let usual = told.max(least.sqrt());
             let mut before = 0;

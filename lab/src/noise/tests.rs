@@ -160,11 +160,11 @@ fn samples_that_scatter_by_turns_are_no_outliers() {
     let layout = even();
     let wave = |row: usize| if row % 10 < 4 { 1.0 } else { 0.1 } * libm::sin(7.0 * count(row));
     let residual: Vec<f64> = (0..400).map(wave).collect();
-    let weighed = outlier_inflation(&layout, &residual, &[0.0]);
+    let weighed = outlier_inflation(&layout, &residual, &vec![true; residual.len()], &[0.0]);
     assert!(weighed.iter().all(|by| *by < 1.5), "{weighed:?}");
     let with_bad = |row: usize| if row % 10 == 5 { 30.0 } else { libm::sin(7.0 * count(row)) };
     let residual: Vec<f64> = (0..400).map(with_bad).collect();
-    let weighed = outlier_inflation(&layout, &residual, &[0.0]);
+    let weighed = outlier_inflation(&layout, &residual, &vec![true; residual.len()], &[0.0]);
     assert!((0..40).all(|nth| 20.0 < weighed[10 * nth + 5]), "{weighed:?}");
 }
 
@@ -176,7 +176,7 @@ fn wild_readings_of_a_coarse_display_are_outliers() {
     let digits = |row: usize| f64::from(u8::from(row % 13 == 6)) + (count(row) / 40.0).floor();
     let shown = |row: usize| if row % 50 == 25 { 300.0 } else { digits(row) };
     let residual: Vec<f64> = (0..400).map(shown).collect();
-    let weighed = outlier_inflation(&layout, &residual, &[0.0]);
+    let weighed = outlier_inflation(&layout, &residual, &vec![true; residual.len()], &[0.0]);
     let wild = weighed.iter().filter(|by| 100.0 < **by).count();
     let usual = weighed.iter().filter(|by| **by < 1.5).count();
     assert_eq!((wild, usual), (8, 392), "{weighed:?}");
@@ -189,7 +189,7 @@ fn a_wild_reading_weighs_less_than_a_knock() {
     let layout = even();
     let off = |row: usize| if row == 100 || (250..253).contains(&row) { 30.0 } else { 0.0 };
     let residual: Vec<f64> = (0..400).map(|row| off(row) + libm::sin(7.0 * count(row))).collect();
-    let weighed = outlier_inflation(&layout, &residual, &[0.0]);
+    let weighed = outlier_inflation(&layout, &residual, &vec![true; residual.len()], &[0.0]);
     let sizes = [100, 250, 251, 252].map(|row| residual[row] / weighed[row].sqrt());
     assert!(sizes[1..].iter().all(|size| 1.8 * sizes[0] < *size), "{sizes:?}");
 }

@@ -77,6 +77,7 @@ fn best_in_place(court: &Court<'_>, suspect: &Suspect, mended: &Problem) -> Opti
         let state = polished(mended, state);
         let listed = if in_place_of.is_empty() { suspect.listed } else { 0.0 };
         let ahead = court.ahead(&in_place_of, &state.fit) - suspect.price - listed;
+        let ahead = ahead.min(suspect.of_one_sensor);
         Some(Mended { ahead, beaten: in_place_of, state })
     };
     groups(court.state.components.len())
