@@ -122,3 +122,25 @@ fn an_exchange_of_position_and_error_is_doubted() {
     let says = doubted(&diagnose(&problem(&machine, &table)));
     assert!(says.contains("`error_um` and `position_mm` are exchanged"), "{says}");
 }
+
+/// A recorder that lags takes the screw's wave nearly away from the error and not from the thread's: no unit does.
+#[test]
+fn a_wave_that_one_sensor_sees_otherwise_is_in_no_other_unit() {
+    let wave = "[[effect]]\nkind = 'screw-periodic'\namplitude = '2 um'\nphase = '40 deg'\n";
+    let machine = Model::parse(&format!("{MACHINE}{wave}"), Path::new("machine.toml"));
+    let machine = machine.expect("a machine");
+    let thread = Column { name: "lead_error_um".to_owned(), values: vec![0.0; 600] };
+    let mut both = table(vec![0.0; 600]);
+    both.columns.push(thread);
+    let nothing = compare(&problem(&machine, &both));
+    let (mut noise, mut late) = (white(5, 0.3), 0.0);
+    let shown: Vec<f64> = nothing.residual.iter().map(|left| -left).collect();
+    for row in 0..600 {
+        late += (shown[row] - late) * (1.0 - libm::exp(-0.125 / 4.0));
+        both.columns[3].values[row] = late + noise();
+        both.columns[4].values[row] = shown[600 + row] + noise();
+    }
+    let found = diagnose(&problem(&machine, &both));
+    assert!(found.doubts.is_empty(), "{:?}", found.doubts);
+    assert_eq!(names(&found), ["recorder-lag"]);
+}

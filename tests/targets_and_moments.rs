@@ -51,6 +51,23 @@ fn a_reversal_is_told_by_how_well_visits_agree() {
     assert!((width.value.abs() - 6.0).abs() < 3.0 * error && error < 0.3, "{width:?}");
 }
 
+/// Of three visits two often agree: the third is no bad reading for that.
+#[test]
+fn visits_that_agree_by_chance_are_no_own_errors() {
+    for seed in seeds(1, 4) {
+        let mut columns =
+            ["pass", "position_mm", "direction", "error_um"].map(|name| (name, Vec::new()));
+        let mut noise = white(seed, 1.0);
+        for (run, visit) in (0..3_u32).flat_map(|run| (0..300_u32).map(move |visit| (run, visit))) {
+            let (place, direction) = if visit < 150 { (visit, 1.0) } else { (299 - visit, -1.0) };
+            let row = [f64::from(run), 2.0 * f64::from(place), direction, noise()];
+            columns.iter_mut().zip(row).for_each(|((_, values), value)| values.push(value));
+        }
+        let found = diagnosed(columns.into());
+        assert_eq!(found.verdict, Verdict::NothingMissing, "{seed}: {:?}", left(&found));
+    }
+}
+
 /// Play that every reversal shows, and that is taken up over a way: it is no less that play.
 #[test]
 fn a_play_that_is_partly_taken_up_is_that_play() {

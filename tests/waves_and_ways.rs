@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use helixlock_lab::{Diagnosis, FittedEffect, Verdict};
 
-use crate::support::diagnosed::{diagnosed_on, names};
+use crate::support::diagnosed::{diagnosed, diagnosed_on, names};
 use crate::support::passes::{MACHINE, white};
 use crate::support::seeds::seeds;
 
@@ -247,4 +247,28 @@ fn play_that_is_larger_in_the_middle_is_no_slow_noise() {
     let shapes: Vec<&str> = found.residual.iter().map(|one| one.shape.as_str()).collect();
     assert_eq!(found.verdict, Verdict::Unexplained);
     assert!(shapes.iter().any(|shape| shape.starts_with("play that is larger")), "{shapes:?}");
+}
+
+/// A valve that is open for four seconds and shut for as long: waves in time at one, three and five times its
+/// frequency, each of which would be a vibration.
+#[test]
+fn what_switches_at_even_times_is_no_vibrations() {
+    for seed in seeds(1, 4) {
+        let mut noise = white(seed, 1.0);
+        let mut columns =
+            ["time_s", "pass", "position_mm", "error_um"].map(|name| (name, Vec::new()));
+        for (row, pass) in (0..350_u32).map(|row| (row, 0.0)).chain((0..350).map(|row| (row, 1.0)))
+        {
+            let (begun_s, mm_a_second) = if pass > 0.0 { (70.0, 2.7) } else { (0.0, 4.0) };
+            let since_s = 0.17 * f64::from(row);
+            let time_s: f64 = begun_s + since_s;
+            let high = if (time_s / 8.0 + 0.3).fract() < 0.5 { 0.9 } else { -0.9 };
+            let row = [time_s, pass, mm_a_second * since_s, high + noise()];
+            columns.iter_mut().zip(row).for_each(|((_, values), value)| values.push(value));
+        }
+        let found = diagnosed(columns.into());
+        assert_eq!((found.verdict, names(&found)), (Verdict::Unexplained, vec![]), "{seed}");
+        let told = found.residual.iter().any(|one| one.shape.contains("square wave in time"));
+        assert!(told, "{seed}");
+    }
 }

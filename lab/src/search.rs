@@ -23,6 +23,7 @@ mod seats;
 mod span;
 mod starts;
 mod suspected;
+mod switched;
 mod together;
 mod uneven;
 
@@ -37,3 +38,4 @@ pub(crate) use pruning::{Dropped, pruned, pruned_in_doubt};
 pub(crate) use refusal::Refusal;
 pub(crate) use rivals::{Rivals, rivals};
 pub(crate) use suspected::suspected;
+pub(crate) use switched::switched;

@@ -21,7 +21,7 @@ use crate::policy::chance::{AT_AN_END, STANDARD_ERRORS};
 use crate::policy::extent::{COARSER, COMPARED_ROWS, FEWEST_COARSE, SEARCHED_ROWS};
 use crate::search::{
     Dropped, Refusal, Rivals, Step, at_flanks, hear, nobodys, not_told, one_comb, pruned, rivals,
-    suspected, tried_beside, untold,
+    suspected, switched, tried_beside, untold,
 };
 
 /// What can be said about a model and a measurement.
@@ -180,10 +180,17 @@ pub fn diagnose(problem: &Problem) -> Diagnosis {
 
 impl Diagnosis {
     /// True when it has all names that another one has, each as often, and waves beside them: of a curve at one
-    /// place, few rows do not tell what is left beside it.
+    /// place, few rows do not tell what is left beside it, nor which shape has a wave.
     fn adds_to(&self, known: &Self) -> bool {
         let more = known.missing_of(self.last_effects().iter().collect(), |effect| &effect.name);
-        more.is_some_and(|more| !more.is_empty() && more.iter().all(|one| one.term.is_wave()))
+        let is_new = |one: &&FittedEffect| one.term.is_wave() && !known.has_beaten(&one.name);
+        more.is_some_and(|more| !more.is_empty() && more.iter().all(is_new))
+    }
+
+    /// True when a shape without a name stands in the place of such an effect.
+    fn has_beaten(&self, name: &str) -> bool {
+        let rejected = self.rounds.iter().flat_map(|round| &round.rejected);
+        rejected.into_iter().any(|(other, reason)| other == name && reason == BEATEN)
     }
 
     /// True when a search has found all of its names and more.
@@ -264,7 +271,8 @@ fn answered(searched: Searched, suspects: &[Suspect], rows: usize) -> Diagnosis 
     }
     confuse(&mut found, heard.witnesses.into_iter().chain(suspected.witnesses));
     let problems = (&problem, &small);
-    if let Some(winner) = heard.winner.or_else(|| at_flanks(&small, last, &found)) {
+    let asked = || at_flanks(&small, last, &found).or_else(|| switched(&small, last, &found));
+    if let Some(winner) = heard.winner.or_else(asked) {
         found = take_out(problems, (&mut steps, &mut states), (&winner.beaten, BEATEN), found);
         residual.push(winner.shown);
     }

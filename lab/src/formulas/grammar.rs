@@ -47,11 +47,18 @@ pub(crate) fn formulas(problem: &Problem) -> Vec<Shape> {
     let mut all = nameless(problem);
     all.extend(each_turn(&quantities, problem, true));
     all.extend(turning::waves(&quantities, problem));
+    all.extend(turning::switching(&quantities, problem));
     all.extend(turning::resonances(&quantities, problem));
     all.extend(moving::powers(&quantities));
     all.extend(moving::of_the_way(&quantities));
     all.extend(quantities.columns.iter().map(|one| logged::not_followed(&quantities, one)));
     all
+}
+
+/// What switches at even times, which waves in time follow.
+#[must_use]
+pub(crate) fn switching(problem: &Problem) -> Option<Shape> {
+    turning::switching(&Quantities::of(problem), problem)
 }
 
 /// What comes with every turn of shafts, those of gears or the others: over as much of one as its waves have names.

@@ -74,19 +74,39 @@ pub(super) fn waves(all: &Quantities, problem: &Problem) -> Vec<Shape> {
         wave.scan = Some(band);
         shapes.push(wave);
     }
-    let over = &all.time;
-    let highest = problem.highest_hz().min(0.5 * usual_rate(&over.values));
-    let lowest = SLOWEST_WAVES / spread(&over.values).max(f64::MIN_POSITIVE);
-    let band = Band::new(over.values.clone(), [lowest, highest]).filter(|_| all.timed);
-    if let Some(band) = band {
+    if let Some(band) = in_time(all, problem) {
+        let over = &all.time;
         let mut wave =
             shape("sine in time", "time", "a pump, a motor, a control loop, the building")
-                .unknown("frequency_hz", &over.dimension.to_the(-1), vec![lowest, highest])
+                .unknown("frequency_hz", &over.dimension.to_the(-1), band.ends.to_vec())
                 .wave("amplitude", "phase_rad", None, turns(unknown(0) * of(over)));
         wave.scan = Some(band);
         shapes.push(wave);
     }
     shapes
+}
+
+/// What switches at even times: on for a share of each period.
+pub(super) fn switching(all: &Quantities, problem: &Problem) -> Option<Shape> {
+    let band = in_time(all, problem)?;
+    let number_of = Dimension::number();
+    let share = call(Function::Fract, of(&all.time) * unknown(0) + unknown(1));
+    let physics = "a thermostat, a valve, a relay: what switches at even times";
+    let mut one = shape("square wave in time", "time", physics)
+        .unknown("frequency_hz", &all.time.dimension.to_the(-1), band.ends.to_vec())
+        .unknown("offset", &number_of, evenly(0.0, 1.0, 24))
+        .unknown("width", &number_of, vec![0.5])
+        .curve("size", call(Function::Step, unknown(2) - share));
+    one.scan = Some(band);
+    Some(one)
+}
+
+/// Frequencies in time that the samples resolve.
+fn in_time(all: &Quantities, problem: &Problem) -> Option<Band> {
+    let over = &all.time;
+    let highest = problem.highest_hz().min(0.5 * usual_rate(&over.values));
+    let lowest = SLOWEST_WAVES / spread(&over.values).max(f64::MIN_POSITIVE);
+    Band::new(over.values.clone(), [lowest, highest]).filter(|_| all.timed)
 }
 
 /// Orders of the machine that its samples resolve.

@@ -132,7 +132,9 @@ impl Problem {
             rows.sort_by(|a, b| rest[*a].total_cmp(&rest[*b]));
             let middle = rows[(rows.len() - 1) / 2];
             let usual = rest[middle];
-            rows.iter().for_each(|&row| rest[row] -= usual);
+            for &mut row in rows.iter_mut() {
+                rest[row] -= usual;
+            }
             telling[middle] = false;
         }
         (rest, telling)

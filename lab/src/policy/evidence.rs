@@ -187,6 +187,12 @@ pub(crate) const SURE_ON_MEANS: f64 = 10.0;
 /// Chosen: half. Doubled: nothing has.
 pub(crate) const OWN_SHAPE: f64 = 0.5;
 
+/// How many times the frequency of the first a wave in time may have, to be its harmonic.
+///
+/// Chosen: of a square wave the seventh is a seventh of the first. Doubled: a pump beside a slow swing is asked
+/// whether it is one switch, and is none.
+pub(crate) const MULTIPLES: f64 = 7.0;
+
 /// Waves of one name from which on they are the harmonics of one shape.
 ///
 /// Chosen: of two, one is a multiple of the other oftener than not. Doubled: pulses a fifth of their distance wide

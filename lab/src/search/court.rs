@@ -88,16 +88,16 @@ pub(crate) fn shape_beside(problem: &Problem, state: &State) -> Option<Winner> {
     court.winner(seat.group, &seat.base, claims)
 }
 
-/// The shape without a name, of any number of places, that explains more than one of some groups of effects.
+/// The one of some shapes, of any number of places, that explains more than one of some groups of effects.
 #[must_use]
 pub(super) fn in_place_of_any(
     problem: &Problem,
     state: &State,
     found: &[Rivals],
     groups: Vec<Vec<usize>>,
+    shapes: &[Shape],
 ) -> Option<Winner> {
-    let shapes = nameless(problem);
-    let court = Court::new(problem, state, found, &shapes, (SHORTLIST, f64::INFINITY));
+    let court = Court::new(problem, state, found, shapes, (SHORTLIST, f64::INFINITY));
     let heard = court.claims(groups).into_iter();
     let won = heard.filter_map(|(seat, claims)| court.winner(seat.group, &seat.base, claims));
     won.max_by(|a, b| a.ahead.total_cmp(&b.ahead))

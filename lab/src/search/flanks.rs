@@ -11,6 +11,7 @@ use helixlock_plant::Search;
 use super::court::{Winner, in_place_of_any};
 use super::rivals::Rivals;
 use super::span::shown;
+use crate::formulas::nameless;
 use crate::model::{Problem, State};
 use crate::numerics::{count, median};
 use crate::policy::evidence::MARGIN;
@@ -37,7 +38,7 @@ pub(crate) fn at_flanks(problem: &Problem, state: &State, found: &[Rivals]) -> O
     let whole = problem.weighing_fully(&rows);
     let in_full = state.on(&whole)?;
     let groups = beside_far.into_iter().map(|(index, _)| vec![index]).collect();
-    let won = in_place_of_any(&whole, &in_full, found, groups)?;
+    let won = in_place_of_any(&whole, &in_full, found, groups, &nameless(&whole))?;
     // They may be wild: each of them anywhere.
     let excused = 2.0 * (state.fit.log_likelihood - in_full.fit.log_likelihood);
     let wild = count(rows.iter().filter(|row| far[**row]).count());
