@@ -2,7 +2,7 @@
 
 use helixlock_lab::{Diagnosis, Verdict};
 
-use crate::support::diagnosed::{diagnosed, diagnosed_on, names};
+use crate::support::diagnosed::{diagnosed, diagnosed_on, is_nobodys, names};
 use crate::support::passes::{MACHINE, white};
 use crate::support::seeds::seeds;
 
@@ -55,6 +55,19 @@ fn two_places_of_opposite_signs_are_no_slow_noise() {
             one_pass(seed, &|mm| 0.8 * (bell((mm - 180.0) / 30.0) - bell((mm - 420.0) / 30.0)));
         assert_ne!(found.verdict, Verdict::NothingMissing, "{seed}");
     }
+}
+
+/// A bed that is warmed from one side bends between its ends while six passes go over it: that is no lead of the
+/// screw.
+#[test]
+fn a_bow_that_comes_in_time_is_no_screw() {
+    is_nobodys(|seed| {
+        six_passes(seed, &|pass, mm| {
+            let time_s = 40.0 * f64::from(u8::try_from(pass).expect("few")) + mm / 20.0;
+            let part = mm / 597.0;
+            2.0 * part * (1.0 - part) * (1.0 - libm::exp(-time_s / 80.0))
+        })
+    });
 }
 
 /// A spindle that warms up and a fringe lost in one pass: slow noise takes up either while the other is missing.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::dimension::Dimension;
 use super::expression::{Expression, Function, Quantity, call, number, turns};
 use super::grammar::{periods, shape, unknown};
-use super::quantities::{Quantities, about_middle, from_start, lowest, of};
+use super::quantities::{Quantities, about_middle, from_start, lowest, of, to_end};
 use super::shape::Shape;
 use crate::numerics::{by_factors, count, evenly, longest, median, spread};
 use crate::policy::extent::{LONGEST_WAVE, RUN_IN};
@@ -336,6 +336,9 @@ pub(super) fn warming(all: &Quantities) -> Vec<Shape> {
             .curve("bow", bow())
             .curve("tilt", middle.clone() * gone(start(), 0))
             .curve("size", bow() * gone(start(), 0)),
+        shape("bow that comes in time", "time", "a bed or beam that is warmed from one side")
+            .unknown("constant_s", &t.dimension, constants(16))
+            .curve("size", from_start(x).0 * to_end(x) * (number(1.0) - gone(start(), 0))),
         shape("slope from one moment on", "time", "coolant, sun or a heater on a scale or screw")
             .unknown("at_s", &t.dimension, moments(t, 40))
             .unknown("constant_s", &t.dimension, constants(6))

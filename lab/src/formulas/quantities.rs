@@ -147,6 +147,12 @@ pub(crate) fn from_start(quantity: &Arc<Quantity>) -> (Expression, f64) {
     (less(of(quantity), quantity, low), low)
 }
 
+/// What is left of a quantity to the end of its range.
+pub(crate) fn to_end(quantity: &Arc<Quantity>) -> Expression {
+    let end = rounded(lowest(&quantity.values) + spread(&quantity.values));
+    Expression::Number(-1.0, Dimension::number()) * less(of(quantity), quantity, end)
+}
+
 /// A quantity from the middle of its range on, and that range.
 pub(crate) fn about_middle(quantity: &Arc<Quantity>) -> (Expression, f64) {
     let range = spread(&quantity.values);

@@ -112,8 +112,8 @@ impl Problem {
     }
 
     /// What a model leaves without what each target shows at most of its visits one way: a target that is off
-    /// at every visit is no bad reading. And which rows tell how far noise takes one: the visit that all of a
-    /// target are held against does not, and of three it is one.
+    /// at every visit is no bad reading. And which rows tell how far noise takes one: of three visits the one that
+    /// all are held against does not, and more are not a third of all.
     pub(super) fn without_own_errors(&self, left: &[f64]) -> (Vec<f64>, Vec<bool>) {
         let (mut rest, mut telling) = (left.to_vec(), vec![true; left.len()]);
         let Some(targets) = self.targets() else { return (rest, telling) };
@@ -128,14 +128,12 @@ impl Problem {
                 visits.entry((block.sensor, of[sample], is_forward)).or_default().push(row);
             }
         }
-        for rows in visits.values_mut().filter(|rows| VISITS_OF_FEW <= rows.len()) {
-            rows.sort_by(|a, b| rest[*a].total_cmp(&rest[*b]));
-            let middle = rows[(rows.len() - 1) / 2];
-            let usual = rest[middle];
-            for &mut row in rows.iter_mut() {
+        for rows in visits.values().filter(|rows| VISITS_OF_FEW <= rows.len()) {
+            let usual = median(&mut rows.iter().map(|&row| rest[row]).collect::<Vec<_>>());
+            for &row in rows {
                 rest[row] -= usual;
+                telling[row] = VISITS_OF_FEW < rows.len() || rest[row].abs() > 0.0;
             }
-            telling[middle] = false;
         }
         (rest, telling)
     }
