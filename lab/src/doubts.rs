@@ -4,8 +4,8 @@
 //! Each mistake is a hypothesis without a free number (a shift has one) before one court: twice
 //! the log likelihood under noise fitted to what it leaves, with what workshops are usually like,
 //! less the price of all looks. It must beat the file as it is, the file without its effects, and
-//! the file's effects at any size; a shift also an effect of the catalogue that delays, a unit of places one
-//! of whole waves a turn.
+//! the file's effects at any size, of several sensors on one alone too; a shift also an effect of the
+//! catalogue that delays, a unit of places one of whole waves a turn.
 
 mod along;
 mod backwards;

@@ -112,8 +112,8 @@ impl Problem {
     }
 
     /// What a model leaves without what each target shows at most of its visits one way: a target that is off
-    /// at every visit is no bad reading. And which rows tell how far noise takes one: of three visits the one that
-    /// all are held against does not, and more are not a third of all.
+    /// at every visit is no bad reading. And which rows tell how far noise takes one: of three visits the middle one,
+    /// which all are held against, does not; of more it hardly counts.
     pub(super) fn without_own_errors(&self, left: &[f64]) -> (Vec<f64>, Vec<bool>) {
         let (mut rest, mut telling) = (left.to_vec(), vec![true; left.len()]);
         let Some(targets) = self.targets() else { return (rest, telling) };

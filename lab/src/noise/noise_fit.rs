@@ -206,9 +206,9 @@ pub(super) fn longest_block(layout: &Layout) -> f64 {
 /// A sample is judged against the median of itself and its neighbours, so a slow effect or a step,
 /// which neighbours share, is never an outlier (Hampel's identifier). Where most samples are that
 /// median themselves, as on a smooth curve or a staircase, those that are not tell how far noise takes
-/// one, and of rows that are not `telling` none is asked. No deviation is taken to be less than `least_variance` says of its sensor. Where four fifths of the
-/// samples say far more than half of them, as no law of noise does, those are believed: half may lie where
-/// a wave turns slowly.
+/// one; rows that are not `telling` are not asked. No deviation is taken to be less than `least_variance`
+/// says of its sensor. Where four fifths of the samples say far more than half of them, as no law of noise
+/// does, those are believed: half may lie where a wave turns slowly.
 ///
 /// A wild reading weighs the less beside an outlier the farther it lies, and none in the end, as in the
 /// third part of Hampel's law (Hampel 1974, *The influence curve and its role in robust estimation*, JASA
