@@ -27,8 +27,19 @@ pub(super) struct Court<'a> {
     absent: Vec<Problem>,
     /// Evidence of the best shape without a name, once it was asked for.
     shape: OnceCell<Option<f64>>,
+    /// Evidence of the file's own effects at any size, once it was asked for.
+    own: OnceCell<OfOwnEffects>,
     /// What the number of mistakes that are tried costs.
     looks: f64,
+}
+
+/// Evidence of the file's own effects at any size, integrated over sizes as large as theirs.
+#[derive(Clone, Copy)]
+struct OfOwnEffects {
+    /// Of one size on all sensors.
+    on_all: f64,
+    /// On one of several sensors alone: what lags, runs out or was clamped anew changes a wave there.
+    on_one: f64,
 }
 
 /// Most mistakes whose noise is fitted under either view.
@@ -49,6 +60,7 @@ impl<'a> Court<'a> {
         let absent = absent.map(|predicted| saying(problem, predicted)).collect();
         Self {
             shape: OnceCell::new(),
+            own: OnceCell::new(),
             problem,
             common: [Columns::default(), lines, curves],
             absent,
@@ -81,7 +93,7 @@ impl<'a> Court<'a> {
         for one in likely {
             let ahead = |rival: f64| one.evidence - (rival - base).max(0.0);
             let of_nothing = ahead(self.nothing(&one));
-            let of_one_sensor = ahead(self.freed_on_one());
+            let of_one_sensor = ahead(self.freed().on_one);
             let evidence = of_nothing.min(of_one_sensor).min(ahead(self.rival(&one)));
             if DOUBT < evidence {
                 return (Some(Hypothesis { evidence, ..one }), suspects);
@@ -168,7 +180,7 @@ impl<'a> Court<'a> {
     /// The best of all other explanations.
     fn rival(&self, best: &Hypothesis) -> f64 {
         let evidence = |other: &Problem| self.evidence(other, &Columns::default()).0;
-        let mut rivals = vec![self.freed()];
+        let mut rivals = vec![self.freed().on_all];
         if best.physics {
             rivals.push(self.loosened());
             rivals.extend(self.with_physics().iter().map(evidence));
@@ -205,24 +217,18 @@ impl<'a> Court<'a> {
             .fold(of(none), |best, other| if best.0 < other.0 { other } else { best })
     }
 
-    /// Evidence of the file's own effects at any size, integrated over sizes as large as theirs.
-    fn freed(&self) -> f64 {
-        self.integrated(self.departures().into_iter())
-    }
-
-    /// The same at any size on one of several sensors alone: what lags, runs out or was clamped anew changes a
-    /// wave there.
-    fn freed_on_one(&self) -> f64 {
-        let (sensors, all) = (self.problem.sensors.len(), self.departures());
-        let alone = (0..sensors).filter(|_| 1 < sensors).map(|sensor| {
-            self.integrated(all.iter().map(|columns| on_one(self.problem, columns, sensor)))
-        });
-        alone.fold(f64::NEG_INFINITY, f64::max)
-    }
-
-    fn departures(&self) -> Vec<Columns> {
-        let effects = self.problem.model.effects.iter();
-        effects.filter_map(|term| departures(self.problem, term)).collect()
+    fn freed(&self) -> OfOwnEffects {
+        *self.own.get_or_init(|| {
+            let effects = self.problem.model.effects.iter();
+            let all: Vec<Columns> =
+                effects.filter_map(|term| departures(self.problem, term)).collect();
+            let sensors = self.problem.sensors.len();
+            let alone = (0..sensors).filter(|_| 1 < sensors).map(|sensor| {
+                self.integrated(all.iter().map(|columns| on_one(self.problem, columns, sensor)))
+            });
+            let on_one = alone.fold(f64::NEG_INFINITY, f64::max);
+            OfOwnEffects { on_all: self.integrated(all.into_iter()), on_one }
+        })
     }
 
     /// That of the effects of known size that the file does not have, by another factor than the textbook's:

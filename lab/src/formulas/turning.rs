@@ -89,13 +89,12 @@ pub(super) fn waves(all: &Quantities, problem: &Problem) -> Vec<Shape> {
 /// What switches at even times: on for a share of each period.
 pub(super) fn switching(all: &Quantities, problem: &Problem) -> Option<Shape> {
     let band = in_time(all, problem)?;
-    let number_of = Dimension::number();
     let share = call(Function::Fract, of(&all.time) * unknown(0) + unknown(1));
     let physics = "a thermostat, a valve, a relay: what switches at even times";
     let mut one = shape("square wave in time", "time", physics)
         .unknown("frequency_hz", &all.time.dimension.to_the(-1), band.ends.to_vec())
-        .unknown("offset", &number_of, evenly(0.0, 1.0, 24))
-        .unknown("width", &number_of, vec![0.5])
+        .unknown("offset", &Dimension::number(), evenly(0.0, 1.0, 24))
+        .unknown("width", &Dimension::number(), vec![0.5])
         .curve("size", call(Function::Step, unknown(2) - share));
     one.scan = Some(band);
     Some(one)

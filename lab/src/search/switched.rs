@@ -15,8 +15,10 @@ use crate::policy::evidence::MULTIPLES;
 #[must_use]
 pub(crate) fn switched(problem: &Problem, state: &State, found: &[Rivals]) -> Option<Winner> {
     let groups = harmonics(problem, state);
-    let shape = switching(problem).filter(|_| !groups.is_empty())?;
-    in_place_of_any(problem, state, found, groups, &[shape])
+    if groups.is_empty() {
+        return None;
+    }
+    in_place_of_any(problem, state, found, groups, &[switching(problem)?])
 }
 
 /// Each wave in time of a model with those whose frequencies are multiples of its own, as nearly as the record

@@ -23,7 +23,11 @@ pub(super) enum Column {
         first: Option<i64>,
         since: Vec<f64>,
     },
-    Words(Vec<String>),
+    Words {
+        words: Vec<String>,
+        /// How long they are together.
+        bytes: usize,
+    },
     /// Something else, that is left out.
     Other,
 }
@@ -39,7 +43,10 @@ impl Column {
             Self::Instants { first, since } => {
                 instants(array, first).map(|more| since.extend(more))
             }
-            Self::Words(cells) => words(array).map(|more| cells.extend(more)),
+            Self::Words { words, bytes } => self::words(array).map(|more| {
+                *bytes += more.iter().map(String::len).sum::<usize>();
+                words.extend(more);
+            }),
             Self::Empty | Self::Other => None,
         };
         if fits.is_none() {
@@ -50,7 +57,9 @@ impl Column {
     fn of_kind(kind: &DataType) -> Self {
         match kind {
             DataType::Timestamp(..) => Self::Instants { first: None, since: Vec::new() },
-            DataType::Utf8 | DataType::LargeUtf8 | DataType::Utf8View => Self::Words(Vec::new()),
+            DataType::Utf8 | DataType::LargeUtf8 | DataType::Utf8View => {
+                Self::Words { words: Vec::new(), bytes: 0 }
+            }
             DataType::Dictionary(_, held) => Self::of_kind(held),
             _ => Self::Numbers(Vec::new()),
         }
@@ -60,7 +69,7 @@ impl Column {
     pub(super) fn size(&self) -> (usize, usize) {
         match self {
             Self::Numbers(values) | Self::Instants { since: values, .. } => (values.len(), 0),
-            Self::Words(words) => (words.len(), words.iter().map(String::len).sum()),
+            Self::Words { words, bytes } => (words.len(), *bytes),
             Self::Empty | Self::Other => (0, 0),
         }
     }
@@ -71,7 +80,7 @@ impl Column {
             Self::Numbers(values) | Self::Instants { since: values, .. } => {
                 Some(Cells::Numbers(values))
             }
-            Self::Words(words) => Some(Cells::Words(words)),
+            Self::Words { words, .. } => Some(Cells::Words(words)),
             Self::Empty | Self::Other => None,
         }
     }
