@@ -65,7 +65,7 @@ fn a_bow_that_comes_in_time_is_no_screw() {
         six_passes(seed, &|pass, mm| {
             let time_s = 40.0 * f64::from(u8::try_from(pass).expect("few")) + mm / 20.0;
             let part = mm / 597.0;
-            2.0 * part * (1.0 - part) * (1.0 - libm::exp(-time_s / 80.0))
+            1.7 * part * (1.0 - part) * (1.0 - libm::exp(-time_s / 80.0))
         })
     });
 }
