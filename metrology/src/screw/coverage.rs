@@ -1,6 +1,6 @@
 //! Does ±1.96 u hold the true band as often as it says? Screws and noise are drawn; truth is known.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -32,6 +32,8 @@ pub enum Screw {
     Grinder,
     /// A long wave, and one of a turn that swells and falls over 150 mm.
     Swelling,
+    /// A long wave, and one of a turn that is three times as tall within 100 mm somewhere.
+    Burst,
     /// A long wave, one of a turn, and two bumps.
     Bumps,
     /// Too long by up to 0.1 µm/mm, or too short, with the waves of the first.
@@ -40,7 +42,7 @@ pub enum Screw {
 
 impl Screw {
     /// All kinds, in the order of the table.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Waves,
         Self::Wandering,
         Self::Bowed,
@@ -50,6 +52,7 @@ impl Screw {
         Self::Medium,
         Self::Grinder,
         Self::Swelling,
+        Self::Burst,
         Self::Bumps,
         Self::TooLong,
     ];
@@ -67,6 +70,7 @@ impl Screw {
             Self::Medium => "waves of 80 mm and of a turn",
             Self::Grinder => "waves of 350 mm, 10 mm and of a turn",
             Self::Swelling => "a wave of 470 mm, one of a turn that swells over 150 mm",
+            Self::Burst => "a wave of 470 mm, one of a turn with a burst over 100 mm",
             Self::Bumps => "waves of 470 mm and of a turn, two bumps of 1.5 µm",
             Self::TooLong => "too long or too short, with waves of 470 mm and of a turn",
         }
@@ -75,11 +79,12 @@ impl Screw {
     fn drawn(self, random: &mut ChaCha8Rng) -> Curve {
         let travel_mm: Vec<f64> = (0..=800).map(|k| f64::from(k) * 0.75).collect();
         let [long, short] = [0, 1].map(|_| random.random_range(0.0..TAU));
-        let [more, other] = if matches!(self, Self::Grinder | Self::Swelling | Self::Bumps) {
-            [0, 1].map(|_| random.random_range(0.0..TAU))
-        } else {
-            [0.0; 2]
-        };
+        let [more, other] =
+            if matches!(self, Self::Grinder | Self::Swelling | Self::Burst | Self::Bumps) {
+                [0, 1].map(|_| random.random_range(0.0..TAU))
+            } else {
+                [0.0; 2]
+            };
         let wave = |x: f64, mm: f64, phase: f64| libm::sin(TAU * x / mm + phase);
         // Somewhere in the middle 500 mm, two thirds of their height within 5 mm.
         let bump =
@@ -100,6 +105,11 @@ impl Screw {
                     Self::Swelling => {
                         let swell = 1.0 + 0.5 * wave(*x, 150.0, more);
                         2.0 * wave(*x, 470.0, long) + 0.8 * swell * turn
+                    }
+                    Self::Burst => {
+                        let off = (x - 50.0 - 500.0 * more / TAU) / 50.0;
+                        let burst = if off.abs() < 1.0 { 1.0 + libm::cos(PI * off) } else { 0.0 };
+                        2.0 * wave(*x, 470.0, long) + 0.4 * (1.0 + burst) * turn
                     }
                     Self::Bumps => {
                         let both = bump(*x, more) + bump(*x, other);

@@ -1,10 +1,11 @@
 //! Steps, kinks, waves and bumps that every curve has, since they make the readings more probable.
 //!
 //! What bends by chance is as rough everywhere: a step, a kink, a wave that goes on, and a bump make it rougher than a
-//! screw is beside them, and its widest bands wider. Which is there is asked of what a model leaves; one after the
-//! other is taken in, at the price of all places, lengths and widths that it might have had. Of those that are
-//! likely one by one the best is not always the best together: each is asked again beside the later ones, and
-//! all with the wave of a turn going on evenly and with its size wandering.
+//! screw is beside them, and its widest bands wider. What wanders by chance is slower than it is swift: a wave of a
+//! turn that swells again and again, or in one place, makes it wander where it does not. Which is there is asked of
+//! what a model leaves; one after the other is taken in, at the price of all places, lengths and widths that it might
+//! have had. Of those that are likely one by one the best is not always the best together: each is asked again beside
+//! the later ones, and all with the wave of a turn going on evenly and with its size wandering.
 
 use std::f64::consts::TAU;
 
@@ -23,6 +24,13 @@ pub(super) const HALVINGS: i32 = 4;
 /// Widths of bumps, in samples: each twice the last. Chosen: from what three samples show to a sixteenth of a
 /// record of a few hundred.
 const WIDTHS: [f64; 5] = [1.0, 2.0, 4.0, 8.0, 16.0];
+/// Widths of bursts, in turns: each twice the last. Chosen: from what one turn shows to a sixth of a screw of a
+/// hundred turns.
+const TURNS: [f64; 5] = [1.0, 2.0, 4.0, 8.0, 16.0];
+/// The widest burst, in lengths of the travel: a wider one is a wave that grows or swells.
+const WIDEST: f64 = 0.25;
+/// Turns that a wave of them takes at least to swell: a swifter one is waves of other lengths.
+const TURNS_A_SWELL: f64 = 4.0;
 /// Part of its width from bump to bump.
 const BUMPS_A_WIDTH: f64 = 1.0;
 /// Widths of a bump beyond which nothing of it is left.
@@ -31,8 +39,8 @@ const REACH: f64 = 5.0;
 /// How steep a kink may be: as what bends by the size of the whole curve within a sixteenth of the travel. Chosen; more is
 /// a step.
 const KINK_WITHIN: f64 = 1.0 / 16.0;
-/// Steps, kinks, waves and bumps.
-const KINDS: f64 = 4.0;
+/// Steps, kinks, waves and bumps, swelling waves of a turn and bursts.
+const KINDS: f64 = 6.0;
 /// Features that may be worth their price only together. Chosen: of two bumps that are alike the first leaves the
 /// curve as rough as it was, and is worth nothing without the second.
 const AT_ONCE: usize = 2;
@@ -54,6 +62,11 @@ pub(super) enum Feature {
     /// A place and a width; with its first two derivatives, as bumps have that are a little off in either, or of
     /// another shape.
     Bump(f64, f64),
+    /// A wave of so many turns over the travel, whose size and phase swell so many times.
+    Swelling(f64, f64),
+    /// A wave of so many turns over the travel within a bump at a place, with a width; with its change by the width,
+    /// as one of another shape has.
+    Burst(f64, f64, f64),
 }
 
 impl Feature {
@@ -65,16 +78,21 @@ impl Feature {
             Self::Wave(waves, phase) => {
                 [-step, step].map(|more| Self::Wave(waves + more / WAVES_A_CYCLE, phase)).to_vec()
             }
+            Self::Swelling(turns, swells) => [-step, step]
+                .map(|more| Self::Swelling(turns, swells + more / WAVES_A_CYCLE))
+                .to_vec(),
             Self::Bump(at, width) => {
-                let wider = libm::exp2(step);
-                vec![
-                    Self::Bump(at - step * width, width),
-                    Self::Bump(at + step * width, width),
-                    Self::Bump(at, width / wider),
-                    Self::Bump(at, width * wider),
-                ]
+                about(at, width, step).map(|(at, width)| Self::Bump(at, width)).to_vec()
+            }
+            Self::Burst(turns, at, width) => {
+                about(at, width, step).map(|(at, width)| Self::Burst(turns, at, width)).to_vec()
             }
         }
+    }
+
+    /// How many of its columns are asked where it lies: the others are there for what it is beside that.
+    pub(super) fn telling(self) -> usize {
+        if let Self::Swelling(..) = self { 4 } else { 2 }
     }
 
     pub(super) fn columns(self, places: &[f64]) -> Vec<Vec<f64>> {
@@ -84,16 +102,17 @@ impl Feature {
             Self::Step(at) => vec![column(&|place| f64::from(u8::from(at <= place)))],
             Self::Kink(at) => vec![column(&|place| (place - at).max(0.0) / KINK_WITHIN)],
             Self::Wandering(_) => Vec::new(),
-            Self::Bump(at, width) => {
-                let bell =
-                    |off: f64| if off.abs() < REACH { libm::exp(-0.5 * off * off) } else { 0.0 };
-                let off = |place: f64| (place - at) / width;
-                vec![
-                    column(&|place| bell(off(place))),
-                    column(&|place| off(place) * bell(off(place))),
-                    column(&|place| (off(place).powi(2) - 1.0) * bell(off(place))),
-                ]
+            Self::Swelling(turns, swells) => {
+                let angle = |place: f64| TAU * swells * (place - 0.5);
+                let sizes = [libm::cos, libm::sin]
+                    .map(|part: fn(f64) -> f64| column(&|place| part(angle(place))));
+                times_a_wave(turns, places, &sizes)
             }
+            Self::Burst(turns, at, width) => {
+                let [bell, _, wider] = bump(at, width, places);
+                times_a_wave(turns, places, &[bell, wider])
+            }
+            Self::Bump(at, width) => bump(at, width, places).to_vec(),
             Self::Wave(waves, phase) => {
                 let angle = |place: f64| TAU * waves * (place - 0.5) - phase;
                 vec![
@@ -111,6 +130,39 @@ impl Feature {
             }
         }
     }
+}
+
+/// Places and widths about those of a bump, by a part of its width.
+fn about(at: f64, width: f64, part: f64) -> [(f64, f64); 4] {
+    let wider = libm::exp2(part);
+    [
+        (at - part * width, width),
+        (at + part * width, width),
+        (at, width / wider),
+        (at, width * wider),
+    ]
+}
+
+/// A bump, how it changes along the travel, and with its width.
+fn bump(at: f64, width: f64, places: &[f64]) -> [Vec<f64>; 3] {
+    let bell = |off: f64| if off.abs() < REACH { libm::exp(-0.5 * off * off) } else { 0.0 };
+    let factors: [fn(f64) -> f64; 3] = [|_| 1.0, |off| off, |off| off * off - 1.0];
+    factors.map(|factor| {
+        let offs = places.iter().map(|place| (place - at) / width);
+        offs.map(|off| factor(off) * bell(off)).collect()
+    })
+}
+
+/// Cosine and sine of so many waves over the travel, each of these sizes.
+fn times_a_wave(waves: f64, places: &[f64], sizes: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let parts: [fn(f64) -> f64; 2] = [libm::cos, libm::sin];
+    let of_size = |size: &Vec<f64>| {
+        parts.map(|part| {
+            let each = places.iter().zip(size);
+            each.map(|(place, size)| size * part(TAU * waves * place)).collect()
+        })
+    };
+    sizes.iter().flat_map(of_size).collect()
 }
 
 /// A feature, and the logarithm of how many might have been it.
@@ -258,11 +310,14 @@ impl Readings {
         };
         let kinds = self.gains(model, |gains| {
             let one = [Feature::Step, Feature::Kink].map(|kind| gains.best(at_places(kind)));
-            let [bump, waves] = [
-                gains.bump(if bumps { self.bumps() } else { Vec::new() }),
-                gains.waves(self.waves(&gains.left)),
+            let near = [
+                gains.bump(if bumps { self.bumps() } else { Vec::new() }, 1),
+                gains.bump(self.bursts(), 2),
+                gains.swelling(self.swelling(&gains.left)),
             ];
-            one.into_iter().flatten().chain(bump).chain(waves).collect::<Vec<Priced>>()
+            let waves = gains.waves(self.waves(&gains.left));
+            let all = one.into_iter().chain(near).flatten();
+            all.chain(waves).collect::<Vec<Priced>>()
         });
         let few = self.of_pairs(model.pairs.max(GROWING));
         let worth = |(feature, price): Priced| {
@@ -275,22 +330,30 @@ impl Readings {
     /// The waves that are tallest in what a model leaves, and how many were tried.
     fn waves(&self, left: &[f64]) -> (Vec<Feature>, f64) {
         let most = number(self.places.len()) / super::SAMPLES_A_WAVE;
-        let tried: Vec<f64> = (0..self.places.len())
-            .map(|step| 1.0 / LONGEST + number(step) / WAVES_A_CYCLE)
-            .take_while(|waves| *waves < most)
-            .collect();
-        let power = |waves: &f64| {
-            let (mut cosines, mut sines) = (0.0, 0.0);
-            for (place, value) in self.places.iter().zip(left) {
-                let (sin, cos) = libm::sincos(TAU * waves * place);
-                (cosines, sines) = (cosines + value * cos, sines + value * sin);
-            }
-            (cosines * cosines + sines * sines, *waves)
-        };
-        let mut powers: Vec<(f64, f64)> = tried.iter().map(power).collect();
-        powers.sort_by(|one, other| other.0.total_cmp(&one.0));
-        let tallest = powers.iter().take(CLOSELY).map(|(_, waves)| Feature::Wave(*waves, 0.0));
+        let tried = numbers_of_waves(most);
+        let tallest = tallest(&tried, |waves| self.power(left, waves));
+        (tallest.map(|waves| Feature::Wave(waves, 0.0)).collect(), number(tried.len()))
+    }
+
+    /// The same of waves of a turn that swell, by the two waves beside it that they are.
+    fn swelling(&self, left: &[f64]) -> (Vec<Feature>, f64) {
+        let Some(turn) = self.turn else { return (Vec::new(), 0.0) };
+        let turns = 1.0 / turn;
+        let tried = numbers_of_waves(turns / TURNS_A_SWELL);
+        let beside =
+            |swells: f64| self.power(left, turns - swells) + self.power(left, turns + swells);
+        let tallest = tallest(&tried, beside).map(|swells| Feature::Swelling(turns, swells));
         (tallest.collect(), number(tried.len()))
+    }
+
+    /// How tall a wave of so many over the travel is in values, squared.
+    fn power(&self, values: &[f64], waves: f64) -> f64 {
+        let (mut cosines, mut sines) = (0.0, 0.0);
+        for (place, value) in self.places.iter().zip(values) {
+            let (sin, cos) = libm::sincos(TAU * waves * place);
+            (cosines, sines) = (cosines + value * cos, sines + value * sin);
+        }
+        cosines * cosines + sines * sines
     }
 
     /// The strength of a wandering wave of a turn that a model gains most by.
@@ -310,10 +373,34 @@ impl Readings {
 
     fn bumps(&self) -> Vec<Feature> {
         let sample = 1.0 / number(self.places.len());
-        let of_width = |width: f64| {
-            let bumps = (0..).map(move |bump| (number(bump) / BUMPS_A_WIDTH + 0.5) * width);
-            bumps.take_while(|at| *at < 1.0).map(move |at| Feature::Bump(at, width))
-        };
+        let of_width = |width: f64| places(width).map(move |at| Feature::Bump(at, width));
         WIDTHS.iter().flat_map(|width| of_width(width * sample)).collect()
     }
+
+    fn bursts(&self) -> Vec<Feature> {
+        let Some(turn) = self.turn else { return Vec::new() };
+        let of_width =
+            |width: f64| places(width).map(move |at| Feature::Burst(1.0 / turn, at, width));
+        let widths = TURNS.iter().map(|turns| turns * turn).take_while(|width| *width < WIDEST);
+        widths.flat_map(of_width).collect()
+    }
+}
+
+/// Where bumps of a width are tried.
+fn places(width: f64) -> impl Iterator<Item = f64> {
+    let bumps = (0..).map(move |bump| (number(bump) / BUMPS_A_WIDTH + 0.5) * width);
+    bumps.take_while(|at| *at < 1.0)
+}
+
+/// Numbers of waves over the travel that are tried, up to the most.
+fn numbers_of_waves(most: f64) -> Vec<f64> {
+    let waves = (0..).map(|step| 1.0 / LONGEST + number(step) / WAVES_A_CYCLE);
+    waves.take_while(|waves| *waves < most).collect()
+}
+
+/// Those of the greatest power.
+fn tallest(tried: &[f64], power: impl Fn(f64) -> f64) -> impl Iterator<Item = f64> {
+    let mut powers: Vec<(f64, f64)> = tried.iter().map(|waves| (power(*waves), *waves)).collect();
+    powers.sort_by(|one, other| other.0.total_cmp(&one.0));
+    powers.into_iter().take(CLOSELY).map(|(_, waves)| waves)
 }

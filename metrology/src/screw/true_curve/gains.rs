@@ -45,14 +45,20 @@ impl<'a> Gains<'a> {
         gains.max_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, priced)| priced)
     }
 
-    /// The bump that is gained most by, those that are looked at closely, and the price of all.
-    pub(super) fn bump(&self, bumps: Vec<Feature>) -> Vec<Priced> {
+    /// The bump that is gained most by, by so many of its columns at first, those that are looked at closely, and
+    /// the price of all.
+    pub(super) fn bump(&self, bumps: Vec<Feature>, columns: usize) -> Option<Priced> {
         let price = libm::log(number(bumps.len().max(1)));
         let mut gains: Vec<(f64, Feature)> =
-            bumps.into_iter().map(|one| (self.gain(one, 1), one)).collect();
+            bumps.into_iter().map(|one| (self.gain(one, columns), one)).collect();
         gains.sort_by(|one, other| other.0.total_cmp(&one.0));
         let most = gains.into_iter().take(CLOSELY).map(|(_, bump)| bump);
-        self.closely(most.collect()).map(|bump| (bump, price)).into_iter().collect()
+        self.closely(most.collect()).map(|bump| (bump, price))
+    }
+
+    /// The best wave of a turn that swells, one of so many.
+    pub(super) fn swelling(&self, (waves, tried): (Vec<Feature>, f64)) -> Option<Priced> {
+        self.closely(waves).map(|wave| (wave, libm::log(tried)))
     }
 
     /// The best wave, its size even and growing, the one or the other of so many.
@@ -67,10 +73,10 @@ impl<'a> Gains<'a> {
     /// The best of features and their neighbours.
     pub(super) fn closely(&self, features: Vec<Feature>) -> Option<Feature> {
         let closer = |feature: Feature| {
-            let mut best = (self.gain(feature, 2), feature);
+            let mut best = (self.gain(feature, feature.telling()), feature);
             for halving in 1..=HALVINGS {
                 for feature in best.1.neighbours(halving) {
-                    let found = self.gain(feature, 2);
+                    let found = self.gain(feature, feature.telling());
                     if best.0 < found {
                         best = (found, feature);
                     }
