@@ -7,6 +7,7 @@
 //! all places that they might have, they are among what every curve has (de Jong and Penzer, *Diagnosing shocks in
 //! time series*, JASA 93, 1998, 796).
 
+mod feature;
 mod features;
 mod gains;
 

@@ -10,12 +10,11 @@
 use std::f64::consts::TAU;
 
 use super::super::smooth_process::Order;
+use super::feature::{Feature, WAVES_A_CYCLE};
 use super::gains::Gains;
 use super::{A_PAIR, GROWING, Model, Readings, Whitened, evidence, most_probable};
 use crate::number::number;
 
-/// Waves tried, for one that can be told from its neighbour over the travel.
-const WAVES_A_CYCLE: f64 = 2.0;
 /// The longest wave, in lengths of the travel: a longer one is a bow.
 const LONGEST: f64 = 1.0;
 /// Tallest of the waves tried that are looked at closely, and halvings of their distance then.
@@ -33,137 +32,11 @@ const WIDEST: f64 = 0.25;
 const TURNS_A_SWELL: f64 = 4.0;
 /// Part of its width from bump to bump.
 const BUMPS_A_WIDTH: f64 = 1.0;
-/// Widths of a bump beyond which nothing of it is left.
-const REACH: f64 = 5.0;
-
-/// How steep a kink may be: as what bends by the size of the whole curve within a sixteenth of the travel. Chosen; more is
-/// a step.
-const KINK_WITHIN: f64 = 1.0 / 16.0;
 /// Steps, kinks, waves and bumps, swelling waves of a turn and bursts.
 const KINDS: f64 = 6.0;
 /// Features that may be worth their price only together. Chosen: of two bumps that are alike the first leaves the
 /// curve as rough as it was, and is worth nothing without the second.
 const AT_ONCE: usize = 2;
-
-/// What a curve may have beside a cubic, waves of a turn, and what bends by chance.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Feature {
-    /// From a place on.
-    Step(f64),
-    /// A slope from a place on.
-    Kink(f64),
-    /// A wave of a turn whose sizes change by chance, so strongly.
-    Wandering(f64),
-    /// So many over the travel, and a phase; with one that grows evenly beside it, as a wave of a length a little
-    /// off does.
-    Wave(f64, f64),
-    /// So many over the travel, whose size grows.
-    Growing(f64),
-    /// A place and a width; with its first two derivatives, as bumps have that are a little off in either, or of
-    /// another shape.
-    Bump(f64, f64),
-    /// A wave of so many turns over the travel, whose size and phase swell so many times.
-    Swelling(f64, f64),
-    /// A wave of so many turns over the travel within a bump at a place, with a width; with its change by the width,
-    /// as one of another shape has.
-    Burst(f64, f64, f64),
-}
-
-impl Feature {
-    /// Those about it that are looked at closely, nearer at each halving; a step's and a kink's are all asked.
-    pub(super) fn neighbours(self, halving: i32) -> Vec<Self> {
-        let step = libm::ldexp(1.0, -halving);
-        match self {
-            Self::Step(_) | Self::Kink(_) | Self::Growing(_) | Self::Wandering(_) => Vec::new(),
-            Self::Wave(waves, phase) => {
-                [-step, step].map(|more| Self::Wave(waves + more / WAVES_A_CYCLE, phase)).to_vec()
-            }
-            Self::Swelling(turns, swells) => [-step, step]
-                .map(|more| Self::Swelling(turns, swells + more / WAVES_A_CYCLE))
-                .to_vec(),
-            Self::Bump(at, width) => {
-                about(at, width, step).map(|(at, width)| Self::Bump(at, width)).to_vec()
-            }
-            Self::Burst(turns, at, width) => {
-                about(at, width, step).map(|(at, width)| Self::Burst(turns, at, width)).to_vec()
-            }
-        }
-    }
-
-    /// How many of its columns are asked where it lies: the others are there for what it is beside that.
-    pub(super) fn telling(self) -> usize {
-        if let Self::Swelling(..) = self { 4 } else { 2 }
-    }
-
-    pub(super) fn columns(self, places: &[f64]) -> Vec<Vec<f64>> {
-        let column =
-            |value: &dyn Fn(f64) -> f64| places.iter().map(|place| value(*place)).collect();
-        match self {
-            Self::Step(at) => vec![column(&|place| f64::from(u8::from(at <= place)))],
-            Self::Kink(at) => vec![column(&|place| (place - at).max(0.0) / KINK_WITHIN)],
-            Self::Wandering(_) => Vec::new(),
-            Self::Swelling(turns, swells) => {
-                let angle = |place: f64| TAU * swells * (place - 0.5);
-                let sizes = [libm::cos, libm::sin]
-                    .map(|part: fn(f64) -> f64| column(&|place| part(angle(place))));
-                times_a_wave(turns, places, &sizes)
-            }
-            Self::Burst(turns, at, width) => {
-                let [bell, _, wider] = bump(at, width, places);
-                times_a_wave(turns, places, &[bell, wider])
-            }
-            Self::Bump(at, width) => bump(at, width, places).to_vec(),
-            Self::Wave(waves, phase) => {
-                let angle = |place: f64| TAU * waves * (place - 0.5) - phase;
-                vec![
-                    column(&|place| libm::cos(angle(place))),
-                    column(&|place| libm::sin(angle(place))),
-                    column(&|place| 2.0 * (place - 0.5) * libm::sin(angle(place))),
-                ]
-            }
-            Self::Growing(waves) => {
-                let grows = |place: f64| 2.0 * (place - 0.5);
-                let angle = |place: f64| TAU * waves * (place - 0.5);
-                let mut columns = Self::Wave(waves, 0.0).columns(places);
-                columns.push(column(&|place| grows(place) * libm::cos(angle(place))));
-                columns
-            }
-        }
-    }
-}
-
-/// Places and widths about those of a bump, by a part of its width.
-fn about(at: f64, width: f64, part: f64) -> [(f64, f64); 4] {
-    let wider = libm::exp2(part);
-    [
-        (at - part * width, width),
-        (at + part * width, width),
-        (at, width / wider),
-        (at, width * wider),
-    ]
-}
-
-/// A bump, how it changes along the travel, and with its width.
-fn bump(at: f64, width: f64, places: &[f64]) -> [Vec<f64>; 3] {
-    let bell = |off: f64| if off.abs() < REACH { libm::exp(-0.5 * off * off) } else { 0.0 };
-    let factors: [fn(f64) -> f64; 3] = [|_| 1.0, |off| off, |off| off * off - 1.0];
-    factors.map(|factor| {
-        let offs = places.iter().map(|place| (place - at) / width);
-        offs.map(|off| factor(off) * bell(off)).collect()
-    })
-}
-
-/// Cosine and sine of so many waves over the travel, each of these sizes.
-fn times_a_wave(waves: f64, places: &[f64], sizes: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let parts: [fn(f64) -> f64; 2] = [libm::cos, libm::sin];
-    let of_size = |size: &Vec<f64>| {
-        parts.map(|part| {
-            let each = places.iter().zip(size);
-            each.map(|(place, size)| size * part(TAU * waves * place)).collect()
-        })
-    };
-    sizes.iter().flat_map(of_size).collect()
-}
 
 /// A feature, and the logarithm of how many might have been it.
 pub(super) type Priced = (Feature, f64);
@@ -278,7 +151,7 @@ impl Readings {
 
     fn with(&self, feature: Feature) -> Self {
         let mut columns = self.columns.clone();
-        let new = feature.columns(&self.places);
+        let new = feature.columns(self);
         let every = self.every + new.len();
         columns.splice(self.every..self.every, new);
         let wandering = if let Feature::Wandering(strength) = feature {
@@ -342,7 +215,7 @@ impl Readings {
         let tried = numbers_of_waves(turns / TURNS_A_SWELL);
         let beside =
             |swells: f64| self.power(left, turns - swells) + self.power(left, turns + swells);
-        let tallest = tallest(&tried, beside).map(|swells| Feature::Swelling(turns, swells));
+        let tallest = tallest(&tried, beside).map(Feature::Swelling);
         (tallest.collect(), number(tried.len()))
     }
 
@@ -379,8 +252,7 @@ impl Readings {
 
     fn bursts(&self) -> Vec<Feature> {
         let Some(turn) = self.turn else { return Vec::new() };
-        let of_width =
-            |width: f64| places(width).map(move |at| Feature::Burst(1.0 / turn, at, width));
+        let of_width = |width: f64| places(width).map(move |at| Feature::Burst(at, width));
         let widths = TURNS.iter().map(|turns| turns * turn).take_while(|width| *width < WIDEST);
         widths.flat_map(of_width).collect()
     }

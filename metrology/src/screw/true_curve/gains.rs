@@ -1,7 +1,8 @@
 //! What a model gains by a feature: quickly, since thousands are asked. The readings, what the model has and each feature
 //! meet weighted by the inverse of the covariance, where a feature is not zero (de Jong and Penzer, see above).
 
-use super::features::{CLOSELY, Feature, HALVINGS, Priced};
+use super::feature::Feature;
+use super::features::{CLOSELY, HALVINGS, Priced};
 use super::{Banded, Beside, Model, Whitened};
 use crate::number::{dot, long_dot, number};
 
@@ -97,7 +98,7 @@ impl<'a> Gains<'a> {
     /// What the readings are along the first columns of a feature beside those of the model, and their sizes.
     fn sizes(&self, feature: Feature, columns: usize) -> (Vec<f64>, Vec<f64>) {
         let readings = self.whitened.readings;
-        let columns = feature.columns(&readings.places).into_iter().take(columns);
+        let columns = feature.columns(readings).into_iter().take(columns);
         let parts: Vec<Part> = columns.map(|column| self.part(&column)).collect();
         let along: Vec<f64> = parts.iter().map(|part| part.with(&self.weighted)).collect();
         let mut own = Banded::zeros(parts.len(), parts.len().saturating_sub(1));
