@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use helixlock_lab::{Diagnosis, Found, Verdict, diagnose, discover};
 
 use crate::support::diagnosed::{MACHINE, diagnosed, diagnosed_on, names, problem_of};
-use crate::support::passes::{Passes, noise, white};
+use crate::support::passes::{self, Passes, noise, white};
 use crate::support::seeds::{cases, seeds};
 
 const OF_TARGETS: &str = "own error of each target, at every visit";
@@ -353,6 +353,30 @@ fn a_moment_is_as_uncertain_as_the_data_have_it() {
         }
     }
     assert!(half <= told && square / told < 4.0, "{told} moments, {square}");
+}
+
+/// The same where a search works on means of neighbours: the moment lay within a row of where it was found, its error
+/// said.
+#[test]
+fn a_moment_among_thousands_of_rows_is_as_uncertain() {
+    for seed in seeds(1, 6) {
+        let mut noise = white(seed, 3.0);
+        let time_s = |row: u16| 0.3 * f64::from(row);
+        let slip = |row: u16| if row < 1000 { 0.0 } else { 2.0 * 0.316_410_182_7 };
+        let columns = vec![
+            ("time_s", (0..3600).map(time_s).collect()),
+            ("position_mm", (0..3600).map(|row| 0.6 * time_s(row)).collect()),
+            ("error_um", (0..3600).map(|row| slip(row) + noise()).collect()),
+        ];
+        let found = diagnosed_on(passes::MACHINE, columns);
+        for effect in &found.rounds[found.rounds.len() - 1].effects {
+            let Some(time) = effect.parameters.iter().find(|one| one.key == "time_s") else {
+                continue;
+            };
+            let stderr = time.stderr.expect("an error");
+            assert!((time.value - 299.85).abs() < 3.0 * stderr && 1.0 < stderr, "{seed}: {time:?}");
+        }
+    }
 }
 
 /// Two turns of a table, each from its own start, with a wave that only a clock would tell from an

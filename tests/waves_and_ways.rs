@@ -64,6 +64,67 @@ fn a_wave_keeps_its_name_beside_a_smaller_shape_of_each_turn() {
     assert_eq!(found.verdict, Verdict::Unexplained);
 }
 
+/// The table's motion shows on the recorder and on the thread with opposite signs: the sum of both shows no
+/// vibration that either shows alone.
+#[test]
+fn a_vibration_is_heard_on_recorder_and_thread_together() {
+    const TABLE_MOTION: [f64; 2] = [-1.0, 1.0];
+    for seed in seeds(3, 8) {
+        let mut noise = white(seed, 1.0);
+        let rows = || (0_u16..3).flat_map(|pass| (0_u16..133).map(move |row| (pass, row)));
+        let time_s =
+            |(pass, row): (u16, u16)| 25.0 * f64::from(pass * 133 + row) + 40.0 * f64::from(pass);
+        let way = |row: u16| 15.0 * f64::from(row.min(132 - row));
+        let wave = |at| libm::sin(TAU * time_s(at) * 0.007_68 + 1.0);
+        let mut columns = vec![
+            ("time_s", rows().map(time_s).collect()),
+            ("pass", rows().map(|(pass, _)| f64::from(pass) + 1.0).collect()),
+            ("position_mm", rows().map(|(_, row)| way(row)).collect()),
+            ("direction", rows().map(|(_, row)| if row < 66 { 1.0 } else { -1.0 }).collect()),
+        ];
+        for (name, sign) in ["error_um", "lead_error_um"].into_iter().zip(TABLE_MOTION) {
+            columns.push((name, rows().map(|at| sign * wave(at) + noise()).collect()));
+        }
+        let found = diagnosed_on(MACHINE, columns);
+        assert_eq!(names(&found), ["vibration"], "{seed}");
+        assert_eq!(found.verdict, Verdict::Explained, "{seed}");
+    }
+}
+
+/// A screw that runs out of the meter's range three times; near the ends of the range it shows nothing. The width is
+/// looked for between the places of a grid as well, where the curve only steps from row to row.
+#[test]
+fn a_dead_zone_has_its_width() {
+    const RANGE_UM: f64 = 150.0 * 0.632_820_365_309_938_1 / 2.0;
+    let screw =
+        format!("{MACHINE}[[effect]]\nkind = \"screw-progressive\"\nlinear = \"-150 um/m\"\n");
+    for seed in seeds(1, 6) {
+        let mut noise = white(seed, 0.3);
+        let error_um = |row: u16| {
+            let known_um = 0.225 * f64::from(row);
+            let pulse_um = known_um.rem_euclid(RANGE_UM);
+            let gap_um = RANGE_UM - pulse_um;
+            let swallowed_um = match (pulse_um < 3.0, gap_um < 3.0) {
+                (true, _) => -pulse_um,
+                (_, true) => gap_um,
+                _ => 0.0,
+            };
+            known_um + swallowed_um
+        };
+        let columns = vec![
+            ("time_s", (0..600).map(|row| 2.5 * f64::from(row)).collect()),
+            ("position_mm", (0..600).map(|row| 1.5 * f64::from(row)).collect()),
+            ("initial_phase", vec![0.0; 600]),
+            ("error_um", (0..600).map(|row| error_um(row) + noise()).collect()),
+        ];
+        let found = diagnosed_on(&screw, columns);
+        assert_eq!(names(&found), ["meter-dead-zone"], "{seed}");
+        let width = &last(&found)[0].parameters[0];
+        let stderr = width.stderr.expect("an error");
+        assert!((width.value - 3.0).abs() < 4.0 * stderr && stderr < 0.2, "{seed}: {width:?}");
+    }
+}
+
 /// Three times there and back over 100 mm at one speed, a row each millimetre; the error, µm, is of time, s, of the
 /// direction, and of the way since the axis turned, mm.
 fn there_and_back(seed: u64, error_um: &dyn Fn(f64, f64, f64) -> f64) -> Diagnosis {

@@ -283,6 +283,12 @@ impl Parameter {
         self.role == Role::Nonlinear
     }
 
+    /// True when it takes listed values only.
+    #[must_use]
+    pub fn is_listed(&self) -> bool {
+        matches!(self.search, Search::Whole | Search::GearOrder | Search::Fixed)
+    }
+
     /// True for what a pass began with.
     #[must_use]
     pub fn is_start(&self) -> bool {

@@ -18,7 +18,7 @@ use crate::model::{
 use crate::noise::rms;
 use crate::numerics::least_squares::covariance_rows;
 use crate::policy::chance::{AT_AN_END, STANDARD_ERRORS};
-use crate::policy::extent::{COARSER, COMPARED_ROWS, FEWEST_COARSE, SEARCHED_ROWS};
+use crate::policy::extent::{COARSER, COMPARED_ROWS, FEWEST_COARSE, SEARCHED_ROWS, STEPPED_ROWS};
 use crate::search::{
     Dropped, Refusal, Rivals, Step, at_flanks, hear, nobodys, not_told, one_comb, pruned, rivals,
     suspected, switched, tried_beside, untold,
@@ -552,7 +552,11 @@ fn fitted(
         } else {
             stderr
         };
-        let stderr = stderr.map(|least| least.max(stepwise(problem, state, index, place)));
+        let stderr = match (stderr, stepwise(problem, state, index, place)) {
+            (Some(least), stepwise) => Some(least.max(stepwise)),
+            // Between two samples a step has no slope at all.
+            (None, stepwise) => (!what.is_listed() && 0.0 < stepwise).then_some(stepwise),
+        };
         let value = if setting_counts(&term, what) { value.round() } else { value };
         let warning = stderr.and_then(|stderr| warning_at_bound(value, stderr, &what.range));
         let file_says = file_says(parameter);
@@ -561,14 +565,20 @@ fn fitted(
     FittedEffect { name: component.term.name.clone(), term, parameters }
 }
 
-/// Standard deviation of a value that moves steps of a curve from sample to sample, as the
-/// likelihood has it; 0 of one that bends a smooth curve, or where there are very many samples.
+/// Standard deviation of a value that moves steps of a curve from sample to sample, as the likelihood has it, of means
+/// of neighbours where there are very many samples; 0 of one that bends a smooth curve.
 fn stepwise(problem: &Problem, state: &State, index: usize, place: usize) -> f64 {
-    if SEARCHED_ROWS < problem.samples.len() || !state.components[index].is_rough(problem) {
+    if !state.components[index].is_rough(problem) {
         return 0.0;
     }
-    let likelihood = Likelihood::of(problem, state, index);
-    likelihood.and_then(|likelihood| likelihood.deviation(place)).unwrap_or(0.0)
+    let deviation = |problem: &Problem, state: &State| {
+        Likelihood::of(problem, state, index).and_then(|likelihood| likelihood.deviation(place))
+    };
+    let told = match problem.thinned(STEPPED_ROWS) {
+        None => deviation(problem, state),
+        Some(few) => state.on(&few).and_then(|state| deviation(&few, &state)),
+    };
+    told.unwrap_or(0.0)
 }
 
 /// Standard deviation, in s, of a moment that lies anywhere between two samples.

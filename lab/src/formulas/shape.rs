@@ -221,7 +221,7 @@ impl Shape {
                 // Each stage leaves lines of its own.
                 let of = |stage: &&Stage<'_>| {
                     let mut axes = self.axes();
-                    axes[0] = band.strongest(stage);
+                    axes[0] = band.strongest(stage, entry);
                     self.best_of(&[stage], entry, &product(&axes)).pop().flatten()
                 };
                 in_parallel(stages, of)
@@ -418,28 +418,31 @@ impl Band {
 
     /// What a wave turns by over all frequencies, rad.
     fn arc(&self, stage: &Stage<'_>) -> f64 {
-        self.scan(stage, &self.of_rows(stage)).arc()
+        let over = self.of_rows(stage);
+        self.scan(stage, (&over, &vec![1.0; over.len()])).arc()
     }
 
     fn of_rows(&self, stage: &Stage<'_>) -> Vec<f64> {
         stage.problem.samples.iter().map(|&sample| self.over[sample]).collect()
     }
 
-    fn scan<'a>(&self, stage: &'a Stage<'_>, over: &'a [f64]) -> Scan<'a> {
+    fn scan<'a>(&self, stage: &'a Stage<'_>, (over, unit): (&'a [f64], &'a [f64])) -> Scan<'a> {
         Scan {
             layout: &stage.problem.layout,
             noises: &stage.noises,
             turns: over,
+            unit,
             whitener: &stage.whitener,
             lowest: self.ends[0],
             highest: self.ends[1],
         }
     }
 
-    /// Frequencies of the strongest lines that a stage leaves, none next to a stronger one.
-    fn strongest(&self, stage: &Stage<'_>) -> Vec<f64> {
+    /// Frequencies of the strongest lines of an entry that a stage leaves, none next to a stronger one.
+    fn strongest(&self, stage: &Stage<'_>, entry: Entry) -> Vec<f64> {
         let over = self.of_rows(stage);
-        let scan = self.scan(stage, &over);
+        let unit = stage.problem.unit_column(entry);
+        let scan = self.scan(stage, (&over, &unit));
         let mut lines: Vec<f64> = Vec::new();
         for point in strongest_first(scan.spectrum(&stage.target[..over.len()])) {
             let apart = |known: &f64| self.resolution() < (known - point.frequency).abs();

@@ -21,7 +21,8 @@ pub(crate) struct Candidate {
     pub(crate) term: Term,
     /// Nonlinear values worth trying; one empty list when there are none.
     pub(crate) grid: Vec<Vec<f64>>,
-    /// Per nonlinear parameter: distance of grid values, 0 when only grid values count.
+    /// Per nonlinear parameter: distance of grid values, as a share of them where they are spread logarithmically; 0
+    /// when only grid values count.
     pub(crate) steps: Vec<f64>,
     /// Which of them vary continuously, and over which values.
     pub(crate) continuous: Vec<(usize, Vec<f64>)>,
@@ -169,7 +170,7 @@ fn at_once(stage: &Stage<'_>, candidate: &Candidate) -> Option<Candidate> {
     let what = term.parameters.iter_mut().find(|what| what.may_be_none())?;
     what.search = Search::Fixed;
     let nonlinear = term.parameters.iter().filter(|what| what.is_nonlinear());
-    let axes = nonlinear.map(|what| axis(stage, what)).collect();
+    let axes = nonlinear.map(|what| axis(stage, term.entry, what)).collect();
     on_axes(stage, term, axes)
 }
 
@@ -214,7 +215,7 @@ pub(crate) fn candidate(stage: &Stage<'_>, term: Term) -> Option<Candidate> {
         return Some(around_its_values(term));
     }
     let nonlinear = term.parameters.iter().filter(|parameter| parameter.is_nonlinear());
-    let axes = nonlinear.map(|parameter| axis(stage, parameter)).collect();
+    let axes = nonlinear.map(|parameter| axis(stage, term.entry, parameter)).collect();
     on_axes(stage, term, axes)
 }
 
@@ -281,7 +282,8 @@ fn looks(stage: &Stage<'_>, term: &Term, axes: &[Vec<f64>]) -> Looks {
     nonlinear.zip(axes).fold(Looks::at_places(1.0), |looks, (what, axis)| match what.search {
         _ if what.is_frequency() => {
             let times = row_times(stage.problem);
-            looks.along(time_scan(stage, &times, 0.0, *what.range.end()).arc())
+            let unit = stage.problem.unit_column(term.entry);
+            looks.along(time_scan(stage, (&times, &unit), 0.0, *what.range.end()).arc())
         }
         Search::Time | Search::Linear | Search::Logarithmic | Search::Position => looks,
         Search::Whole | Search::GearOrder | Search::Fixed => looks.times(count(axis.len())),
@@ -292,8 +294,12 @@ fn looks(stage: &Stage<'_>, term: &Term, axes: &[Vec<f64>]) -> Looks {
 #[must_use]
 pub(crate) fn as_it_stands(term: Term) -> Candidate {
     let values = term.nonlinear();
-    let steps = values.iter().map(|value| if *value == 0.0 { 0.01 } else { 0.01 * value.abs() });
-    let (steps, looks) = (steps.collect(), Looks::at_places(1.0));
+    let parameters = term.parameters.iter().filter(|what| what.is_nonlinear());
+    let step = |(value, what): (&f64, &Parameter)| {
+        let is_share = *value == 0.0 || what.search == Search::Logarithmic;
+        if is_share { 0.01 } else { 0.01 * value.abs() }
+    };
+    let (steps, looks) = (values.iter().zip(parameters).map(step).collect(), Looks::at_places(1.0));
     Candidate { steps, grid: vec![values], continuous: Vec::new(), looks, term }
 }
 
@@ -341,11 +347,11 @@ fn logged(problem: &Problem, term: &Term) -> bool {
     term.needs().iter().all(|name| problem.measurement.is_cause(name))
 }
 
-pub(super) fn axis(stage: &Stage<'_>, parameter: &Parameter) -> Vec<f64> {
+pub(super) fn axis(stage: &Stage<'_>, entry: Entry, parameter: &Parameter) -> Vec<f64> {
     let record = &stage.problem.record;
     let (low, high) = (*parameter.range.start(), *parameter.range.end());
     match parameter.search {
-        _ if parameter.is_frequency() => frequencies(stage, low, high),
+        _ if parameter.is_frequency() => frequencies(stage, entry, low, high),
         Search::Linear => evenly(low, high, PLAIN),
         Search::Logarithmic => logarithmic(stage.problem, parameter),
         Search::Whole => whole(low, high),
@@ -421,9 +427,9 @@ pub(crate) fn between_samples(time_s: &[f64]) -> Vec<f64> {
 }
 
 /// Distinct frequencies of the strongest lines in time.
-fn frequencies(stage: &Stage<'_>, low: f64, high: f64) -> Vec<f64> {
-    let times = row_times(stage.problem);
-    let scan = time_scan(stage, &times, low, high);
+fn frequencies(stage: &Stage<'_>, entry: Entry, low: f64, high: f64) -> Vec<f64> {
+    let (times, unit) = (row_times(stage.problem), stage.problem.unit_column(entry));
+    let scan = time_scan(stage, (&times, &unit), low, high);
     let resolution = scan.resolution();
     let mut peaks: Vec<f64> = Vec::new();
     let white = &stage.target[..times.len()];
@@ -444,24 +450,31 @@ fn row_times(problem: &Problem) -> Vec<f64> {
     problem.samples.iter().map(|&sample| problem.record.time_s[sample]).collect()
 }
 
-fn time_scan<'a>(stage: &'a Stage<'_>, times: &'a [f64], low: f64, high: f64) -> Scan<'a> {
+fn time_scan<'a>(
+    stage: &'a Stage<'_>,
+    (times, unit): (&'a [f64], &'a [f64]),
+    low: f64,
+    high: f64,
+) -> Scan<'a> {
     Scan {
         layout: &stage.problem.layout,
         noises: &stage.noises,
         turns: times,
+        unit,
         whitener: &stage.whitener,
         lowest: low.max(SLOWEST_WAVES / spread(times).max(f64::MIN_POSITIVE)),
         highest: high.min(stage.problem.highest_hz()),
     }
 }
 
-/// A scan of all rows over the spindle angle.
+/// A scan of all rows over the spindle angle for what shows so in each.
 #[must_use]
-pub(crate) fn turn_scan<'a>(stage: &'a Stage<'_>, turns: &'a [f64]) -> Scan<'a> {
+pub(crate) fn turn_scan<'a>(stage: &'a Stage<'_>, turns: &'a [f64], unit: &'a [f64]) -> Scan<'a> {
     Scan {
         layout: &stage.problem.layout,
         noises: &stage.noises,
         turns,
+        unit,
         whitener: &stage.whitener,
         lowest: 1.5 / spread(turns).max(f64::MIN_POSITIVE),
         highest: stage.problem.highest_order(),
@@ -472,7 +485,7 @@ fn step(parameter: &Parameter, axis: &[f64]) -> f64 {
     match parameter.search {
         Search::Whole | Search::GearOrder | Search::Fixed | Search::Time => 0.0,
         _ if axis.len() < 2 => 0.0,
-        Search::Logarithmic => 0.3 * axis[0],
+        Search::Logarithmic => 0.3 * (axis[1] / axis[0] - 1.0),
         _ => (axis[1] - axis[0]).abs(),
     }
 }

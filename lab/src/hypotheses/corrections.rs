@@ -3,7 +3,7 @@
 //! What was true of a machine when its file was written need not be true today. An effect of the file with
 //! another size, phase, time or width takes the place of the one that stands there.
 
-use helixlock_plant::{Formula, Parameter, Role, Search, Term};
+use helixlock_plant::{Entry, Formula, Parameter, Role, Search, Term};
 
 use super::candidates::{Candidate, axis, in_motion, on_axes};
 use crate::model::{Component, Stage};
@@ -22,7 +22,8 @@ pub(super) fn corrections(stage: &Stage<'_>, found: &[Component]) -> Vec<Candida
             let term = Term { instead_of: Some(place), ..term.clone() };
             let nonlinear = term.parameters.iter().filter(|what| what.is_nonlinear());
             let with_values = nonlinear.zip(term.nonlinear());
-            let axes = with_values.map(|(what, value)| values(stage, what, value)).collect();
+            let axes =
+                with_values.map(|(what, value)| values(stage, term.entry, what, value)).collect();
             let any = on_axes(stage, term.clone(), axes);
             let moving = any.as_ref().and_then(|any| in_motion(stage, any));
             [in_size(stage, term), any, moving]
@@ -49,10 +50,10 @@ pub(super) fn is_correctable(term: &Term) -> bool {
 }
 
 /// Values of a nonlinear parameter to be tried, the file's own among them.
-fn values(stage: &Stage<'_>, what: &Parameter, own: f64) -> Vec<f64> {
+fn values(stage: &Stage<'_>, entry: Entry, what: &Parameter, own: f64) -> Vec<f64> {
     let varies =
         matches!(what.search, Search::Linear | Search::Logarithmic) && !what.is_frequency();
-    let mut values = if varies { axis(stage, what) } else { Vec::new() };
+    let mut values = if varies { axis(stage, entry, what) } else { Vec::new() };
     values.push(own);
     values.sort_by(f64::total_cmp);
     values.dedup();

@@ -24,7 +24,9 @@ pub(super) fn lost_signs(problem: &Problem, fit: &Fit) -> Option<(f64, f64)> {
     surest_share_of(problem, rms(&problem.layout, &fit.left), |sensor| {
         let of_sensor = problem.layout.blocks.iter().filter(|block| block.sensor == sensor);
         let passes = of_sensor.map(|block| block.rows.clone());
-        share(passes, &fit.left, &problem.observed, problem.least_variance[sensor].sqrt())
+        // Between two steps of a display a reading is either, and of either sign about zero.
+        let step = (12.0 * problem.least_variance[sensor]).sqrt();
+        share(passes, &fit.left, &problem.observed, step)
     })
 }
 
@@ -33,12 +35,12 @@ fn share(
     passes: impl Iterator<Item = Range<usize>>,
     left: &[f64],
     observed: &[f64],
-    finest: f64,
+    step: f64,
 ) -> Option<(f64, f64)> {
     let rows = |rows: Range<usize>| rows_of(&left[rows.clone()], &observed[rows]);
     let rows: Vec<Row> = passes.flat_map(rows).collect();
     let usual = deviation(&mut rows.iter().map(|row| row.off.abs()).collect::<Vec<_>>());
-    let usual = usual.max(finest);
+    let usual = usual.max(step);
     let is_turned = |row: &&Row| {
         row.turned().abs() < BEYOND_NOISE * usual && BEYOND_NOISE * usual < row.off.abs()
     };
@@ -134,6 +136,22 @@ mod tests {
 
     /// Rows of two passes.
     const ROWS: usize = 60;
+
+    /// A play that a display shows as one step or two, to either side of zero.
+    #[test]
+    fn readings_of_few_steps_have_lost_no_sign() {
+        let play = |row: usize| if row < ROWS / 2 { -0.4 } else { 0.4 };
+        let found = (0..300).filter(|seed| {
+            let mut random = ChaCha8Rng::seed_from_u64(*seed);
+            let read = |row| (play(row) + 0.5 * normal(&mut random)).round();
+            let observed: Vec<f64> = (0..ROWS).map(read).collect();
+            let left: Vec<f64> =
+                observed.iter().enumerate().map(|(row, read)| read - play(row)).collect();
+            let passes = [0..ROWS / 2, ROWS / 2..ROWS].into_iter();
+            share(passes, &left, &observed, 1.0).is_some_and(|(_, chance)| chance < 1e-3)
+        });
+        assert_eq!(found.count(), 0);
+    }
 
     /// Chance that signs were lost of a wave of eight units, some rows of which are read otherwise.
     fn chance(seed: u64, mut read: impl FnMut(&mut ChaCha8Rng, f64) -> f64) -> f64 {

@@ -237,11 +237,15 @@ fn refined(
         .map(|&i| &candidate.term.parameters[i].range)
         .map(|range| (*range.start(), *range.end()))
         .collect();
+    let terms = candidate.term.nonlinear_indices();
+    let step = |i: usize| match candidate.term.parameters[terms[i]].search {
+        Search::Logarithmic if start[i] != 0.0 => candidate.steps[i] * start[i].abs(),
+        _ => step_of(start[i], candidate.steps[i]),
+    };
     let place = |moved: &[f64]| {
         let mut values = start.clone();
         for (&i, shift) in free.iter().zip(moved) {
-            values[i] =
-                start[i] + shift * candidate.steps[i].min(step_of(start[i], candidate.steps[i]));
+            values[i] = start[i] + shift * step(i);
             if ranges[i].0 < ranges[i].1 {
                 values[i] = values[i].clamp(ranges[i].0, ranges[i].1);
             }
@@ -280,7 +284,7 @@ fn sharpened(stage: &Stage<'_>, candidate: &Candidate, start: &[f64]) -> Vec<f64
     best
 }
 
-/// A step no larger than the value itself where values are spread logarithmically.
+/// A step no larger than the value itself.
 fn step_of(value: f64, step: f64) -> f64 {
     if value == 0.0 { step } else { step.min(value.abs()) }
 }

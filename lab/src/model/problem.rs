@@ -279,6 +279,11 @@ impl Problem {
         self.stacked(|sensor| observe(&self.model, &self.record, entry, sensor, deltas))
     }
 
+    /// What each row shows of 1 µm that goes in somewhere and stays.
+    pub(crate) fn unit_column(&self, entry: Entry) -> Vec<f64> {
+        self.stacked(|sensor| vec![gain(&self.model, entry, sensor); self.record.len()])
+    }
+
     /// Design column of an effect, through the recorder's filter and lags at every comparison.
     fn column_of(&self, entry: Entry, unit: &dyn Effect, lags: &[(Entry, Sum)]) -> Vec<f64> {
         let late = if unit.feeds_back() { &[] } else { lags };

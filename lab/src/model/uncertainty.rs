@@ -153,9 +153,8 @@ fn slope(
     component: &Component,
     place: usize,
 ) -> Option<Vec<f64>> {
-    use helixlock_plant::Search;
     let parameter = &component.term.parameters[component.term.nonlinear_indices()[place]];
-    if matches!(parameter.search, Search::Whole | Search::GearOrder | Search::Fixed) {
+    if parameter.is_listed() {
         return None;
     }
     let value = component.term.nonlinear()[place];

@@ -60,6 +60,12 @@ pub(crate) const FEWEST_COARSE: usize = 60;
 /// Chosen, by time: 8 s for 5.5 million rows. Doubled: twice that.
 pub(crate) const COMPARED_ROWS: usize = 30_000;
 
+/// Rows beyond which the likelihood of a moment is summed up over means of neighbouring samples.
+///
+/// Chosen, by time: some 400 fits a moment, and steps that are told to fewer rows than a mean has are told to one mean.
+/// Doubled: twice the time, and half of that.
+pub(crate) const STEPPED_ROWS: usize = 10_000;
+
 /// Rows of a sensor, from the start of each of its passes, in which fast lines are looked for.
 ///
 /// Derived: a line of a fiftieth of the noise gains n/50² = 80 there, which is clear. Doubled: so

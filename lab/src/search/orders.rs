@@ -44,7 +44,8 @@ fn ahead_of_orders(problem: &Problem, now: &State, judged: &Judged) -> Option<(f
     let own = gain_at(&stage, &judged.component).map_or(0.0, |gain| gain.gain);
     let turns: Vec<f64> = problem.record.turns().collect();
     let of_row: Vec<f64> = problem.samples.iter().map(|&sample| turns[sample]).collect();
-    let scan = turn_scan(&stage, &of_row);
+    let unit = problem.unit_column(judged.component.term.entry);
+    let scan = turn_scan(&stage, &of_row, &unit);
     let line = scan.strongest_anywhere(&stage.target[..of_row.len()]).map(|line| line.frequency);
     let best_near = |order: f64, turns: &[f64]| {
         let mut explained = |order: f64| stage.gain(&waves(problem, turns, order)).gain;

@@ -110,6 +110,7 @@ impl LineSearch<'_> {
             layout: &layout,
             noises,
             turns: &turns,
+            unit: &vec![1.0; turns.len()],
             whitener: &whitener,
             lowest: SLOWEST_WAVES / spread(&turns).max(f64::MIN_POSITIVE),
             highest: self.highest,

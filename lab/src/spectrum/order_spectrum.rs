@@ -18,6 +18,8 @@ pub(crate) struct Scan<'a> {
     pub(crate) noises: &'a [Noise],
     /// Per row: the cyclic coordinate, one period of order 1 a unit.
     pub(crate) turns: &'a [f64],
+    /// Per row: what a wave of 1 shows there, by the row's sensor.
+    pub(crate) unit: &'a [f64],
     /// Whitening of that noise.
     pub(crate) whitener: &'a Whitener,
     /// Lowest frequency tried, cycles a unit.
@@ -99,7 +101,7 @@ impl Scan<'_> {
     pub(crate) fn spectrum(&self, white: &[f64]) -> Vec<Point> {
         let step = self.resolution() / POINTS_A_CELL;
         let points = self.points(step);
-        let weighted = self.whitener.unwhiten(white);
+        let weighted = times(self.unit, self.whitener.unwhiten(white));
         let sizes = fourier::sizes(self.turns, &weighted, step, points);
         let stretches = self.stretches();
         let mut spectrum = Vec::with_capacity(points);
@@ -263,6 +265,7 @@ impl Scan<'_> {
     pub(crate) fn wave(&self, frequency: f64) -> [Vec<f64>; 2] {
         let pairs = self.turns.iter().map(|u| libm::sincos(std::f64::consts::TAU * frequency * u));
         let (sine, cosine): (Vec<f64>, Vec<f64>) = pairs.unzip();
+        let [sine, cosine] = [sine, cosine].map(|part| times(self.unit, part));
         let white = self.whitener.whiten_all(&[&sine, &cosine]);
         <[Vec<f64>; 2]>::try_from(white).unwrap_or_default()
     }
@@ -277,7 +280,7 @@ impl Scan<'_> {
                 *value += sizes[0] * sine + sizes[1] * cosine;
             }
         }
-        shown
+        times(self.unit, shown)
     }
 
     /// Amplitude, phase and all standard errors of the sinusoid at a settled frequency.
@@ -299,7 +302,7 @@ impl Scan<'_> {
                 std::f64::consts::TAU * (u - middle) * (sine * c - cosine * s)
             })
             .collect();
-        let slope = self.whitener.whiten(slope);
+        let slope = self.whitener.whiten(times(self.unit, slope));
         let bent = least_squares::fit(&[&wave[0], &wave[1], &slope], white);
         let freedom = (count(white.len()) - 5.0 - count(self.whitener.offsets())).max(1.0);
         let scale = (flat.residual_square / freedom).max(1e-300);
@@ -343,7 +346,7 @@ impl Scan<'_> {
                 let gap = usual_least_gap(clock);
                 Stretch {
                     density: Density::of(&self.noises[block.sensor], gap),
-                    rows: count(block.rows.len()),
+                    rows: dot(&self.unit[block.rows.clone()], &self.unit[block.rows.clone()]),
                     cycles_a_gap: cycles_an_interval * gap,
                 }
             })
@@ -351,7 +354,12 @@ impl Scan<'_> {
     }
 }
 
-/// A block as the spectrum sees it: so many samples under noise of known colour.
+/// Each value by a factor of its own.
+fn times(factors: &[f64], values: Vec<f64>) -> Vec<f64> {
+    values.into_iter().zip(factors).map(|(value, factor)| value * factor).collect()
+}
+
+/// A block as the spectrum sees it: so many samples that show it under noise of known colour.
 struct Stretch {
     density: Density,
     rows: f64,

@@ -61,6 +61,7 @@ impl Problem {
             layout: &layout,
             noises: &noises,
             turns: &turns,
+            unit: &vec![1.0; turns.len()],
             whitener: &whitener,
             lowest: SLOWEST_WAVES / spread(&turns).max(f64::MIN_POSITIVE),
             highest: self.highest_order(),
