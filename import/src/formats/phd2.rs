@@ -17,6 +17,8 @@ use crate::question::Answer;
 use crate::recipe::Value;
 
 const DAY_S: f64 = 86_400.0;
+/// Error codes from here on say that no star was measured; 1 is one that was too bright.
+const NO_STAR: f64 = 2.0;
 /// Below this declination sky and axis agree to a third of a per cent.
 const NEAR_THE_EQUATOR_DEG: f64 = 5.0;
 
@@ -44,6 +46,8 @@ struct Reader<'a> {
     time_s: Vec<f64>,
     error: Vec<f64>,
     passes: Vec<f64>,
+    /// Rows that push without a star, by what the drive is expected to do.
+    guessed: usize,
     /// True when a row needed a scale and had none.
     unscaled: bool,
     /// Declinations of the sessions, least and most of their size in degrees.
@@ -145,6 +149,7 @@ impl<'a> Reader<'a> {
             time_s: Vec::new(),
             error: Vec::new(),
             passes: Vec::new(),
+            guessed: 0,
             unscaled: false,
             declination_deg: None,
         }
@@ -233,7 +238,8 @@ impl<'a> Reader<'a> {
         let cells: Vec<&str> = text.split(',').map(|cell| cell.trim().trim_matches('"')).collect();
         let time = self.cell(line, text, &cells, "Time")?;
         let (raw, push) = (self.axis.raw, self.axis.push);
-        let raw = self.cell(line, text, &cells, raw)?;
+        let is_guess = self.is_without_star(line, text, &cells)?;
+        let raw = self.cell(line, text, &cells, raw)?.filter(|_| !is_guess);
         let push = self.cell(line, text, &cells, push)?;
         let Some(time) = time else {
             let place = Place::line(self.file, line);
@@ -244,6 +250,7 @@ impl<'a> Reader<'a> {
             self.pushed = 0.0;
             self.fresh = false;
         }
+        self.guessed += usize::from(is_guess && push.is_some());
         self.unscaled |= self.scale.is_none();
         let scale = self.scale.unwrap_or(1.0);
         let pushed = if self.unguided { self.pushed } else { 0.0 };
@@ -254,6 +261,19 @@ impl<'a> Reader<'a> {
         self.passes.push(self.pass);
         self.pushed += push.unwrap_or(0.0);
         Ok(())
+    }
+
+    /// True for a row that says why it has measured no star, where a log says that.
+    fn is_without_star(
+        &self,
+        line: usize,
+        text: &str,
+        cells: &[&str],
+    ) -> Result<bool, ImportError> {
+        const WHY: &str = "ErrorCode";
+        let says = self.names.iter().any(|name| name == WHY);
+        let why = if says { self.cell(line, text, cells, WHY)? } else { None };
+        Ok(why.is_some_and(|code| NO_STAR <= code))
     }
 
     /// A number of a row; `None` when its cell is empty, as when the star was lost.
@@ -310,6 +330,12 @@ impl<'a> Reader<'a> {
         }
         if self.unscaled {
             ask_for_scale(decisions);
+        }
+        if 0 < self.guessed {
+            decisions.note(format!(
+                "rows without a star (`ErrorCode` 2 and more) hold a guess, which is left out: {}",
+                self.guessed
+            ));
         }
         match self.first_s {
             Some(_) => decisions.note(

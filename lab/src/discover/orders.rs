@@ -1,6 +1,8 @@
 //! Orders of the spindle against those of the machine file: a line beside a listed one is no shaft of its own.
 
-use crate::model::Problem;
+use helixlock_plant::Term;
+
+use crate::model::{Component, Problem};
 use crate::numerics::spread;
 use crate::policy::extent::{OVERTONES, SIDEBANDS};
 use crate::spectrum::gear_orders;
@@ -8,11 +10,12 @@ use crate::spectrum::gear_orders;
 /// Share of what the turns of a record resolve within which two orders are one.
 const ONE_LINE: f64 = 0.5;
 
-/// True for an order that the turns of a record do not tell from that of a listed wheel, or an overtone of it.
+/// True for an order that the turns of a record do not tell from one that is looked for by a name: that of a listed
+/// wheel, twice that, and the overtones of those that a model has.
 #[must_use]
-pub(super) fn is_listed(problem: &Problem, order: f64) -> bool {
+pub(super) fn is_named(problem: &Problem, model: &[Component], order: f64) -> bool {
     let near = ONE_LINE / turns(problem);
-    lines(problem).any(|line| (order - line).abs() < near)
+    named(problem, model).iter().any(|line| (order - line).abs() < near)
 }
 
 /// True for an order that is a whole multiple of a listed one, or lies off it by whole turns of the spindle or of
@@ -34,10 +37,13 @@ pub(super) fn is_beside_listed(problem: &Problem, order: f64) -> bool {
     wheels.iter().any(is_beside)
 }
 
-/// Orders of listed wheels and their overtones.
-fn lines(problem: &Problem) -> impl Iterator<Item = f64> {
-    let overtones = |order: f64| (1..=OVERTONES).map(move |times| f64::from(times) * order);
-    gear_orders(&problem.model).into_iter().flat_map(overtones)
+/// Orders that are looked for by a name.
+fn named(problem: &Problem, model: &[Component]) -> Vec<f64> {
+    let own = model.iter().map(|one| &one.term).chain(problem.model.effects.iter());
+    let of_model = own.filter(|term| term.is_of_a_gear()).flat_map(Term::nonlinear);
+    let times = |most: u16| move |order: f64| (1..=most).map(move |times| f64::from(times) * order);
+    let listed = gear_orders(&problem.model).into_iter().flat_map(times(2));
+    listed.chain(of_model.flat_map(times(OVERTONES))).collect()
 }
 
 /// Turns of the spindle in a record, where it turns at all.

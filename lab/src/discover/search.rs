@@ -4,7 +4,7 @@
 use helixlock_plant::Role;
 
 use super::held::{lost_part, takes_its_share};
-use super::orders::is_listed;
+use super::orders::is_named;
 use super::proposal::{Granted, Proposal};
 use crate::answer::{
     Advice, FarReadings, FittedEffect, accepted_beyond, apart, effects, far_readings,
@@ -277,7 +277,11 @@ impl Now {
                 return Some("leaves more than the names");
             }
         }
-        if claim.placed.order().is_some_and(|order| is_listed(problem, order)) {
+        if claim
+            .placed
+            .order()
+            .is_some_and(|order| is_named(problem, &self.state.components, order))
+        {
             return Some("not told from a listed shaft");
         }
         kept_out(problem, &self.state, claim)
