@@ -164,6 +164,38 @@ fn play_has_the_way_that_takes_it_up() {
     }
 }
 
+/// Force winds a drive up, and play is taken up evenly: alike but for the way back, of which a dozen rows a turn tell
+/// one from the other by some 17 of evidence.
+#[test]
+fn what_winds_up_is_no_play_that_is_nearly_as_good() {
+    let asked = seeds(4, 12);
+    let all = asked.end;
+    let mut named = 0;
+    for seed in asked {
+        let mut noise = white(seed, 0.4);
+        let mut columns = [const { Vec::new() }; 6];
+        for (nth, pass) in (0_u16..3).zip([1.0, 2.0, 3.0]) {
+            for row in 0..200_u16 {
+                let gone = f64::from(row) + 0.5;
+                let (way, mm, since_mm) = if row < 100 {
+                    (1.0, gone, f64::INFINITY)
+                } else {
+                    (-1.0, 200.0 - gone, gone - 100.0)
+                };
+                let time_s = 0.25 * f64::from(row + 217 * nth);
+                let error = way * (2.0 * libm::exp(-since_mm / 12.0) - 1.0) + noise();
+                let cells = [pass, time_s, mm, way, 100.0, error];
+                columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+            }
+        }
+        let titles = ["pass", "time_s", "position_mm", "direction", "force_n", "error_um"];
+        let found = diagnosed_on(AXIS, titles.into_iter().zip(columns).collect());
+        let is_named = names(&found) == ["wind-up"] && found.verdict == Verdict::Explained;
+        named += u64::from(is_named);
+    }
+    assert!(3 * all <= 4 * named, "{named} of {all}");
+}
+
 /// A play that the whole way back would not take up is no play that was seen: a slope of the way back does as much.
 /// A line of each way contains both, for one number more that nobody needs.
 #[test]

@@ -46,7 +46,7 @@ fn is_joined(measurement: &Measurement, values: &[f64]) -> bool {
 /// Rows of one reading.
 struct Still {
     rows: Range<usize>,
-    /// Share of the other rows that repeat the one before, of those that read something.
+    /// Share of the other rows that repeat the one before, of those that read something while the axis moves.
     share: f64,
     /// Evidence against so many repeats by that share, anywhere.
     evidence: f64,
@@ -67,7 +67,8 @@ fn longest(measurement: &Measurement, values: &[f64]) -> Option<Still> {
     let runs = repeating.chunk_by(|before, after| before + 1 == *after);
     let run = runs.max_by(|a, b| moving(a).total_cmp(&moving(b)))?;
     // A coarse display about nought reads nothing most of the time, and repeats what else it reads.
-    let all = count(values.iter().filter(|value| value.is_normal()).count());
+    let read: Vec<usize> = (1..values.len()).filter(|&row| values[row].is_normal()).collect();
+    let all = moving(&read);
     let own = moving(run);
     let share = (moving(&repeating) - own + 1.0) / (all - own);
     let evidence = -2.0 * (own * libm::log(share) + libm::log(all));

@@ -544,6 +544,26 @@ fn a_sensor_that_sticks_is_told() {
     assert_eq!(held(1e-6, true), None, "parked");
 }
 
+/// A temperature that is held whenever the axis moves, of an axis that is at rest most of the time: what repeats while it moves is
+/// held against the rows that it moves for.
+#[test]
+fn what_is_set_for_a_while_is_not_stuck() {
+    let known = machine(150, "");
+    let mut table = measured(&known);
+    let moves = |row: usize| (120..180).contains(&row) || (480..510).contains(&row);
+    let mut place = 0.0;
+    for row in 0..table.rows() {
+        place += if moves(row) { 3.0 } else { 0.0 };
+        table.columns[0].values[row] = place;
+    }
+    let mut row = 0;
+    let set = changed(table, "air_temperature_c", |_| {
+        row += 1;
+        if moves(row - 1) { 22.0 } else { 20.0 + 0.01 * f64::from(u8::from(row % 2 == 0)) }
+    });
+    assert_eq!(doubted(&known, &set), None);
+}
+
 /// A display of half a micrometre of slow noise of 0.2 µm shows nought nearly always, and where it does not it stays.
 #[test]
 fn a_coarse_display_about_nought_is_not_stuck() {

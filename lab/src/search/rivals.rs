@@ -10,7 +10,7 @@ use crate::noise::Whitener;
 use crate::numerics::count;
 use crate::numerics::least_squares;
 use crate::numerics::least_squares::dot;
-use crate::policy::evidence::{CLEAR_MARGIN, COINCIDENCE, INFLATION, MARGIN};
+use crate::policy::evidence::{CLEAR_MARGIN, CLEAR_OF_BENDS, COINCIDENCE, INFLATION, MARGIN};
 
 /// What was judged in the place of a component, and what the data cannot tell from it.
 #[derive(Debug, Clone)]
@@ -71,6 +71,8 @@ fn confused(problem: &Problem, state: &State, index: usize, tried: &[Judged]) ->
     let Some(own) = own else { return Vec::new() };
     let whitener = Whitener::new(&problem.layout, &own.fit.noises);
     let shape = pattern(problem, state, index, &whitener);
+    let is_no_bend = component.term.nature().at_reversal || !component.term.needs().is_empty();
+    let clear = if is_no_bend { CLEAR_OF_BENDS } else { CLEAR_MARGIN };
     tried
         .iter()
         .filter(|judged| judged.component.term.name != *name && 0.0 < judged.gain)
@@ -78,12 +80,12 @@ fn confused(problem: &Problem, state: &State, index: usize, tried: &[Judged]) ->
         .filter(|judged| !far_fetched(&judged.component, component, &state.components))
         .filter(|judged| {
             let behind = own.evidence - judged.evidence;
-            if CLEAR_MARGIN <= behind {
+            if clear <= behind {
                 return false;
             }
             let behind = behind + evidence_beside(problem, state, judged);
             behind < MARGIN
-                || (behind < CLEAR_MARGIN
+                || (behind < clear
                     && judged.looks < COINCIDENCE * own.looks
                     && !is_exact(component)
                     && INFLATION < inflation(problem, &judged.component, &whitener, &shape))
