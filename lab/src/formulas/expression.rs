@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 use std::f64::consts::PI;
-use std::ops::{Add, Div, Mul, Sub};
+use std::ops::{Add, Div, Mul, RangeInclusive, Sub};
 use std::sync::Arc;
 
 use helixlock_plant::Column;
@@ -29,6 +29,14 @@ pub(crate) struct Unknown {
     pub(crate) dimension: Dimension,
     /// Values worth trying, in order; a single one is where a refinement begins.
     pub(crate) axis: Vec<f64>,
+}
+
+impl Unknown {
+    /// Where a place or a moment may lie: among those that are tried, for beyond them a kink is a straight line.
+    pub(crate) fn places(&self) -> Option<RangeInclusive<f64>> {
+        let (first, last) = (self.axis.first()?, self.axis.last()?);
+        self.name.starts_with("at_").then_some(*first..=*last)
+    }
 }
 
 /// Between two parts of a formula.

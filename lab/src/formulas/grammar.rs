@@ -200,6 +200,37 @@ frequency = "160 Hz"
         Problem::new(&machine, &measurement.expect("a measurement")).expect("all columns")
     }
 
+    /// A kink before the first reading was proposed for a straight line, and its moment had no error.
+    #[test]
+    fn a_place_is_looked_for_in_the_record() {
+        let problem = problem();
+        let stage = Stage::new(&problem, &Columns::default(), &[Noise::white()]);
+        let ends = |values: &[f64]| {
+            let of = |sum: fn(f64, f64) -> f64, first| values.iter().copied().fold(first, sum);
+            of(f64::min, f64::INFINITY)..=of(f64::max, f64::NEG_INFINITY)
+        };
+        let (time, travel) = (ends(&problem.record.time_s), ends(&problem.record.position_mm));
+        let mut asked = 0;
+        for shape in formulas(&problem) {
+            let placed = shape.best(&[&stage], Entry::Motion).pop().flatten();
+            let Some(term) = placed.and_then(|placed| placed.term("formula").ok()) else {
+                continue;
+            };
+            for parameter in &term.parameters {
+                let within = match parameter.name.as_ref() {
+                    "at_s" => &time,
+                    "at_mm" => &travel,
+                    _ => continue,
+                };
+                let (from, to) = (parameter.range.start(), parameter.range.end());
+                let told = format!("{} along {}: {from} to {to}", shape.words, shape.along);
+                assert!(within.contains(from) && within.contains(to), "{told}");
+                asked += 1;
+            }
+        }
+        assert!(10 < asked, "{asked}");
+    }
+
     #[test]
     fn every_formula_has_a_unit_and_does_what_it_says() {
         let problem = problem();

@@ -394,7 +394,12 @@ impl Shape {
             return Term::custom(name, entry, "", Vec::new(), Vec::new());
         };
         let parameter = |((name, _), value): (&(&'static str, _), &f64)| {
-            Parameter::of_formula((*name).to_owned(), *value)
+            let parameter = Parameter::of_formula((*name).to_owned(), *value);
+            let mut unknowns = self.unknowns.iter();
+            match unknowns.find(|unknown| unknown.name == *name).and_then(Unknown::places) {
+                Some(places) => parameter.within(places),
+                None => parameter,
+            }
         };
         let parameters = units.iter().zip(&values).map(parameter).collect();
         Term::custom(name, entry, &formula, parameters, values)
