@@ -544,8 +544,8 @@ fn a_sensor_that_sticks_is_told() {
     assert_eq!(held(1e-6, true), None, "parked");
 }
 
-/// A temperature that is held whenever the axis moves, of an axis that is at rest most of the time: what repeats while it moves is
-/// held against the rows that it moves for.
+/// A temperature that is held whenever the axis moves, which is at rest most of the time: what repeats while it moves
+/// is held against the rows that it moves for.
 #[test]
 fn what_is_set_for_a_while_is_not_stuck() {
     let known = machine(150, "");
