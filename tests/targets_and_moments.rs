@@ -355,12 +355,11 @@ fn a_moment_is_as_uncertain_as_the_data_have_it() {
     assert!(half <= told && square / told < 4.0, "{told} moments, {square}");
 }
 
-/// The same where a search works on means of neighbours: the moment lay within a row of where it was found, its error
-/// said.
+/// The same where a search works on means of neighbours: such a moment had the error of its two rows.
 #[test]
 fn a_moment_among_thousands_of_rows_is_as_uncertain() {
     for seed in seeds(1, 6) {
-        let mut noise = white(seed, 3.0);
+        let mut noise = white(seed, 0.7);
         let time_s = |row: u16| 0.3 * f64::from(row);
         let slip = |row: u16| if row < 1000 { 0.0 } else { 2.0 * 0.316_410_182_7 };
         let columns = vec![
@@ -369,13 +368,11 @@ fn a_moment_among_thousands_of_rows_is_as_uncertain() {
             ("error_um", (0..3600).map(|row| slip(row) + noise()).collect()),
         ];
         let found = diagnosed_on(passes::MACHINE, columns);
-        for effect in &found.rounds[found.rounds.len() - 1].effects {
-            let Some(time) = effect.parameters.iter().find(|one| one.key == "time_s") else {
-                continue;
-            };
-            let stderr = time.stderr.expect("an error");
-            assert!((time.value - 299.85).abs() < 3.0 * stderr && 1.0 < stderr, "{seed}: {time:?}");
-        }
+        let effects = &found.rounds[found.rounds.len() - 1].effects;
+        let mut told = effects.iter().flat_map(|effect| &effect.parameters);
+        let time = told.find(|one| one.key == "time_s").expect("a moment");
+        let stderr = time.stderr.expect("an error");
+        assert!((time.value - 299.85).abs() < 4.0 * stderr && 0.5 < stderr, "{seed}: {time:?}");
     }
 }
 
