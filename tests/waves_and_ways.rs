@@ -125,23 +125,34 @@ fn a_dead_zone_has_its_width() {
     }
 }
 
-/// Three times there and back over 100 mm at one speed, a row each millimetre; the error, µm, is of time, s, of the
-/// direction, and of the way since the axis turned, mm.
+/// A row of three times there and back over 100 mm at one speed, a row each millimetre.
+struct There {
+    time_s: f64,
+    mm: f64,
+    pass: f64,
+    way: f64,
+    /// Way since the axis turned.
+    since_mm: f64,
+}
+
+fn rows_there_and_back() -> impl Iterator<Item = There> {
+    let rows = (0_u16..3).flat_map(|pass| (0..200_u16).map(move |row| (pass, row)));
+    rows.map(|(pass, row)| {
+        let gone = f64::from(row) + 0.5;
+        let (way, mm, since_mm) =
+            if row < 100 { (1.0, gone, f64::INFINITY) } else { (-1.0, 200.0 - gone, gone - 100.0) };
+        let time_s = 0.25 * f64::from(row + 217 * pass);
+        There { time_s, mm, pass: f64::from(pass) + 1.0, way, since_mm }
+    })
+}
+
+/// The diagnosis of these; the error, µm, is of time, s, of the direction, and of the way since the axis turned, mm.
 fn there_and_back(seed: u64, error_um: &dyn Fn(f64, f64, f64) -> f64) -> Diagnosis {
     let mut noise = white(seed, 0.3);
     let mut columns = [const { Vec::new() }; 5];
-    for (nth, pass) in (0_u16..3).zip([1.0, 2.0, 3.0]) {
-        for row in 0..200_u16 {
-            let gone = f64::from(row) + 0.5;
-            let (way, mm, since_mm) = if row < 100 {
-                (1.0, gone, f64::INFINITY)
-            } else {
-                (-1.0, 200.0 - gone, gone - 100.0)
-            };
-            let time_s = 0.25 * (f64::from(row) + 217.0 * f64::from(nth));
-            let cells = [time_s, mm, pass, way, error_um(time_s, way, since_mm) + noise()];
-            columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
-        }
+    for There { time_s, mm, pass, way, since_mm } in rows_there_and_back() {
+        let cells = [time_s, mm, pass, way, error_um(time_s, way, since_mm) + noise()];
+        columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
     }
     let titles = ["time_s", "position_mm", "pass", "direction", "error_um"];
     diagnosed_on(MACHINE, titles.into_iter().zip(columns).collect())
@@ -174,19 +185,10 @@ fn what_winds_up_is_no_play_that_is_nearly_as_good() {
     for seed in asked {
         let mut noise = white(seed, 0.4);
         let mut columns = [const { Vec::new() }; 6];
-        for (nth, pass) in (0_u16..3).zip([1.0, 2.0, 3.0]) {
-            for row in 0..200_u16 {
-                let gone = f64::from(row) + 0.5;
-                let (way, mm, since_mm) = if row < 100 {
-                    (1.0, gone, f64::INFINITY)
-                } else {
-                    (-1.0, 200.0 - gone, gone - 100.0)
-                };
-                let time_s = 0.25 * f64::from(row + 217 * nth);
-                let error = way * (2.0 * libm::exp(-since_mm / 12.0) - 1.0) + noise();
-                let cells = [pass, time_s, mm, way, 100.0, error];
-                columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
-            }
+        for There { time_s, mm, pass, way, since_mm } in rows_there_and_back() {
+            let error = way * (2.0 * libm::exp(-since_mm / 12.0) - 1.0) + noise();
+            let cells = [pass, time_s, mm, way, 100.0, error];
+            columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
         }
         let titles = ["pass", "time_s", "position_mm", "direction", "force_n", "error_um"];
         let found = diagnosed_on(AXIS, titles.into_iter().zip(columns).collect());

@@ -13,4 +13,4 @@ pub use amplitude_spectrum::amplitude_spectrum;
 pub(crate) use lines::{LineSearch, gear_orders, lines, wave};
 pub use lines::{NamedLine, lines_left};
 pub use order_spectrum::Line;
-pub(crate) use order_spectrum::{POINTS_A_CELL, Point, Scan, strongest_first};
+pub(crate) use order_spectrum::{POINTS_A_CELL, Point, Scan, arc, strongest_first};

@@ -10,7 +10,7 @@ use super::expression::{Expression, Function, Unknown, call};
 use crate::model::{Columns, Problem, Stage};
 use crate::numerics::{Looks, count, in_parallel, product};
 use crate::policy::evidence::NO_SINE_PRICE;
-use crate::spectrum::{Scan, strongest_first};
+use crate::spectrum::{Scan, arc, strongest_first};
 
 /// A shape, where it stands and where its unknowns are looked for.
 #[derive(Debug, Clone)]
@@ -423,31 +423,26 @@ impl Band {
 
     /// What a wave turns by over all frequencies, rad.
     fn arc(&self, stage: &Stage<'_>) -> f64 {
-        let over = self.of_rows(stage);
-        self.scan(stage, (&over, &vec![1.0; over.len()])).arc()
+        arc(&self.of_rows(stage), self.ends)
     }
 
     fn of_rows(&self, stage: &Stage<'_>) -> Vec<f64> {
         stage.problem.samples.iter().map(|&sample| self.over[sample]).collect()
     }
 
-    fn scan<'a>(&self, stage: &'a Stage<'_>, (over, unit): (&'a [f64], &'a [f64])) -> Scan<'a> {
-        Scan {
-            layout: &stage.problem.layout,
-            noises: &stage.noises,
-            turns: over,
-            unit,
-            whitener: &stage.whitener,
-            lowest: self.ends[0],
-            highest: self.ends[1],
-        }
-    }
-
     /// Frequencies of the strongest lines of an entry that a stage leaves, none next to a stronger one.
     fn strongest(&self, stage: &Stage<'_>, entry: Entry) -> Vec<f64> {
         let over = self.of_rows(stage);
         let unit = stage.problem.unit_column(entry);
-        let scan = self.scan(stage, (&over, &unit));
+        let scan = Scan {
+            layout: &stage.problem.layout,
+            noises: &stage.noises,
+            turns: &over,
+            unit: &unit,
+            whitener: &stage.whitener,
+            lowest: self.ends[0],
+            highest: self.ends[1],
+        };
         let mut lines: Vec<f64> = Vec::new();
         for point in strongest_first(scan.spectrum(&stage.target[..over.len()])) {
             let apart = |known: &f64| self.resolution() < (known - point.frequency).abs();

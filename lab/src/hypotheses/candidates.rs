@@ -12,7 +12,7 @@ use crate::numerics::{
 };
 use crate::policy::evidence::{ANOTHER_MATERIAL, HIGH_HARMONIC_PRICE, LOOSELY_KNOWN, MARGIN};
 use crate::policy::extent::{FREQUENCIES, LONGEST, NARROWEST, OVERTONES, SHORTEST, SLOWEST_WAVES};
-use crate::spectrum::{Scan, gear_orders, strongest_first};
+use crate::spectrum::{Scan, arc, gear_orders, strongest_first};
 
 /// An effect that may be missing.
 #[derive(Debug, Clone)]
@@ -282,8 +282,7 @@ fn looks(stage: &Stage<'_>, term: &Term, axes: &[Vec<f64>]) -> Looks {
     nonlinear.zip(axes).fold(Looks::at_places(1.0), |looks, (what, axis)| match what.search {
         _ if what.is_frequency() => {
             let times = row_times(stage.problem);
-            let unit = stage.problem.unit_column(term.entry);
-            looks.along(time_scan(stage, (&times, &unit), 0.0, *what.range.end()).arc())
+            looks.along(arc(&times, heard(stage.problem, &times, [0.0, *what.range.end()])))
         }
         Search::Time | Search::Linear | Search::Logarithmic | Search::Position => looks,
         Search::Whole | Search::GearOrder | Search::Fixed => looks.times(count(axis.len())),
@@ -429,7 +428,7 @@ pub(crate) fn between_samples(time_s: &[f64]) -> Vec<f64> {
 /// Distinct frequencies of the strongest lines in time.
 fn frequencies(stage: &Stage<'_>, entry: Entry, low: f64, high: f64) -> Vec<f64> {
     let (times, unit) = (row_times(stage.problem), stage.problem.unit_column(entry));
-    let scan = time_scan(stage, (&times, &unit), low, high);
+    let scan = time_scan(stage, (&times, &unit), [low, high]);
     let resolution = scan.resolution();
     let mut peaks: Vec<f64> = Vec::new();
     let white = &stage.target[..times.len()];
@@ -453,18 +452,24 @@ fn row_times(problem: &Problem) -> Vec<f64> {
 fn time_scan<'a>(
     stage: &'a Stage<'_>,
     (times, unit): (&'a [f64], &'a [f64]),
-    low: f64,
-    high: f64,
+    frequencies: [f64; 2],
 ) -> Scan<'a> {
+    let [lowest, highest] = heard(stage.problem, times, frequencies);
     Scan {
         layout: &stage.problem.layout,
         noises: &stage.noises,
         turns: times,
         unit,
         whitener: &stage.whitener,
-        lowest: low.max(SLOWEST_WAVES / spread(times).max(f64::MIN_POSITIVE)),
-        highest: high.min(stage.problem.highest_hz()),
+        lowest,
+        highest,
     }
+}
+
+/// The lowest and the highest frequency in time, of those between two, that rows tell.
+fn heard(problem: &Problem, times: &[f64], [low, high]: [f64; 2]) -> [f64; 2] {
+    let slowest = SLOWEST_WAVES / spread(times).max(f64::MIN_POSITIVE);
+    [low.max(slowest), high.min(problem.highest_hz())]
 }
 
 /// A scan of all rows over the spindle angle for what shows so in each.

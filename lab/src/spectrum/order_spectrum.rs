@@ -86,16 +86,6 @@ impl Scan<'_> {
         (2.0 * (self.highest - self.lowest) / self.resolution()).max(1.0)
     }
 
-    /// What a wave turns by over all frequencies, rad: `2π·σ(u)` a cycle a unit (Baluev 2008,
-    /// *Assessing the statistical significance of periodogram peaks*, MNRAS 385:1279).
-    #[must_use]
-    pub(crate) fn arc(&self) -> f64 {
-        let rows = count(self.turns.len().max(1));
-        let mean = self.turns.iter().sum::<f64>() / rows;
-        let square: f64 = self.turns.iter().map(|u| (u - mean) * (u - mean)).sum();
-        std::f64::consts::TAU * (square / rows).sqrt() * (self.highest - self.lowest).max(0.0)
-    }
-
     /// Gain and amplitude over the whole range for a whitened residual.
     #[must_use]
     pub(crate) fn spectrum(&self, white: &[f64]) -> Vec<Point> {
@@ -352,6 +342,16 @@ impl Scan<'_> {
             })
             .collect()
     }
+}
+
+/// What a wave turns by over all frequencies between two, rad: `2π·σ(u)` a cycle a unit (Baluev 2008,
+/// *Assessing the statistical significance of periodogram peaks*, MNRAS 385:1279).
+#[must_use]
+pub(crate) fn arc(turns: &[f64], [lowest, highest]: [f64; 2]) -> f64 {
+    let rows = count(turns.len().max(1));
+    let mean = turns.iter().sum::<f64>() / rows;
+    let square: f64 = turns.iter().map(|u| (u - mean) * (u - mean)).sum();
+    std::f64::consts::TAU * (square / rows).sqrt() * (highest - lowest).max(0.0)
 }
 
 /// Each value by a factor of its own.

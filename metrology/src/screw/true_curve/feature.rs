@@ -127,9 +127,8 @@ fn about(at: f64, width: f64, part: f64) -> [(f64, f64); 4] {
 /// A bump, how it changes along the travel, and with its width.
 fn bump(at: f64, width: f64, places: &[f64]) -> [Vec<f64>; 3] {
     let bell = |off: f64| if off.abs() < REACH { libm::exp(-0.5 * off * off) } else { 0.0 };
+    let offs = places.iter().map(|place| (place - at) / width);
+    let bells: Vec<(f64, f64)> = offs.map(|off| (off, bell(off))).collect();
     let factors: [fn(f64) -> f64; 3] = [|_| 1.0, |off| off, |off| off * off - 1.0];
-    factors.map(|factor| {
-        let offs = places.iter().map(|place| (place - at) / width);
-        offs.map(|off| factor(off) * bell(off)).collect()
-    })
+    factors.map(|factor| bells.iter().map(|(off, bell)| factor(*off) * bell).collect())
 }
