@@ -8,6 +8,9 @@ use super::{A_PAIR, Readings};
 pub(super) const WAVES_A_CYCLE: f64 = 2.0;
 /// Widths of a bump beyond which nothing of it is left.
 const REACH: f64 = 5.0;
+/// How much of another shape than a bell a burst may have, as a part of its size. Chosen: a cosine's half wave, which
+/// begins and ends at once, is off the bell nearest to it by a twentieth. Tripled: at much noise noise is taken for it.
+const ANOTHER_SHAPE: f64 = 0.1;
 /// How steep a kink may be: as what bends by the size of the whole curve within a sixteenth of the travel. Chosen; more is
 /// a step.
 const KINK_WITHIN: f64 = 1.0 / 16.0;
@@ -31,8 +34,8 @@ pub(super) enum Feature {
     Bump(f64, f64),
     /// A wave of a turn whose size and phase swell so many times over the travel.
     Swelling(f64),
-    /// A wave of a turn within a bump at a place, with a width; with its change by the width, as one of another shape
-    /// has.
+    /// A wave of a turn within a bump at a place, with a width; with its change by the width, and a little of another
+    /// shape, steeper at its flanks.
     Burst(f64, f64),
 }
 
@@ -78,10 +81,9 @@ impl Feature {
                 readings.waves_of_a_turn(&sizes)
             }
             Self::Burst(at, width) => {
-                let [bell, _, wider] = bump(at, width, places);
-                readings.waves_of_a_turn(&[bell, wider])
+                readings.waves_of_a_turn(&bells((at, width), places, [even, wider, steeper]))
             }
-            Self::Bump(at, width) => bump(at, width, places).to_vec(),
+            Self::Bump(at, width) => bells((at, width), places, [even, along, wider]),
             Self::Wave(waves, phase) => {
                 let angle = |place: f64| TAU * waves * (place - 0.5) - phase;
                 vec![
@@ -124,11 +126,32 @@ fn about(at: f64, width: f64, part: f64) -> [(f64, f64); 4] {
     ]
 }
 
-/// A bump, how it changes along the travel, and with its width.
-fn bump(at: f64, width: f64, places: &[f64]) -> [Vec<f64>; 3] {
+/// A bell at a place, with a width, times what each of these is so many widths off.
+fn bells<const N: usize>(
+    (at, width): (f64, f64),
+    places: &[f64],
+    times: [fn(f64) -> f64; N],
+) -> Vec<Vec<f64>> {
     let bell = |off: f64| if off.abs() < REACH { libm::exp(-0.5 * off * off) } else { 0.0 };
     let offs = places.iter().map(|place| (place - at) / width);
     let bells: Vec<(f64, f64)> = offs.map(|off| (off, bell(off))).collect();
-    let factors: [fn(f64) -> f64; 3] = [|_| 1.0, |off| off, |off| off * off - 1.0];
-    factors.map(|factor| bells.iter().map(|(off, bell)| factor(*off) * bell).collect())
+    let one = |times: fn(f64) -> f64| bells.iter().map(|(off, bell)| times(*off) * bell).collect();
+    times.map(one).to_vec()
+}
+
+fn even(_: f64) -> f64 {
+    1.0
+}
+
+fn along(off: f64) -> f64 {
+    off
+}
+
+fn wider(off: f64) -> f64 {
+    off * off - 1.0
+}
+
+/// Hermite's function of the fourth order, as large beside a bell as another shape has it.
+fn steeper(off: f64) -> f64 {
+    ANOTHER_SHAPE / 24.0_f64.sqrt() * ((off * off - 6.0) * off * off + 3.0)
 }
