@@ -8,6 +8,7 @@ use helixlock_traces::{Column, Table};
 
 use crate::support::diagnosed::{MACHINE, diagnosed_on, names, problem};
 use crate::support::passes::white;
+use crate::support::seeds::seeds;
 
 /// A machine of two waves, and of a carriage that tips.
 fn known() -> Model {
@@ -143,4 +144,73 @@ fn a_wave_that_one_sensor_sees_otherwise_is_in_no_other_unit() {
     let found = diagnose(&problem(&machine, &both));
     assert!(found.doubts.is_empty(), "{:?}", found.doubts);
     assert_eq!(names(&found), ["recorder-lag"]);
+}
+
+/// A stage that a laser measures through air that the file knows; rows of time, pass, place, direction, what is shown
+/// beside the air and the bed's pitch there.
+fn on_a_stage(rows: impl Iterator<Item = [f64; 6]>) -> Diagnosis {
+    const STAGE: &str = "spindle.speed = '120 rpm'\nlead_screw.lead = '4 mm'\n\
+                         laser.wavelength = '0.63281983 um'\n\
+                         effect = [{ kind = 'air-temperature' }, { kind = 'air-pressure' }]\n";
+    let machine = Model::parse(STAGE, Path::new("machine.toml")).expect("a machine");
+    let names = ["time_s", "pass", "position_mm", "direction", "error_um", "bed_pitch_arcsec"];
+    let mut columns = names.map(|name| Column { name: name.to_owned(), values: Vec::new() });
+    for row in rows {
+        columns.iter_mut().zip(row).for_each(|(column, cell)| column.values.push(cell));
+    }
+    let time_s = columns[0].values.clone();
+    let air = |name: &str, of: &dyn Fn(f64) -> f64| Column {
+        name: name.to_owned(),
+        values: time_s.iter().map(|time_s| of(*time_s)).collect(),
+    };
+    let warmer = air("air_temperature_c", &|time_s| 21.3 - time_s / 1300.0);
+    let heavier = air("air_pressure_hpa", &|time_s| 1015.25 - time_s / 800.0);
+    let mut table = Table::new(columns.into_iter().chain([warmer, heavier]).collect());
+    let of_the_air = compare(&problem(&machine, &table)).residual;
+    let nothing = table.columns[4].values.clone();
+    for (value, (left, beside)) in
+        table.columns[4].values.iter_mut().zip(of_the_air.iter().zip(nothing))
+    {
+        *value = 2.0 * beside - left;
+    }
+    diagnose(&problem(&machine, &table))
+}
+
+/// A bed that leans: its pitch, read as the air's temperature, would be a slope and what leans beside it.
+#[test]
+fn a_bed_that_leans_is_no_exchange_with_the_air() {
+    for seed in seeds(1, 8) {
+        let mut noise = white(seed, 0.15);
+        let rows = (0..372_u32).map(|row| {
+            let (pass, nth) = (row / 186, row % 186);
+            let time_s = 0.73 * f64::from(nth) + 432.0 * f64::from(pass);
+            let place_mm = 4.3 * f64::from(if nth < 93 { nth } else { 185 - nth });
+            let direction = if nth < 93 { 1.0 } else { -1.0 };
+            let pitch_arcsec = 2.0 * libm::sin(0.022 * place_mm - 0.8);
+            let leans_um = 50.0 * 4.848e-3 * pitch_arcsec;
+            [time_s, f64::from(pass), place_mm, direction, leans_um + noise(), pitch_arcsec]
+        });
+        let found = on_a_stage(rows);
+        assert!(found.doubts.is_empty(), "{seed}: {:?}", found.doubts[0].says);
+        assert_eq!(names(&found), ["abbe"], "{seed}");
+    }
+}
+
+/// Eleven targets there and back in five runs: a slip of the laser in one of them is no other unit of its errors.
+#[test]
+fn a_slip_in_one_run_is_no_unit_of_it() {
+    for seed in seeds(1, 8) {
+        let mut noise = white(seed, 0.12);
+        let rows = (0..110_u32).map(|row| {
+            let (run, nth) = (row / 22, row % 22);
+            let time_s = 13.7 * f64::from(row) + 40.0 * f64::from(run);
+            let place_mm = 81.4 * f64::from(if nth < 11 { nth } else { 21 - nth });
+            let direction = if nth < 11 { 1.0 } else { -1.0 };
+            let slipped_um = if row < 96 { 0.0 } else { 7.0 * 0.316_41 };
+            [time_s, f64::from(run), place_mm, direction, slipped_um + noise(), 0.0]
+        });
+        let found = on_a_stage(rows);
+        assert!(found.doubts.is_empty(), "{seed}: {:?}", found.doubts[0].says);
+        assert_eq!(names(&found), ["fringe-slip"], "{seed}");
+    }
 }

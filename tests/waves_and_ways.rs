@@ -64,6 +64,41 @@ fn a_wave_keeps_its_name_beside_a_smaller_shape_of_each_turn() {
     assert_eq!(found.verdict, Verdict::Unexplained);
 }
 
+/// One pass of an axis, 600 rows over 222 mm of a screw of 5 mm; the error is of the screw's turns.
+fn of_the_screw(seed: u64, error_um: &dyn Fn(f64) -> f64) -> Diagnosis {
+    let mut noise = white(seed, 1.0);
+    let place = |row: u16| 0.37 * f64::from(row);
+    let columns = vec![
+        ("position_mm", (0..600).map(place).collect()),
+        ("error_um", (0..600).map(|row| error_um(place(row) / 5.0) + noise()).collect()),
+    ];
+    diagnosed_on(AXIS, columns)
+}
+
+/// The second wave swelling with the turn, beside a first one, is the same three waves: it saves nothing.
+#[test]
+fn three_waves_of_a_screw_are_no_wave_that_swells() {
+    for seed in seeds(1, 6) {
+        let wave = |turn: f64, waves: f64, phase: f64| libm::sin(TAU * waves * turn + phase);
+        let three =
+            |turn| wave(turn, 1.0, 2.1) + 0.6 * wave(turn, 2.0, 0.4) + 0.5 * wave(turn, 3.0, 1.0);
+        let found = of_the_screw(seed, &three);
+        assert_eq!(names(&found), ["screw-periodic"; 3], "{seed}");
+        assert_ne!(found.verdict, Verdict::Unexplained, "{seed}");
+    }
+}
+
+/// A part that seats on one of two faces twice a turn has waves of the second and sixth order.
+#[test]
+fn a_square_wave_twice_a_turn_is_no_waves_of_the_screw() {
+    for seed in seeds(1, 6) {
+        let square = |turn: f64| if (2.0 * turn + 0.13).fract() < 0.5 { 0.8 } else { -0.8 };
+        let found = of_the_screw(seed, &square);
+        assert_eq!(found.verdict, Verdict::Unexplained, "{seed}: {:?}", names(&found));
+        assert!(names(&found).is_empty(), "{seed}: {:?}", names(&found));
+    }
+}
+
 /// The table's motion shows on the recorder and on the thread with opposite signs: the sum of both shows no
 /// vibration that either shows alone.
 #[test]

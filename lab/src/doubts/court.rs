@@ -29,6 +29,8 @@ pub(super) struct Court<'a> {
     shape: OnceCell<Option<f64>>,
     /// Evidence of the file's own effects at any size, once it was asked for.
     own: OnceCell<OfOwnEffects>,
+    /// Evidence of an effect of a log that the file makes nothing of, once it was asked for.
+    unheeded: OnceCell<f64>,
     /// What the number of mistakes that are tried costs.
     looks: f64,
 }
@@ -61,6 +63,7 @@ impl<'a> Court<'a> {
         Self {
             shape: OnceCell::new(),
             own: OnceCell::new(),
+            unheeded: OnceCell::new(),
             problem,
             common: [Columns::default(), lines, curves],
             absent,
@@ -158,14 +161,15 @@ impl<'a> Court<'a> {
     }
 
     /// Evidence of a prediction of nothing, everywhere or in the pass that is mended, of one that a curve of
-    /// that pass puts right, or of a shape without a name beside it where readings would have slipped:
-    /// whatever makes a wrong prediction vanish looks like a mend.
+    /// that pass puts right, or of a shape without a name beside it where readings of some rows alone would be wrong:
+    /// whatever makes a wrong prediction vanish looks like a mend, and so does what shrinks a step.
     fn nothing(&self, best: &Hypothesis) -> f64 {
         let evidence = |problem: &Problem| self.evidence(problem, &Columns::default()).0;
         let absent = self.absent.iter().filter(|_| !best.last_resort()).map(evidence);
         let in_pass = best.pass.map(|pass| evidence(&silent(self.problem, pass)));
         let grown = best.pass.map(|pass| self.grown(pass));
-        let shape = best.slips.then(|| *self.shape.get_or_init(|| self.nameless())).flatten();
+        let in_places = best.slips || best.pass.is_some();
+        let shape = in_places.then(|| *self.shape.get_or_init(|| self.nameless())).flatten();
         absent.chain(in_pass).chain(grown).chain(shape).fold(f64::NEG_INFINITY, f64::max)
     }
 
@@ -180,7 +184,7 @@ impl<'a> Court<'a> {
     /// The best of all other explanations.
     fn rival(&self, best: &Hypothesis) -> f64 {
         let evidence = |other: &Problem| self.evidence(other, &Columns::default()).0;
-        let mut rivals = vec![self.freed().on_all];
+        let mut rivals = vec![self.freed().on_all, self.unheeded()];
         if best.physics {
             rivals.push(self.loosened());
             rivals.extend(self.with_physics().iter().map(evidence));
@@ -236,6 +240,19 @@ impl<'a> Court<'a> {
     fn loosened(&self) -> f64 {
         let all = all_physics(self.problem);
         self.integrated(all.iter().filter_map(|term| any_size(self.problem, term)))
+    }
+
+    /// That of the likeliest effect of a log that the file has no effect of: where a bed leans, the air is not what was
+    /// logged as its pitch.
+    fn unheeded(&self) -> f64 {
+        *self.unheeded.get_or_init(|| {
+            let logged = &self.problem.measurement.covariates;
+            let effects = &self.problem.model.effects;
+            let heeds = |name: &str| effects.iter().any(|term| term.needs().contains(&name));
+            let is_new = |name: &&str| logged.contains_key(*name) && !heeds(name);
+            let all = self.with_one(|card| card.needs.iter().any(is_new));
+            all.into_iter().fold(f64::NEG_INFINITY, f64::max)
+        })
     }
 
     /// That of each effect of the catalogue of some kind, at its best.

@@ -7,7 +7,7 @@ use super::shape::{Part, Shape};
 use super::{logged, moving, turning};
 use crate::model::{Problem, Shaft};
 use crate::numerics::{evenly, spread};
-use crate::policy::extent::{MOST_OF_A_TURN, TURNS};
+use crate::policy::extent::{MOST_A_TURN, MOST_OF_A_TURN, TURNS};
 
 /// The plain shapes: what stands in the place of effects whenever a model is judged.
 #[must_use]
@@ -46,6 +46,10 @@ pub(crate) fn formulas(problem: &Problem) -> Vec<Shape> {
     let quantities = Quantities::of(problem);
     let mut all = nameless(problem);
     all.extend(each_turn(&quantities, problem, true));
+    for shaft in problem.shafts(TURNS).into_iter().filter(|shaft| !shaft.of_a_gear) {
+        let orders = (2..=MOST_A_TURN).map(|times| f64::from(times) * shaft.order);
+        all.extend(orders.flat_map(|order| several_a_turn(problem, order)));
+    }
     all.extend(turning::waves(&quantities, problem));
     all.extend(turning::switching(&quantities, problem));
     all.extend(turning::resonances(&quantities, problem));
@@ -59,6 +63,21 @@ pub(crate) fn formulas(problem: &Problem) -> Vec<Shape> {
 #[must_use]
 pub(crate) fn switching(problem: &Problem) -> Option<Shape> {
     turning::switching(&Quantities::of(problem), problem)
+}
+
+/// What comes so often a turn of the spindle, several times with each of the spindle or of the screw: each one of those
+/// that come as often or less.
+#[must_use]
+pub(crate) fn several_a_turn(problem: &Problem, order: f64) -> Vec<Shape> {
+    let times = |shaft: &Shaft| (order / shaft.order).round();
+    let is_so = |shaft: &Shaft| {
+        let times = times(shaft);
+        1.0 < times && (order - times * shaft.order).abs() < 1e-9 * order
+    };
+    let mut shafts = problem.shafts(TURNS).into_iter().filter(|shaft| !shaft.of_a_gear);
+    let Some(shaft) = shafts.find(is_so) else { return Vec::new() };
+    let all = turning::several_a_turn(&Quantities::of(problem), &shaft.name, order);
+    all.into_iter().map(|one| Shape { listed: times(&shaft), ..one }).collect()
 }
 
 /// What comes with every turn of shafts, those of gears or the others: over as much of one as its waves have names.
@@ -87,6 +106,7 @@ pub(super) fn shape(words: &'static str, along: &str, physics: &'static str) -> 
         unknowns: Vec::new(),
         turns: false,
         placed: false,
+        listed: 1.0,
         scan: None,
     }
 }

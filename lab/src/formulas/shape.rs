@@ -31,6 +31,8 @@ pub(crate) struct Shape {
     pub(crate) turns: bool,
     /// True when its first unknown is a place on the coordinate.
     pub(crate) placed: bool,
+    /// How many there are like it, of which it is one.
+    pub(crate) listed: f64,
     /// When its first unknown is a frequency: of what, one value a sample, and up to where.
     pub(crate) scan: Option<Band>,
 }
@@ -336,16 +338,19 @@ impl Placed<'_> {
         self.shape.price(of_a_size) + 2.0 * libm::log(looks.for_gain(gain))
     }
 
-    /// Where it was looked for: what its curve turns by along each of its unknowns through the best.
+    /// Where it was looked for: among those like it, and what its curve turns by along each of its unknowns through the
+    /// best.
     pub(crate) fn looks(&self, stage: &Stage<'_>) -> Looks {
         let unknowns = self.shape.unknowns.iter().enumerate();
-        unknowns.fold(Looks::at_places(1.0), |looks, (place, unknown)| match &self.shape.scan {
-            Some(band) if place == 0 => looks.along(band.arc(stage)),
-            _ => looks.over(&reach(&unknown.axis), |value| {
-                let mut values = self.values.clone();
-                values[place] = value;
-                stage.span(&self.shape.columns(stage.problem, self.entry, &values))
-            }),
+        unknowns.fold(Looks::at_places(self.shape.listed), |looks, (place, unknown)| {
+            match &self.shape.scan {
+                Some(band) if place == 0 => looks.along(band.arc(stage)),
+                _ => looks.over(&reach(&unknown.axis), |value| {
+                    let mut values = self.values.clone();
+                    values[place] = value;
+                    stage.span(&self.shape.columns(stage.problem, self.entry, &values))
+                }),
+            }
         })
     }
 

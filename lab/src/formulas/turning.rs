@@ -13,9 +13,33 @@ use crate::numerics::{evenly, spread, usual_rate};
 use crate::policy::extent::{LONGEST_WAVE, MOST_OF_A_TURN, SLOWEST_WAVES, TURNS};
 use crate::spectrum::gear_orders;
 
+/// What comes with a turn and is no sine, once a turn and several times.
+const EACH: [&str; 5] = [
+    "square wave each turn",
+    "triangle each turn",
+    "half wave each turn",
+    "knock each turn",
+    "sawtooth each turn",
+];
+const SEVERAL: [&str; 5] = [
+    "square wave several times a turn",
+    "triangle several times a turn",
+    "half wave several times a turn",
+    "knock several times a turn",
+    "sawtooth several times a turn",
+];
+
 /// Shapes that come with every turn of a shaft and are no sine.
 pub(super) fn each_turn(all: &Quantities, shaft: &str, order: f64) -> Vec<Shape> {
-    let turn = shaft_turns(&all.turns, order) + unknown(0);
+    of_turns(shaft, &(shaft_turns(&all.turns, order) + unknown(0)), EACH)
+}
+
+/// The same of parts of a shaft's turn, so many a turn of the spindle.
+pub(super) fn several_a_turn(all: &Quantities, shaft: &str, order: f64) -> Vec<Shape> {
+    of_turns(shaft, &(shaft_turns(&all.turns, order) + unknown(0)), SEVERAL)
+}
+
+fn of_turns(shaft: &str, turn: &Expression, words: [&'static str; 5]) -> Vec<Shape> {
     let each = |words, physics, most: f64, points| {
         let mut one = shape(words, shaft, physics).unknown(
             "offset_rev",
@@ -26,22 +50,16 @@ pub(super) fn each_turn(all: &Quantities, shaft: &str, order: f64) -> Vec<Shape>
         one
     };
     let fract = || call(Function::Fract, turn.clone());
+    let [square, rise, half, blow, saw] = words;
     vec![
-        each("square wave each turn", "a face cam, a part that seats on one of two faces", 0.5, 12)
+        each(square, "a face cam, a part that seats on one of two faces", 0.5, 12)
             .curve("size", call(Function::Step, number(0.5) - fract())),
-        each("triangle each turn", "a cam of even rise", 0.5, 12)
-            .curve("size", triangle(turn.clone())),
-        each("half wave each turn", "contact over half of a turn only", 1.0, 24)
+        each(rise, "a cam of even rise", 0.5, 12).curve("size", triangle(turn.clone())),
+        each(half, "contact over half of a turn only", 1.0, 24)
             .curve("size", call(Function::Ramp, call(Function::Sin, turns(turn.clone())))),
-        each(
-            "knock each turn",
-            "a scratch, a chipped tooth, a ball or roller with a spot",
-            1.0,
-            36,
-        )
-        .curve("size", knock(call(Function::Fract, turn.clone()), number(KNOCK))),
-        each("sawtooth each turn", "a cam with an edge, one lost count a turn", 1.0, 24)
-            .curve("size", fract()),
+        each(blow, "a scratch, a chipped tooth, a ball or roller with a spot", 1.0, 36)
+            .curve("size", knock(fract(), number(KNOCK))),
+        each(saw, "a cam with an edge, one lost count a turn", 1.0, 24).curve("size", fract()),
     ]
 }
 

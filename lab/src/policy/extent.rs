@@ -282,6 +282,12 @@ pub(crate) const COLUMNS_OF_PASSES: usize = 48;
 /// in each pass is a bump.
 pub(crate) const CURVE_OF_A_PASS: std::ops::RangeInclusive<usize> = 3..=8;
 
+/// Most times a turn that a formula of what is no sine is looked for.
+///
+/// Chosen: a cam or a chuck has few faces. Doubled: a search takes longer by a third, and sines have to do for the poles
+/// of a motor as before.
+pub(crate) const MOST_A_TURN: u8 = 6;
+
 /// Turns of a shaft from which on a shape repeats with it.
 ///
 /// Derived: what is there once repeats nothing. Doubled: four turns.

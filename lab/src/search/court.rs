@@ -309,7 +309,7 @@ impl<'a> Court<'a> {
             let shown = self.better_than(&group, self.apart_um(&group, &claim)?, &claim);
             return Some(Winner { shown, beaten: Vec::new(), ahead });
         }
-        if let Some(more) = self.more_than(&group, &claim) {
+        if let Some(more) = self.more_than(&group, base, &claim) {
             let shown = self.better_than(&group, self.apart_um(&group, &claim)?, &claim);
             return Some(Winner { shown: shown.drawn_by(more), beaten: Vec::new(), ahead });
         }
@@ -321,7 +321,7 @@ impl<'a> Court<'a> {
     /// What a shape is made of beside the effects that it contains, where these are worth their price beside that:
     /// a wave that swells is that wave, and a play that changes on the way is that play. Of a curve, a further power
     /// makes another one, of a slope any bend; so does what explains as much without what it contains.
-    fn more_than(&self, group: &[usize], claim: &Claim<'_>) -> Option<Vec<Column>> {
+    fn more_than(&self, group: &[usize], base: &Columns, claim: &Claim<'_>) -> Option<Vec<Column>> {
         let components: Vec<Component> =
             group.iter().map(|&index| self.state.components[index].clone()).collect();
         let are_waves = components.iter().all(|one| one.term.is_wave());
@@ -329,7 +329,9 @@ impl<'a> Court<'a> {
             let one = &self.state.components[*index];
             one.width() == 1 && !one.is_of_one_size() && !is_slope(self.problem, self.state, *index)
         };
-        if !(are_waves || group.iter().all(is_part)) || !self.contains(&claim.placed, group) {
+        let has_more = self.sizes(group) < claim.placed.columns.raw.len();
+        let may_be_part = are_waves || group.iter().all(is_part);
+        if !(has_more && may_be_part && self.draws((base, &claim.placed), group)) {
             return None;
         }
         let own = Columns::of(self.problem, &components).ok()?;
@@ -416,7 +418,8 @@ impl<'a> Court<'a> {
                 let fit = self.fitted(base, &placed, stage);
                 let gain = 2.0 * (fit.log_likelihood - nothing);
                 let price = self.price(&placed, &looks, gain);
-                let unsaved = if self.contains(&placed, group) { self.chosen(group) } else { 0.0 };
+                let draws = self.draws((base, &placed), group);
+                let unsaved = if draws { self.chosen(group) } else { 0.0 };
                 let ahead = self.ahead(group, &fit) - price - unsaved;
                 let p_value = if group.is_empty() {
                     self.chance(&placed, &looks, &fit)
@@ -515,15 +518,17 @@ impl<'a> Court<'a> {
         2.0 * more_names * libm::log(count(CATALOGUE.len()))
     }
 
-    /// What effects pay for having been chosen among places and names: what contains them has chosen as much.
+    /// What effects pay for having been chosen among places and names: what draws all of them has chosen as much.
     fn chosen(&self, group: &[usize]) -> f64 {
         let looks: f64 = group.iter().map(|&index| self.prices[index].looks).sum();
         looks + self.names_chosen(group)
     }
 
-    /// True when the effects of a group are sums of the columns of a shape, which has more of them.
-    fn contains(&self, placed: &Placed<'_>, group: &[usize]) -> bool {
-        self.sizes(group) < placed.columns.raw.len() && self.are_sums_of(&placed.columns.raw, group)
+    /// True when the effects of a group are sums of the columns of a shape, which has no fewer, and of those that stay: that
+    /// of three waves of a turn one swells with another is no saving.
+    fn draws(&self, (base, placed): (&Columns, &Placed<'_>), group: &[usize]) -> bool {
+        let columns: Vec<Column> = placed.columns.raw.iter().chain(&base.raw).cloned().collect();
+        self.sizes(group) <= placed.columns.raw.len() && self.are_sums_of(&columns, group)
     }
 
     /// True when the effects of a group, one at least, are sums of some columns.

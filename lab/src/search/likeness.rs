@@ -163,29 +163,35 @@ pub(crate) fn has_both_sides(problem: &Problem, component: &Component, used: &[f
     })
 }
 
-/// True when whole passes lie before and behind a moment, and its effect shows in one or the other.
+/// True when passes lie before and behind a moment, but for the rows that they run in or out by, and its effect shows
+/// in others than the one that it is in.
 fn parts_passes(problem: &Problem, component: &Component, used: &[f64], at_s: f64) -> bool {
     let Some(shown) = component.shown_um(problem, used) else { return false };
     let shape = about_means(&problem.layout, &shown);
-    let time = |row: usize| problem.record.time_s[problem.samples[row]];
-    let passes = problem.layout.blocks.iter().map(|block| block.rows.clone());
-    let behind = passes.clone().filter(|rows| at_s <= time(rows.start));
-    let before: Vec<_> = passes.filter(|rows| time(rows.end - 1) < at_s).collect();
-    let (first, then) = (before.len(), behind.clone().count());
-    let others = before.into_iter().chain(behind);
-    let elsewhere: f64 = others.map(|rows| dot(&shape[rows.clone()], &shape[rows])).sum();
-    0 < first && 0 < then && WAVE * dot(&shape, &shape) < elsewhere
+    let passes: Vec<(Range<usize>, f64)> = shares_before(problem, at_s).collect();
+    let is_one = |is_so: &dyn Fn(f64) -> bool| passes.iter().any(|(_, before)| is_so(*before));
+    let others = passes.iter().filter(|(_, before)| [0.0, 1.0].contains(before));
+    let elsewhere: f64 =
+        others.map(|(rows, _)| dot(&shape[rows.clone()], &shape[rows.clone()])).sum();
+    is_one(&|before| before < RUN_IN)
+        && is_one(&|before| 1.0 - RUN_IN < before)
+        && WAVE * dot(&shape, &shape) < elsewhere
 }
 
 /// Share of a pass on the smaller side of a moment in it; 0 of a moment between two passes.
 fn smaller_share(problem: &Problem, at_s: f64) -> f64 {
-    let time = |row: usize| problem.record.time_s[problem.samples[row]];
-    let blocks = problem.layout.blocks.iter().map(|block| &block.rows);
-    let shares = blocks.map(|rows| {
-        let before = rows.clone().filter(|&row| time(row) < at_s).count();
-        count(before.min(rows.len() - before)) / count(rows.len().max(1))
-    });
+    let shares = shares_before(problem, at_s).map(|(_, before)| before.min(1.0 - before));
     shares.fold(0.0, f64::max)
+}
+
+/// Rows of each pass, and the share of them before a moment.
+fn shares_before(problem: &Problem, at_s: f64) -> impl Iterator<Item = (Range<usize>, f64)> + '_ {
+    let time = |row: usize| problem.record.time_s[problem.samples[row]];
+    problem.layout.blocks.iter().map(move |block| {
+        let rows = block.rows.clone();
+        let before = rows.clone().filter(|&row| time(row) < at_s).count();
+        (rows, count(before) / count(block.rows.len().max(1)))
+    })
 }
 
 /// Rows of each sensor from one turn of the table, or pass, to the next.
