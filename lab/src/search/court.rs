@@ -419,8 +419,9 @@ impl<'a> Court<'a> {
                 let gain = 2.0 * (fit.log_likelihood - nothing);
                 let price = self.price(&placed, &looks, gain);
                 let draws = self.draws((base, &placed), group);
-                let unsaved = if draws { self.chosen(group) } else { 0.0 };
-                let ahead = self.ahead(group, &fit) - price - unsaved;
+                let chosen = if draws { self.chosen(group) } else { 0.0 };
+                let own = price - placed.shape.price(self.problem.price_of_a_number());
+                let ahead = self.ahead(group, &fit) - price - (chosen - own).max(0.0);
                 let p_value = if group.is_empty() {
                     self.chance(&placed, &looks, &fit)
                 } else {
@@ -518,7 +519,8 @@ impl<'a> Court<'a> {
         2.0 * more_names * libm::log(count(CATALOGUE.len()))
     }
 
-    /// What effects pay for having been chosen among places and names: what draws all of them has chosen as much.
+    /// What effects pay for having been chosen among places and names: what draws all of them has chosen as much, at its
+    /// own places or at theirs.
     fn chosen(&self, group: &[usize]) -> f64 {
         let looks: f64 = group.iter().map(|&index| self.prices[index].looks).sum();
         looks + self.names_chosen(group)
