@@ -519,15 +519,15 @@ impl<'a> Court<'a> {
         2.0 * more_names * libm::log(count(CATALOGUE.len()))
     }
 
-    /// What effects pay for having been chosen among places and names: what draws all of them has chosen as much, at its
-    /// own places or at theirs.
+    /// What effects pay for having been chosen among places and names: what draws all of them has chosen as
+    /// much, at its own places or at theirs.
     fn chosen(&self, group: &[usize]) -> f64 {
         let looks: f64 = group.iter().map(|&index| self.prices[index].looks).sum();
         looks + self.names_chosen(group)
     }
 
-    /// True when the effects of a group are sums of the columns of a shape, which has no fewer, and of those that stay: that
-    /// of three waves of a turn one swells with another is no saving.
+    /// True when the effects of a group are sums of the columns of a shape, which has no fewer, and of those
+    /// that stay: that of three waves of a turn one swells with another is no saving.
     fn draws(&self, (base, placed): (&Columns, &Placed<'_>), group: &[usize]) -> bool {
         let columns: Vec<Column> = placed.columns.raw.iter().chain(&base.raw).cloned().collect();
         self.sizes(group) <= placed.columns.raw.len() && self.are_sums_of(&columns, group)
