@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use helixlock_lab::{Discovery, Found, discover};
 
 use crate::support::diagnosed::{diagnosed_on, names, problem_of};
-use crate::support::passes::white;
+use crate::support::passes::{MACHINE, white};
 use crate::support::seeds::seeds;
 
 /// An instrument at rest: what moves it is a lead and a speed of the machine file only.
@@ -34,6 +34,24 @@ fn air(rows: u32) -> (Vec<f64>, Vec<f64>) {
     let air_c = time_s.iter().map(|t| 23.0 + 2.0 * libm::sin(t / 8000.0) + 1.5 * heated(*t));
     let air_c = air_c.collect();
     (time_s, air_c)
+}
+
+/// A grinder logs its error and its thread, and one of them alone shows the teeth of a rack: no motion of the
+/// table does, which either shows, but the laser, or the thread itself.
+#[test]
+fn what_one_of_two_sensors_shows_enters_there() {
+    for shows in [[4.0, 0.0], [0.0, 4.0]] {
+        let mut noise = white(3, 1.0);
+        let place = |row: u16| 2.4 * f64::from(row);
+        let mut table = vec![("position_mm", (0..360).map(place).collect())];
+        for (name, size_um) in ["error_um", "lead_error_um"].into_iter().zip(shows) {
+            let tooth = |row| size_um * (place(row) / 130.0).fract();
+            table.push((name, (0..360).map(|row| tooth(row) + noise()).collect()));
+        }
+        let found = discovered(MACHINE, &table);
+        assert_eq!(along(&found), ["position"], "{shows:?}");
+        assert_eq!(found.found, Found::Formula, "{shows:?}");
+    }
 }
 
 /// A camera's pixels and what was worked out of them, to three digits.

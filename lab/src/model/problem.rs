@@ -341,6 +341,26 @@ impl Problem {
         self.sensors.iter().any(|&s| gain(&self.model, entry, s) != 0.0)
     }
 
+    /// Entries that sensors see, without those that all show as they do an earlier one, of any size.
+    #[must_use]
+    pub(crate) fn distinct_entries(&self) -> Vec<Entry> {
+        let gains = |entry| -> Vec<f64> {
+            self.sensors.iter().map(|&sensor| gain(&self.model, entry, sensor)).collect()
+        };
+        let is_alike = |one: &[f64], other: &[f64]| {
+            let [own, both, theirs] = [(one, one), (one, other), (other, other)]
+                .map(|(a, b)| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>());
+            own * theirs <= both * both * (1.0 + f64::EPSILON.sqrt())
+        };
+        let mut distinct: Vec<Entry> = Vec::new();
+        for entry in Entry::ALL.into_iter().filter(|entry| self.sees(*entry)) {
+            if !distinct.iter().any(|earlier| is_alike(&gains(*earlier), &gains(entry))) {
+                distinct.push(entry);
+            }
+        }
+        distinct
+    }
+
     /// Design columns of a term at its nonlinear values, and what does not scale.
     ///
     /// # Errors

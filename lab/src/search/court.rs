@@ -408,7 +408,8 @@ impl<'a> Court<'a> {
 
     /// The best shapes in a place.
     fn claims_in(&self, seat: &Seat<'_>, tried: Tried<'a>) -> Vec<Claim<'a>> {
-        let Seat { group, base, stages, .. } = seat;
+        let Seat { group, base, entries, stages } = seat;
+        let listed = count(self.shapes.len() * entries.len());
         let nothing = self.likelihood_of(base);
         let least_um = SHARE_OF_AN_EFFECT * self.shown_um(group);
         let mut claims = Vec::new();
@@ -417,17 +418,19 @@ impl<'a> Court<'a> {
             claims.extend(shortlist.map(|(placed, looks)| {
                 let fit = self.fitted(base, &placed, stage);
                 let gain = 2.0 * (fit.log_likelihood - nothing);
-                let price = self.price(&placed, &looks, gain);
+                // Where it enters was chosen, too.
+                let price =
+                    self.price(&placed, &looks, gain) + 2.0 * libm::log(count(entries.len()));
                 let draws = self.draws((base, &placed), group);
                 let chosen = if draws { self.chosen(group) } else { 0.0 };
                 let own = price - placed.shape.price(self.problem.price_of_a_number());
                 let ahead = self.ahead(group, &fit) - price - (chosen - own).max(0.0);
                 let p_value = if group.is_empty() {
-                    self.chance(&placed, &looks, &fit)
+                    self.chance(&placed, (listed, &looks), &fit)
                 } else {
                     libm::exp(-0.5 * ahead).min(1.0)
                 };
-                let looks = count(self.shapes.len()) * looks.for_gain(gain);
+                let looks = listed * looks.for_gain(gain);
                 Claim { placed, fit, ahead, group: group.clone(), looks, p_value }
             }));
         }
@@ -450,8 +453,7 @@ impl<'a> Court<'a> {
         let mut entries: Vec<Entry> =
             group.iter().map(|&index| self.state.components[index].term.entry).collect();
         if group.is_empty() || self.problem.sensors.len() == 1 {
-            entries = Entry::ALL.into_iter().filter(|entry| self.problem.sees(*entry)).collect();
-            entries.truncate(1);
+            entries = self.problem.distinct_entries();
         }
         entries.sort();
         entries.dedup();
@@ -547,10 +549,9 @@ impl<'a> Court<'a> {
     }
 
     /// Chance of what a shape takes away beside all effects in noise, which may have tails.
-    fn chance(&self, placed: &Placed<'_>, looks: &Looks, fit: &Fit) -> f64 {
-        let shapes = count(self.shapes.len());
+    fn chance(&self, placed: &Placed<'_>, (listed, looks): (f64, &Looks), fit: &Fit) -> f64 {
         let freedom = count(placed.columns.raw.len());
-        let of_gain = |gain| shapes * looks.for_gain(gain) * chi_squared_tail(gain, freedom);
+        let of_gain = |gain| listed * looks.for_gain(gain) * chi_squared_tail(gain, freedom);
         let gain = 2.0 * (fit.log_likelihood - self.state.fit.log_likelihood);
         let chance = of_gain(gain);
         if SIGNIFICANCE <= chance {
