@@ -46,10 +46,12 @@ pub(crate) fn formulas(problem: &Problem) -> Vec<Shape> {
     let quantities = Quantities::of(problem);
     let mut all = nameless(problem);
     all.extend(each_turn(&quantities, problem, true));
-    for shaft in problem.shafts(TURNS).into_iter().filter(|shaft| !shaft.of_a_gear) {
-        let orders = (2..=MOST_A_TURN).map(|times| f64::from(times) * shaft.order);
-        all.extend(orders.flat_map(|order| several_a_turn(problem, order)));
-    }
+    let shafts = problem.shafts(TURNS).into_iter().filter(|shaft| !shaft.of_a_gear);
+    let several = |shaft: Shaft| (2..=MOST_A_TURN).map(move |times| f64::from(times) * shaft.order);
+    let mut orders: Vec<f64> = shafts.flat_map(several).collect();
+    orders.sort_by(f64::total_cmp);
+    orders.dedup();
+    all.extend(orders.into_iter().flat_map(|order| several_a_turn(problem, order)));
     all.extend(turning::waves(&quantities, problem));
     all.extend(turning::switching(&quantities, problem));
     all.extend(turning::resonances(&quantities, problem));

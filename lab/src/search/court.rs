@@ -419,18 +419,18 @@ impl<'a> Court<'a> {
                 let fit = self.fitted(base, &placed, stage);
                 let gain = 2.0 * (fit.log_likelihood - nothing);
                 // Where it enters was chosen, too.
-                let price =
-                    self.price(&placed, &looks, gain) + 2.0 * libm::log(count(entries.len()));
+                let looked = count(entries.len()) * looks.for_gain(gain);
+                let places = 2.0 * libm::log(looked);
                 let draws = self.draws((base, &placed), group);
                 let chosen = if draws { self.chosen(group) } else { 0.0 };
-                let own = price - placed.shape.price(self.problem.price_of_a_number());
-                let ahead = self.ahead(group, &fit) - price - (chosen - own).max(0.0);
+                let numbers = placed.shape.price(self.problem.price_of_a_number());
+                let ahead = self.ahead(group, &fit) - numbers - places.max(chosen);
                 let p_value = if group.is_empty() {
                     self.chance(&placed, (listed, &looks), &fit)
                 } else {
                     libm::exp(-0.5 * ahead).min(1.0)
                 };
-                let looks = listed * looks.for_gain(gain);
+                let looks = count(self.shapes.len()) * looked;
                 Claim { placed, fit, ahead, group: group.clone(), looks, p_value }
             }));
         }
@@ -531,16 +531,19 @@ impl<'a> Court<'a> {
     /// True when the effects of a group are sums of the columns of a shape, which has no fewer, and of those
     /// that stay: that of three waves of a turn one swells with another is no saving.
     fn draws(&self, (base, placed): (&Columns, &Placed<'_>), group: &[usize]) -> bool {
-        let columns: Vec<Column> = placed.columns.raw.iter().chain(&base.raw).cloned().collect();
-        self.sizes(group) <= placed.columns.raw.len() && self.are_sums_of(&columns, group)
+        let columns = placed.columns.raw.iter().chain(&base.raw).cloned();
+        self.sizes(group) <= placed.columns.raw.len()
+            && self.are_sums_of(&columns.collect::<Vec<Column>>(), group)
     }
 
     /// True when the effects of a group, one at least, are sums of some columns.
     fn are_sums_of(&self, columns: &[Column], group: &[usize]) -> bool {
+        if group.is_empty() {
+            return false;
+        }
         let span = Span::of(self.problem, columns);
         let shown = |&index: &usize| shown(self.problem, self.state, index);
-        !group.is_empty()
-            && group.iter().all(|index| shown(index).is_some_and(|shown| span.has(&shown, SHAPE)))
+        group.iter().all(|index| shown(index).is_some_and(|shown| span.has(&shown, SHAPE)))
     }
 
     /// Sizes of the effects of a group, those of each power of a curve among them.

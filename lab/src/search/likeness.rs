@@ -169,12 +169,11 @@ fn parts_passes(problem: &Problem, component: &Component, used: &[f64], at_s: f6
     let Some(shown) = component.shown_um(problem, used) else { return false };
     let shape = about_means(&problem.layout, &shown);
     let passes: Vec<(Range<usize>, f64)> = shares_before(problem, at_s).collect();
-    let is_one = |is_so: &dyn Fn(f64) -> bool| passes.iter().any(|(_, before)| is_so(*before));
     let others = passes.iter().filter(|(_, before)| [0.0, 1.0].contains(before));
     let elsewhere: f64 =
         others.map(|(rows, _)| dot(&shape[rows.clone()], &shape[rows.clone()])).sum();
-    is_one(&|before| before < RUN_IN)
-        && is_one(&|before| 1.0 - RUN_IN < before)
+    passes.iter().any(|(_, before)| *before < RUN_IN)
+        && passes.iter().any(|(_, before)| 1.0 - RUN_IN < *before)
         && WAVE * dot(&shape, &shape) < elsewhere
 }
 
