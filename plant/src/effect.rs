@@ -340,6 +340,11 @@ pub trait Effect: fmt::Debug + Send + Sync {
         false
     }
 
+    /// True when δ depends on the samples before it, and so on how close they are.
+    fn remembers(&self) -> bool {
+        false
+    }
+
     /// What δ has more in a pass that began with δ = 1; `None` of an effect without a memory, or one
     /// whose memory the record tells.
     fn started(&self, _pass: usize) -> Option<Box<dyn Effect>> {

@@ -408,6 +408,10 @@ impl Effect for Sum {
         )
     }
 
+    fn remembers(&self) -> bool {
+        self.parts.iter().any(|(_, part)| part.remembers())
+    }
+
     fn feeds_back(&self) -> bool {
         self.parts.iter().any(|(_, part)| part.feeds_back())
     }

@@ -30,22 +30,26 @@ fn readings(measurement: &Measurement, row: usize) -> Vec<u64> {
     measurement.observations.values().map(|values| values[row].to_bits()).collect()
 }
 
-/// A pass whose readings are those of an earlier one, in the same order, or those and a constant: which rows of a
-/// coarse display are by accident, as often as those of other passes.
+/// A pass whose readings are those of an earlier one, in the same order and as far as both go, or those and a constant:
+/// which rows of a coarse display are by accident, as often as those of other passes.
 fn copied_pass(measurement: &Measurement, passes: &[Range<usize>]) -> Option<Doubt> {
     let mut alike: BTreeMap<_, Vec<&Range<usize>>> = BTreeMap::new();
     let (first, again, apart) =
         passes.iter().filter(|rows| COPIED_ROWS <= rows.len()).find_map(|again| {
             let earlier = alike.entry(begins_with(measurement, again)).or_default();
             let mut first = earlier.iter().copied();
-            let found =
-                first.find_map(|first| Some((first, again, apart(measurement, first, again)?)));
+            let found = first.find_map(|first| {
+                let copied = again.start..again.start + first.len().min(again.len());
+                Some((first, copied.clone(), apart(measurement, first, &copied)?))
+            });
             earlier.push(again);
-            found.filter(|_| DIFFERENT <= different(measurement, again))
+            found.filter(|(_, copied, _)| {
+                COPIED_ROWS <= copied.len() && DIFFERENT <= different(measurement, copied)
+            })
         })?;
-    let evidence = no_accident(measurement, passes, again)?;
+    let evidence = no_accident(measurement, passes, &again)?;
     let name = |rows: &Range<usize>| measurement.pass_names[measurement.pass[rows.start]];
-    let (first, name) = (name(first), name(again));
+    let (first, name) = (name(first), name(&again));
     Some(Doubt {
         what: "copy",
         evidence,
@@ -61,37 +65,36 @@ fn copied_pass(measurement: &Measurement, passes: &[Range<usize>]) -> Option<Dou
     })
 }
 
-/// Evidence of a pass that is another to the last digit, against rows that each are so as often as those of any two
-/// other passes of their length, `None` where that is not enough; without such, no oftener than every second time.
+/// Evidence of rows that are those of another pass to the last digit, against rows that each are so as often as those
+/// of any two other passes, `None` where that is not enough; without such, no oftener than every second time.
 fn no_accident(
     measurement: &Measurement,
     passes: &[Range<usize>],
     copy: &Range<usize>,
 ) -> Option<f64> {
     let others: Vec<&Range<usize>> =
-        passes.iter().filter(|rows| *rows != copy && rows.len() == copy.len()).collect();
-    let alike = |pair: &[&Range<usize>]| {
-        let rows = pair[0].clone().zip(pair[1].clone());
-        rows.filter(|(one, other)| readings(measurement, *one) == readings(measurement, *other))
-            .count()
-    };
-    let pairs = others.len().saturating_sub(1);
-    if pairs == 0 {
+        passes.iter().filter(|rows| rows.start != copy.start).collect();
+    let pairs: Vec<(usize, usize)> =
+        others.windows(2).flat_map(|pair| pair[0].clone().zip(pair[1].clone())).collect();
+    if pairs.is_empty() {
         return Some(said_by(copy.len()));
     }
-    let so = count(others.windows(2).map(alike).sum());
-    let share = (so + 1.0) / (count(pairs * copy.len()) + 1.0);
+    let alike = |(one, other): &&(usize, usize)| {
+        readings(measurement, *one) == readings(measurement, *other)
+    };
+    let so = count(pairs.iter().filter(alike).count());
+    let share = (so + 1.0) / (count(pairs.len()) + 1.0);
     let looks = count(passes.len() * passes.len());
     let evidence = -2.0 * (count(copy.len()) * libm::log(share) + libm::log(looks));
     (DOUBT < evidence).then_some(evidence)
 }
 
-/// Length and first step of a pass, but for its rounding: a copy has the same.
-fn begins_with(measurement: &Measurement, rows: &Range<usize>) -> (usize, Option<u64>) {
+/// First step of a pass, but for its rounding: a copy has the same.
+fn begins_with(measurement: &Measurement, rows: &Range<usize>) -> Option<u64> {
     const ROUNDED_BITS: u32 = 24;
     let values = measurement.observations.values().next();
     let step = values.map(|values| values[rows.start + 1] - values[rows.start]);
-    (rows.len(), step.map(|step| step.to_bits() >> ROUNDED_BITS))
+    step.map(|step| step.to_bits() >> ROUNDED_BITS)
 }
 
 /// By what the readings of a pass are off those of another.
@@ -100,7 +103,7 @@ enum Apart {
     Constant,
 }
 
-/// That of two passes of one length, to within what numbers of a table are rounded by; `None` where it varies.
+/// That of two passes, as far as the shorter goes, to within what numbers of a table are rounded by; `None` where it varies.
 fn apart(measurement: &Measurement, first: &Range<usize>, again: &Range<usize>) -> Option<Apart> {
     let mut by = Apart::Nothing;
     for values in measurement.observations.values() {

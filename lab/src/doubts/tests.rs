@@ -479,6 +479,9 @@ fn copies_are_told_and_what_was_measured_again_is_none() {
         if nth <= rows { value } else { value + 0.37 }
     });
     assert_eq!(doubted(&bare, &and_a_constant), Some((what, mend)));
+    let mut half = copied.clone();
+    half.columns.iter_mut().for_each(|column| column.values.truncate(rows + rows / 2));
+    assert_eq!(doubted(&bare, &half).map(|(what, _)| what), Some("copy"));
     let mut row = 0;
     let again = changed(copied, "error_um", |value| {
         row += 1;

@@ -52,6 +52,7 @@ pub(crate) enum Operation {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Function {
     Sin,
+    Cos,
     Exp,
     Sqrt,
     Abs,
@@ -95,6 +96,7 @@ impl Function {
     fn name(self) -> &'static str {
         match self {
             Self::Sin => "sin",
+            Self::Cos => "cos",
             Self::Exp => "exp",
             Self::Sqrt => "sqrt",
             Self::Abs => "abs",
@@ -108,6 +110,7 @@ impl Function {
     fn apply(self, value: f64) -> f64 {
         match self {
             Self::Sin => libm::sin(value),
+            Self::Cos => libm::cos(value),
             Self::Exp => libm::exp(value),
             Self::Sqrt => value.sqrt(),
             Self::Abs => value.abs(),
@@ -173,6 +176,31 @@ impl Expression {
             Self::Call(function, of) => each(of.values(at), |value| function.apply(value)),
             Self::Lag { of, time, constant } => Cow::Owned(followed(of, time, at[*constant])),
             Self::Relay { of, middle, width } => Cow::Owned(switched(of, at[*middle], at[*width])),
+        }
+    }
+
+    /// The same with all that depends on no unknown worked out: a quantity that is called by its formula.
+    pub(crate) fn worked_out(&self) -> Self {
+        let known = if self.has_unknowns() { None } else { self.dimension(&[]) };
+        if let Some(dimension) = known {
+            let (name, values) = (format!("({})", self.text(&[])), self.values(&[]).into_owned());
+            return Self::Of(Arc::new(Quantity { name, dimension, values: values.into() }));
+        }
+        let part = |of: &Self| Box::new(of.worked_out());
+        match self {
+            Self::Two(operation, a, b) => Self::Two(*operation, part(a), part(b)),
+            Self::Power(base, power) => Self::Power(part(base), *power),
+            Self::Call(function, of) => Self::Call(*function, part(of)),
+            _ => self.clone(),
+        }
+    }
+
+    fn has_unknowns(&self) -> bool {
+        match self {
+            Self::Number(..) | Self::Pi | Self::Of(_) => false,
+            Self::Unknown(_) | Self::Lag { .. } | Self::Relay { .. } => true,
+            Self::Two(_, a, b) => a.has_unknowns() || b.has_unknowns(),
+            Self::Power(of, _) | Self::Call(_, of) => of.has_unknowns(),
         }
     }
 

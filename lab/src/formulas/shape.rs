@@ -114,23 +114,19 @@ impl Part {
         if matches!(self, Self::Wave { .. }) { 2 } else { 1 }
     }
 
-    fn columns(&self, at: &[f64], samples: usize) -> Vec<Vec<f64>> {
-        let full = |values: Cow<'_, [f64]>| {
-            if values.len() == 1 { vec![values[0]; samples] } else { values.into_owned() }
-        };
+    /// What each of its numbers is multiplied by, the sine before the cosine.
+    fn curves(&self) -> Vec<Expression> {
         match self {
-            Self::Curve { curve, .. } => vec![full(curve.values(at))],
+            Self::Curve { curve, .. } => vec![curve.clone()],
             Self::Wave { swell, angle, .. } => {
-                let angle = angle.values(at);
-                let swell = swell.as_ref().map(|swell| full(swell.values(at)));
-                let of = |apply: fn(f64) -> f64| {
-                    let wave = angle.iter().map(|angle| apply(*angle));
-                    match &swell {
-                        None => wave.collect(),
-                        Some(swell) => wave.zip(swell).map(|(wave, by)| wave * by).collect(),
+                let wave = |of| {
+                    let wave = call(of, angle.clone());
+                    match swell {
+                        Some(swell) => wave * swell.clone(),
+                        None => wave,
                     }
                 };
-                vec![of(libm::sin), of(libm::cos)]
+                vec![wave(Function::Sin), wave(Function::Cos)]
             }
         }
     }
@@ -217,19 +213,21 @@ impl Shape {
 
     /// The best of it on what each of some stages leaves; `None` where it takes nothing away.
     pub(crate) fn best(&self, stages: &[&Stage<'_>], entry: Entry) -> Vec<Option<Placed<'_>>> {
+        let curves = self.curves();
         let coarse: Vec<Option<Placed<'_>>> = match &self.scan {
-            None => self.best_of(stages, entry, &product(&self.axes())),
+            None => self.best_of(stages, entry, &curves, &product(&self.axes())),
             Some(band) => {
                 // Each stage leaves lines of its own.
                 let of = |stage: &&Stage<'_>| {
                     let mut axes = self.axes();
                     axes[0] = band.strongest(stage, entry);
-                    self.best_of(&[stage], entry, &product(&axes)).pop().flatten()
+                    self.best_of(&[stage], entry, &curves, &product(&axes)).pop().flatten()
                 };
                 in_parallel(stages, of)
             }
         };
-        let refined = |(placed, stage): (Option<_>, &&Stage<'_>)| self.refined(stage, placed?);
+        let refined =
+            |(placed, stage): (Option<_>, &&Stage<'_>)| self.refined(stage, &curves, placed?);
         in_parallel(coarse.into_iter().zip(stages), refined)
     }
 
@@ -239,13 +237,19 @@ impl Shape {
     }
 
     /// It at better numbers near those of a grid; `None` when it takes nothing away.
-    fn refined<'a>(&'a self, stage: &Stage<'_>, coarse: Placed<'a>) -> Option<Placed<'a>> {
+    fn refined<'a>(
+        &'a self,
+        stage: &Stage<'_>,
+        curves: &[Expression],
+        coarse: Placed<'a>,
+    ) -> Option<Placed<'a>> {
         let mut placed = coarse;
         let steps = self.steps(&placed.values);
         for round in 0..ROUNDS * i32::from(!steps.is_empty()) {
             let share = FINER.powi(-round);
             let steps: Vec<f64> = steps.iter().map(|step| share * step).collect();
-            let near = self.best_of(&[stage], placed.entry, &around(&placed.values, &steps));
+            let near = around(&placed.values, &steps);
+            let near = self.best_of(&[stage], placed.entry, curves, &near);
             let better = near.into_iter().flatten().find(|near| placed.gain < near.gain);
             placed = better.unwrap_or(placed);
         }
@@ -266,12 +270,13 @@ impl Shape {
         &self,
         stages: &[&Stage<'_>],
         entry: Entry,
+        curves: &[Expression],
         grid: &[Vec<f64>],
     ) -> Vec<Option<Placed<'_>>> {
         let Some(problem) = stages.first().map(|stage| stage.problem) else { return Vec::new() };
         let of = |some: &[Vec<f64>]| -> Vec<Option<Placed<'_>>> {
             let columns: Vec<Columns> =
-                some.iter().map(|values| self.columns(problem, entry, values)).collect();
+                some.iter().map(|values| columns(curves, problem, entry, values)).collect();
             stages.iter().map(|stage| self.best_at(stage, entry, some, &columns)).collect()
         };
         let parts: Vec<Vec<Option<Placed<'_>>>> = in_parallel(grid.chunks(TOGETHER), of);
@@ -299,11 +304,9 @@ impl Shape {
         Some(Placed { shape: self, values, entry, columns, coefficients, gain: gain.gain, at })
     }
 
-    /// Its columns for some unknowns, the sine before the cosine.
-    fn columns(&self, problem: &Problem, entry: Entry, values: &[f64]) -> Columns {
-        let samples = problem.record.len();
-        let curves = self.parts.iter().flat_map(|part| part.columns(values, samples));
-        Columns::free(curves.map(|deltas| problem.column(entry, &deltas)))
+    /// Curves of all its parts, with all that no unknown changes worked out.
+    fn curves(&self) -> Vec<Expression> {
+        self.parts.iter().flat_map(Part::curves).map(|curve| curve.worked_out()).collect()
     }
 
     /// The formula, and the unit of each of its parameters; `None` when it mixes units.
@@ -341,6 +344,7 @@ impl Placed<'_> {
     /// Where it was looked for: among those like it, and what its curve turns by along each of its unknowns through the
     /// best.
     pub(crate) fn looks(&self, stage: &Stage<'_>) -> Looks {
+        let curves = self.shape.curves();
         let unknowns = self.shape.unknowns.iter().enumerate();
         unknowns.fold(Looks::at_places(self.shape.listed), |looks, (place, unknown)| {
             match &self.shape.scan {
@@ -348,7 +352,7 @@ impl Placed<'_> {
                 _ => looks.over(&reach(&unknown.axis), |value| {
                     let mut values = self.values.clone();
                     values[place] = value;
-                    stage.span(&self.shape.columns(stage.problem, self.entry, &values))
+                    stage.span(&columns(&curves, stage.problem, self.entry, &values))
                 }),
             }
         })
@@ -460,6 +464,15 @@ impl Band {
         }
         lines
     }
+}
+
+/// Columns of curves for some unknowns.
+fn columns(curves: &[Expression], problem: &Problem, entry: Entry, unknowns: &[f64]) -> Columns {
+    let column = |curve: &Expression| match &*curve.values(unknowns) {
+        &[same] => problem.column(entry, &vec![same; problem.record.len()]),
+        deltas => problem.column(entry, deltas),
+    };
+    Columns::free(curves.iter().map(column))
 }
 
 /// Distance of the values of an axis around one of them.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use helixlock_plant::{Column, Context, EffectError, Estimate, Role, Smoothness, Term};
+use helixlock_plant::{Column, Context, EffectError, Estimate, Role, Search, Smoothness, Term};
 
 use super::columns::Columns;
 use super::problem::{Design, Problem};
@@ -58,6 +58,15 @@ impl Columns {
     }
 }
 
+/// Columns of a parameter's own.
+fn width_of(role: Role) -> usize {
+    match role {
+        Role::Amplitude => 2,
+        Role::Linear | Role::Squared | Role::Known { .. } => 1,
+        Role::Phase | Role::Nonlinear | Role::Start { .. } => 0,
+    }
+}
+
 /// Some effects at coefficients of their columns in use, row by row in µm (arcsec); `None` when one
 /// cannot be worked out.
 #[must_use]
@@ -100,11 +109,7 @@ impl Component {
         let mut atoms = Vec::new();
         let mut column = 0;
         for parameter in &self.term.parameters {
-            let width = match parameter.role {
-                Role::Amplitude => 2,
-                Role::Linear | Role::Squared | Role::Known { .. } => 1,
-                Role::Phase | Role::Nonlinear | Role::Start { .. } => 0,
-            };
+            let width = width_of(parameter.role);
             if 0 < width {
                 atoms.push((column..column + width).collect());
                 column += width;
@@ -123,6 +128,19 @@ impl Component {
         let counting =
             |what: &helixlock_plant::Parameter| what.role == Role::Linear && what.name == "count";
         linear.zip(atoms).filter(|(what, _)| counting(what)).map(|(_, atom)| atom[0]).collect()
+    }
+
+    /// True for one that has a rate or a time constant in use, and forgets nothing within a pass.
+    #[must_use]
+    pub(crate) fn goes_on_with_time(&self) -> bool {
+        let mut kept = self.kept.iter();
+        let mut goes_on = |what: &helixlock_plant::Parameter| {
+            let columns = width_of(what.role);
+            let in_use = kept.by_ref().take(columns).any(|kept| *kept) || columns == 0;
+            in_use && what.unit.is_of_time() && what.search != Search::Time
+        };
+        let goes_on = self.term.parameters.iter().filter(|what| goes_on(what)).count();
+        0 < goes_on && !self.term.nature().delays
     }
 
     /// Per column of its basis: true for a size of its own that is not in use.

@@ -26,9 +26,8 @@ pub struct Problem {
     pub measurement: Measurement,
     /// The samples as the catalogue wants them.
     pub record: Record,
-    /// Samples behind those of this problem: between them, or that they are means or a choice of.
-    /// There may be millions; clones of a problem share them.
-    pub(crate) finer: Option<Arc<Finer>>,
+    /// See [`Self::finer`]; most problems are laid out to be compared, and never ask.
+    pub(crate) finer: Arc<OnceLock<Option<Finer>>>,
     /// Sensors in the order of `Layout`'s numbers.
     pub sensors: Vec<Sensor>,
     /// Of each row, the index of its sample in the measurement and in the record.
@@ -115,7 +114,7 @@ impl Problem {
     /// As [`Self::new`].
     pub(crate) fn averaged(&self, groups: Vec<Range<usize>>) -> Result<Self, EffectError> {
         let measurement = self.measurement.averaged(&groups);
-        let finer = match &self.finer {
+        let finer = match self.finer() {
             Some(finer) if finer.is_between() && finer.record.len() <= MOST_BETWEEN => {
                 finer.grouped(groups)
             }
@@ -127,20 +126,16 @@ impl Problem {
     fn laid_out(
         model: &Model,
         measurement: &Measurement,
-        finer: Option<Finer>,
+        averaged: Option<Finer>,
         begun: Option<Vec<(usize, f64)>>,
     ) -> Result<Self, EffectError> {
-        let record = Record::new(model, measurement);
-        let sensors: Vec<Sensor> = measurement.observations.keys().copied().collect();
-        let whole = finer.is_none();
-        let lags = whole && sensors.contains(&Sensor::Recorder);
-        let finer = if lags { Finer::between(model, &record) } else { finer };
+        let whole = averaged.is_none();
         let mut problem = Self {
             model: as_measured(model, measurement),
             measurement: measurement.clone(),
-            record,
-            finer: finer.map(Arc::new),
-            sensors,
+            record: Record::new(model, measurement),
+            finer: Arc::default(),
+            sensors: measurement.observations.keys().copied().collect(),
             samples: Column::default(),
             layout: Layout::default(),
             observed: Column::default(),
@@ -159,9 +154,10 @@ impl Problem {
         problem.stack_rows();
         problem.least_variance = problem.finest(&[]);
         problem.begun = begun.map_or_else(|| problem.begun_from(), Ok)?;
-        let (mut record, mut finer) = (problem.record.clone(), problem.finer.clone());
-        problem.predicted = problem.predicted(&mut record, &mut finer)?.into();
-        (problem.record, problem.finer) = (record, finer);
+        if let Some(averaged) = averaged {
+            problem.finer = Arc::new(OnceLock::from(Some(problem.with_error(averaged)?)));
+        }
+        problem.predict()?;
         if whole {
             problem.find_start()?;
         }
@@ -173,6 +169,18 @@ impl Problem {
         }
         problem.hunting_um = hunting_um(&problem, &residual);
         Ok(problem)
+    }
+
+    /// Samples behind those of this problem: between them, where a recorder follows, or that they are means or a
+    /// choice of. There may be millions; clones of a problem share them.
+    fn finer(&self) -> Option<&Finer> {
+        self.finer.get_or_init(|| self.between()).as_ref()
+    }
+
+    fn between(&self) -> Option<Finer> {
+        let follows = self.sensors.contains(&Sensor::Recorder);
+        let finer = follows.then(|| Finer::between(&self.model, &self.record)).flatten();
+        self.with_error(finer?).ok()
     }
 
     /// Weighs outliers down, as they stand out of what a model leaves.
@@ -292,7 +300,9 @@ impl Problem {
             [] => finer.measured.is_some() && filters,
             _ => finer.is_between() || finer.record.len() <= MOST_BETWEEN,
         };
-        let finer = self.finer.as_deref().filter(|finer| is_asked(finer));
+        let is_known_alone = late.is_empty() && !filters;
+        let finer =
+            if is_known_alone { None } else { self.finer().filter(|finer| is_asked(finer)) };
         if late.is_empty() && finer.is_none() {
             return self.column(entry, &self.deltas_um(unit));
         }
@@ -423,16 +433,17 @@ impl Problem {
     /// δ of every sample. The mean of neighbours stands for them, except with an effect that
     /// depends on the error since the start of the pass: of that one the mean is taken.
     fn deltas_um(&self, unit: &dyn Effect) -> Vec<f64> {
-        match &self.finer {
-            Some(finer) if unit.feeds_back() => finer.means(&unit.deltas_um(&finer.record)),
-            _ => unit.deltas_um(&self.record),
+        let finer = if unit.feeds_back() { self.finer() } else { None };
+        match finer {
+            Some(finer) => finer.means(&unit.deltas_um(&finer.record)),
+            None => unit.deltas_um(&self.record),
         }
     }
 
     /// Median time between two samples of a pass before any means, s, those in between among them.
     #[must_use]
     pub(crate) fn finest_interval_s(&self) -> f64 {
-        interval_s(self.finer.as_deref().map_or(&self.record, |finer| &finer.record))
+        interval_s(self.finer().map_or(&self.record, |finer| &finer.record))
     }
 
     /// µm a unit of a sensor's prediction: the counter counts steps.
@@ -500,21 +511,18 @@ impl Problem {
         {
             return Ok(());
         }
-        let mut record = self.record.begun_at_zero();
-        let mut finer = self.finer.clone();
-        if let Some(finer) = finer.as_mut().map(Arc::make_mut) {
-            finer.record = finer.record.begun_at_zero();
-        }
-        let predicted = self.predicted(&mut record, &mut finer)?;
-        if self.roughness(&predicted) < self.roughness(&self.predicted) {
-            (self.record, self.finer, self.predicted) = (record, finer, predicted.into());
+        let record = self.record.begun_at_zero();
+        let mut begun = Self { record, finer: Arc::default(), ..self.clone() };
+        begun.predict()?;
+        if begun.roughness() < self.roughness() {
+            *self = begun;
         }
         Ok(())
     }
 
-    /// Sum of the squares of what a prediction leaves from neighbour to neighbour, µm².
-    fn roughness(&self, predicted: &[f64]) -> f64 {
-        let left = |row: usize| self.observed[row] - predicted[row];
+    /// Sum of the squares of what the prediction leaves from neighbour to neighbour, µm².
+    fn roughness(&self) -> f64 {
+        let left = |row: usize| self.observed[row] - self.predicted[row];
         let blocks = self.layout.blocks.iter();
         let steps = blocks.flat_map(|block| {
             let pairs = block.rows.start..block.rows.end.saturating_sub(1);
@@ -538,33 +546,38 @@ impl Problem {
         effects.map(|term| Ok((term.entry, term.effect(&self.model, &record.columns)?))).collect()
     }
 
-    /// What the model says of every row, each pass from its own zero. The records get the error
-    /// that it predicts, for effects that depend on it: what was measured carries the noise, and a
-    /// column made of the noise explains it.
-    fn predicted(
-        &self,
-        record: &mut Record,
-        finer: &mut Option<Arc<Finer>>,
-    ) -> Result<Vec<f64>, EffectError> {
-        let effects = self.effects_on(record)?;
-        let counted = |record: &Record| {
-            counted_on(record, meter_um(&self.model, record, &effects), &self.begun)
-        };
-        record.error_um = counted(record);
-        if let Some(finer) = finer.as_mut().map(Arc::make_mut) {
-            finer.record.error_um = counted(&finer.record);
-        }
-        let predicted = self.stacked(|sensor| match &*finer {
-            None => shown(&self.model, record, &effects, sensor),
+    /// What the model says of every row, each pass from its own zero: between the rows too where that is
+    /// remembered.
+    fn predict(&mut self) -> Result<(), EffectError> {
+        let effects = self.effects_on(&self.record)?;
+        self.record.error_um = self.error_at_the_meter(&self.record, &effects);
+        let remembers = |(_, effect): &(Entry, Sum)| effect.remembers();
+        let remembers = self.model.filter_cutoff_hz.is_some() || effects.iter().any(remembers);
+        let finer =
+            if remembers { self.finer() } else { self.finer.get().and_then(Option::as_ref) };
+        let predicted = self.stacked(|sensor| match finer {
+            None => shown(&self.model, &self.record, &effects, sensor),
             Some(finer) => finer.means(&shown(&self.model, &finer.record, &effects, sensor)),
         });
-        if predicted.iter().all(|value| value.is_finite()) {
-            return Ok(predicted);
+        if predicted.iter().any(|value| !value.is_finite()) {
+            for term in &self.model.effects {
+                self.must_be_in_reach(term)?;
+            }
         }
-        for term in &self.model.effects {
-            self.must_be_in_reach(term)?;
-        }
-        Ok(predicted)
+        self.predicted = predicted.into();
+        Ok(())
+    }
+
+    /// Samples with the error that the model predicts, for effects that depend on it: what was measured carries
+    /// the noise, and a column made of the noise explains it.
+    fn with_error(&self, mut finer: Finer) -> Result<Finer, EffectError> {
+        let effects = self.effects_on(&finer.record)?;
+        finer.record.error_um = self.error_at_the_meter(&finer.record, &effects);
+        Ok(finer)
+    }
+
+    fn error_at_the_meter(&self, record: &Record, effects: &[(Entry, Sum)]) -> Column {
+        counted_on(record, meter_um(&self.model, record, effects), &self.begun)
     }
 
     /// What [`Self::begun`] is, of these samples; a single pass needs none.
@@ -590,7 +603,7 @@ impl Problem {
     ///
     /// [`EffectError`] with that sample.
     pub(crate) fn must_be_in_reach(&self, term: &Term) -> Result<(), EffectError> {
-        let record = self.finer.as_deref().map_or(&self.record, |finer| &finer.record);
+        let record = self.finer().map_or(&self.record, |finer| &finer.record);
         term.must_be_in_reach(&self.model, record)
     }
 }

@@ -250,12 +250,17 @@ pub(crate) fn by_the_clock(problem: &Problem, component: &Component) -> bool {
     problem.measurement.timed && WAVES_A_PASS <= longest_s * term.values[hertz]
 }
 
-/// True unless an effect runs by the clock where nobody measured it and the axis stands at targets:
-/// the time that follows from the travel is none then.
+/// True unless an effect runs by the clock where nobody measured it and the axis stands at targets, or between
+/// passes: the time that follows from the travel is none then. What happens at a moment, or is forgotten within a
+/// pass, knows nothing of the pauses between them.
 #[must_use]
 pub(crate) fn has_its_time(problem: &Problem, component: &Component) -> bool {
+    if problem.measurement.timed {
+        return true;
+    }
     let by_time = component.term.parameters.iter().any(|what| what.unit.is_of_time());
-    !by_time || problem.measurement.timed || problem.places().is_none()
+    let across_passes = 1 < problem.record.passes().len() && component.goes_on_with_time();
+    !(by_time && problem.places().is_some() || across_passes)
 }
 
 /// True unless all samples lie at a few places that do not tell a wave over the travel from a longer

@@ -88,6 +88,10 @@ impl Effect for Bound {
         record.instants().enumerate().map(at).collect()
     }
 
+    fn remembers(&self) -> bool {
+        !self.memories.is_empty()
+    }
+
     fn feeds_back(&self) -> bool {
         let error = ALWAYS_THERE.len() - 1;
         let of_memories = self.memories.iter().map(|memory| &memory.of);

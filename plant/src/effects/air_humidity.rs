@@ -8,16 +8,16 @@
 //!
 //! 1 m and 10 % are 0.085 µm. Physics fixes the coefficient; only 2 % are left to a fit.
 
-use super::air_index::slope;
+use super::air_index::AirIndex;
 use super::shape::polynomial;
 use crate::machine::Part;
-use crate::{Basis, Card, Covariate, Entry, Nature, Parameter};
+use crate::{Basis, Card, Entry, Nature, Parameter};
 
 pub(super) const CARD: Card = Card {
     kind: "air-humidity",
     entry: Entry::LengthReference,
     summary: "moist air is a little thinner, so the laser counts too few fringes",
-    formula: "x·10⁶·(1 − n/n_ref) ≈ +0.0085·x·Δ%RH, n after Ciddor",
+    formula: "x·10⁶·(n(T, p) − n(T, p, h))/n_ref ≈ +0.0085·x·Δ%RH, n after Ciddor",
     example: "1 m and 10 % are 0.085 µm",
     parameters: &[Parameter::known(0.02, "factor on the physics")],
     parts: &[Part::Table, Part::Laser],
@@ -30,11 +30,7 @@ pub(super) const CARD: Card = Card {
     candidate: true,
     nature: Nature::PLAIN,
     basis: |context, _| {
-        let laser = context.machine.laser.clone();
-        Ok(Basis::one(polynomial(move |now| {
-            let mut air = laser.reference;
-            air.humidity_pct = now.covariate(Covariate::Humidity);
-            now.position_m() * slope(&laser, &air)
-        })))
+        let index = AirIndex::of(&context.machine.laser);
+        Ok(Basis::one(polynomial(move |now| now.position_m() * index.for_humidity(now))))
     },
 };

@@ -8,10 +8,10 @@
 //!
 //! 1 m and 1 hPa are −0.268 µm. Physics fixes the coefficient; only 2 % are left to a fit.
 
-use super::air_index::slope;
+use super::air_index::AirIndex;
 use super::shape::polynomial;
 use crate::machine::Part;
-use crate::{Basis, Card, Covariate, Entry, Nature, Parameter};
+use crate::{Basis, Card, Entry, Nature, Parameter};
 
 pub(super) const CARD: Card = Card {
     kind: "air-pressure",
@@ -36,11 +36,7 @@ pub(super) const CARD: Card = Card {
     candidate: true,
     nature: Nature::PLAIN,
     basis: |context, _| {
-        let laser = context.machine.laser.clone();
-        Ok(Basis::one(polynomial(move |now| {
-            let mut air = laser.reference;
-            air.pressure_hpa = now.covariate(Covariate::AirPressure);
-            now.position_m() * slope(&laser, &air)
-        })))
+        let index = AirIndex::of(&context.machine.laser);
+        Ok(Basis::one(polynomial(move |now| now.position_m() * index.for_pressure(now))))
     },
 };

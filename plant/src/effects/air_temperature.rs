@@ -8,16 +8,16 @@
 //!
 //! 1 m and 1 K are 0.95 µm at 50 % humidity. Physics fixes the coefficient; only 2 % are left to a fit.
 
-use super::air_index::slope;
+use super::air_index::AirIndex;
 use super::shape::polynomial;
 use crate::machine::Part;
-use crate::{Basis, Card, Covariate, Entry, Nature, Parameter};
+use crate::{Basis, Card, Entry, Nature, Parameter};
 
 pub(super) const CARD: Card = Card {
     kind: "air-temperature",
     entry: Entry::LengthReference,
     summary: "warm air is thin, so the laser counts too few fringes",
-    formula: "x·10⁶·(1 − n/n_ref) ≈ +0.93·x·ΔT[K], n after Ciddor",
+    formula: "x·10⁶·(n(p) − n(p, T))/n_ref ≈ +0.93·x·ΔT[K]·p/1013, n after Ciddor",
     example: "1 m and 1 K are 0.95 µm at 50 % humidity",
     parameters: &[Parameter::known(0.02, "factor on the physics")],
     parts: &[Part::Table, Part::Laser],
@@ -36,11 +36,7 @@ pub(super) const CARD: Card = Card {
     candidate: true,
     nature: Nature::PLAIN,
     basis: |context, _| {
-        let laser = context.machine.laser.clone();
-        Ok(Basis::one(polynomial(move |now| {
-            let mut air = laser.reference;
-            air.temperature_c = now.covariate(Covariate::AirTemperature);
-            now.position_m() * slope(&laser, &air)
-        })))
+        let index = AirIndex::of(&context.machine.laser);
+        Ok(Basis::one(polynomial(move |now| now.position_m() * index.for_temperature(now))))
     },
 };

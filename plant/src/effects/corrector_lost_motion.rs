@@ -60,4 +60,8 @@ impl Effect for LostMotion {
             })
             .collect()
     }
+
+    fn remembers(&self) -> bool {
+        true
+    }
 }

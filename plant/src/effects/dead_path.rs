@@ -8,11 +8,11 @@
 //!
 //! 0.3 m and 2 K are 0.57 µm, at the start of the travel as at its end. Pressure counts when it is logged.
 
-use super::air_index::{logged, slope};
+use super::air_index::AirIndex;
 use super::shape::polynomial;
 use crate::machine::Part;
 use crate::units::M;
-use crate::{Basis, Card, Covariate, Entry, Nature, Parameter};
+use crate::{Basis, Card, Entry, Nature, Parameter};
 
 pub(super) const CARD: Card = Card {
     kind: "dead-path",
@@ -33,12 +33,7 @@ pub(super) const CARD: Card = Card {
     // The air's sensitivities are good to a percent and a half over a day's weather.
     nature: Nature { uncertainty: 0.015, ..Nature::PLAIN },
     basis: |context, _| {
-        let laser = context.machine.laser.clone();
-        Ok(Basis::one(polynomial(move |now| {
-            let temperature_c = now.covariate(Covariate::AirTemperature);
-            let pressure_hpa = now.covariate(Covariate::AirPressure);
-            let air = logged(&laser.reference, temperature_c, pressure_hpa);
-            if temperature_c.is_nan() { f64::NAN } else { slope(&laser, &air) }
-        })))
+        let index = AirIndex::of(&context.machine.laser);
+        Ok(Basis::one(polynomial(move |now| index.for_all(now))))
     },
 };

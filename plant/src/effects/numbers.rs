@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::tests::{MACHINE, delta_um, machine, now};
+use super::tests::{LOGS, MACHINE, delta_um, machine, now};
 use crate::air::edlen;
 use crate::machine::Air;
 use crate::prediction::{Sensor, predict};
@@ -79,33 +79,45 @@ fn no_formula_is_left_out() {
     }
 }
 
-/// Against the other equation for the air, at the wavelength as printed.
+/// Against the other equation for the air, at the wavelength as printed: each quantity beside those that go before it,
+/// and all of them together, at the sea and in the mountains.
 #[test]
 fn air_effects_follow_the_index() {
     let reference = Air { temperature_c: 20.0, pressure_hpa: 1013.25, humidity_pct: 50.0 };
-    let short_um = |metres: f64, air: Air| {
-        let index = |air: &Air| edlen(0.632_819_83, air);
-        metres * 1e6 * (index(&reference) - index(&air)) / index(&reference)
-    };
-    let (warm, dense, moist) = (
-        Air { temperature_c: 22.0, ..reference },
-        Air { pressure_hpa: 1015.0, ..reference },
-        Air { humidity_pct: 60.0, ..reference },
-    );
-    let both = Air { temperature_c: 22.0, ..dense };
-    for (kind, values, expected_um) in [
-        ("air-temperature", [1.0], short_um(0.5, warm)),
-        ("air-pressure", [1.0], short_um(0.5, dense)),
-        ("air-humidity", [1.0], short_um(0.5, moist)),
-        ("dead-path", [0.3], short_um(0.3, both)),
-    ] {
-        let delta_um = delta_um(kind, &values, &now());
-        assert!((delta_um - expected_um).abs() < 2e-3, "{kind}: {delta_um} {expected_um}");
+    let index = |air: Air| edlen(0.632_819_83, &air);
+    let short_um = |before: Air, air: Air| 0.5e6 * (index(before) - index(air)) / index(reference);
+    for pressure_hpa in [1015.0, 780.0] {
+        let dense = Air { pressure_hpa, ..reference };
+        let warm = Air { temperature_c: 22.0, ..dense };
+        let moist = Air { humidity_pct: 60.0, ..warm };
+        let logs = day(22.0, pressure_hpa);
+        let now = Instant { covariates: &logs, ..now() };
+        let mut sum_um = 0.0;
+        for (kind, before, air) in [
+            ("air-pressure", reference, dense),
+            ("air-temperature", dense, warm),
+            ("air-humidity", warm, moist),
+        ] {
+            let (shown_um, expected_um) = (delta_um(kind, &[1.0], &now), short_um(before, air));
+            assert!((shown_um - expected_um).abs() < 3e-3, "{kind}: {shown_um} {expected_um}");
+            sum_um += shown_um;
+        }
+        let beam_um = delta_um("dead-path", &[0.5], &now);
+        assert!((beam_um - sum_um).abs() < 1e-9, "{pressure_hpa} hPa: {beam_um} {sum_um}");
     }
     // The catalogue's round numbers, per metre and unit.
+    let at_reference =
+        |kind| delta_um(kind, &[1.0], &Instant { covariates: &day(20.0, 1013.25), ..now() });
     assert!((delta_um("air-temperature", &[1.0], &now()) - 0.93).abs() < 0.03);
     assert!((delta_um("air-pressure", &[1.0], &now()) + 0.268 * 0.875).abs() < 0.002);
-    assert!((delta_um("air-humidity", &[1.0], &now()) - 0.0085 * 5.0).abs() < 0.002);
+    assert!((at_reference("air-humidity") - 0.0085 * 5.0).abs() < 0.002);
+}
+
+/// The ordinary day at another temperature and pressure of the air.
+fn day(temperature_c: f64, pressure_hpa: f64) -> [f64; LOGS.len()] {
+    let mut logs = LOGS;
+    logs[..2].copy_from_slice(&[temperature_c, pressure_hpa]);
+    logs
 }
 
 /// 500 mm are 1580.2 times a thousand fringes, and 143 times eleven of these.

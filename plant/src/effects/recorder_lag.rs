@@ -56,6 +56,10 @@ impl Effect for Lag {
         deltas
     }
 
+    fn remembers(&self) -> bool {
+        true
+    }
+
     fn feeds_back(&self) -> bool {
         true
     }

@@ -25,7 +25,8 @@ pub(super) fn machine() -> Model {
 }
 
 /// Logs of an ordinary day, in the order of [`COVARIATES`].
-const LOGS: [f64; 11] = [22.0, 1015.0, 60.0, 22.0, 21.0, 2.0, 50.0, 150.0, 90.0, 0.0, 400.0];
+pub(super) const LOGS: [f64; 11] =
+    [22.0, 1015.0, 60.0, 22.0, 21.0, 2.0, 50.0, 150.0, 90.0, 0.0, 400.0];
 
 pub(super) fn now() -> Instant<'static> {
     Instant {
