@@ -1,6 +1,7 @@
 //! Causes that slow noise would swallow, and effects that only undo each other.
 
 use helixlock_lab::{Diagnosis, Verdict};
+use helixlock_plant::machine::Air;
 
 use crate::support::diagnosed::{diagnosed, diagnosed_on, is_nobodys, names};
 use crate::support::passes::{MACHINE, white};
@@ -402,5 +403,59 @@ fn a_drift_beside_play_is_not_called_noise() {
         assert!(names(&found).contains(&"backlash"), "{seed}: {:?}", names(&found));
         let told = names(&found).len() == 2 || found.verdict == Verdict::Unexplained;
         assert!(told, "{seed}: {:?}", names(&found));
+    }
+}
+
+/// A headstock that warms up through four passes an hour apart: without a clock they seem to follow each other.
+#[test]
+fn no_drift_runs_on_through_pauses_that_nobody_logged() {
+    for (seed, is_timed) in seeds(1, 5).flat_map(|seed| [(seed, true), (seed, false)]) {
+        let mut noise = white(seed, 0.1);
+        let mut columns = [const { Vec::new() }; 4];
+        for pass in [0.0, 1.0, 2.0, 3.0] {
+            for row in 0..150 {
+                let mm = 4.0 * f64::from(row);
+                let time_s = 900.0 * pass + mm / 4.0;
+                let grown_um = 3.0 * (1.0 - libm::exp(-time_s / 1500.0));
+                let cells = [pass, mm, grown_um + noise(), time_s];
+                columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+            }
+        }
+        let titles = ["pass", "position_mm", "error_um", "time_s"].into_iter().zip(columns);
+        let found = diagnosed(titles.take(if is_timed { 4 } else { 3 }).collect());
+        let expected: &[&str] = if is_timed { &["headstock-growth"] } else { &[] };
+        assert_eq!(names(&found), expected, "{seed}: timed {is_timed}");
+        assert_ne!(found.verdict, Verdict::NothingMissing, "{seed}: timed {is_timed}");
+    }
+}
+
+/// A laser in the mountains, whose file knows all of its air: a kelvin is less there than at the sea.
+#[test]
+fn thin_air_is_no_error_of_the_air() {
+    const IN_AIR: &str = "spindle.speed = \"30 rpm\"\nworkpiece.lead = \"8 mm\"\n\
+                          lead_screw.lead = \"8 mm\"\nlaser.wavelength = \"0.63281983 um\"\n\
+                          [[effect]]\nkind = \"air-temperature\"\n\
+                          [[effect]]\nkind = \"air-pressure\"\n";
+    let index = |temperature_c, pressure_hpa| {
+        helixlock_plant::air::edlen(
+            0.632_819_83,
+            &Air { temperature_c, pressure_hpa, humidity_pct: 50.0 },
+        )
+    };
+    let reference = index(20.0, 1013.25);
+    for (seed, sea_hpa) in seeds(1, 4).flat_map(|seed| [(seed, 780.0), (seed, 970.0)]) {
+        let mut noise = white(seed, 0.05);
+        let mut columns = [const { Vec::new() }; 5];
+        for row in 0..400 {
+            let (time_s, mm) = (60.0 * f64::from(row), 3.0 * f64::from(row));
+            let air_c = 22.0 + 1.5 * libm::sin(time_s / 3000.0);
+            let air_hpa = sea_hpa + 4.0 * libm::sin(time_s / 7000.0);
+            let short_um = 1e3 * mm * (reference - index(air_c, air_hpa)) / reference;
+            let cells = [time_s, mm, air_c, air_hpa, short_um + noise()];
+            columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+        }
+        let titles = ["time_s", "position_mm", "air_temperature_c", "air_pressure_hpa", "error_um"];
+        let found = diagnosed_on(IN_AIR, titles.into_iter().zip(columns).collect());
+        assert_eq!(found.verdict, Verdict::NothingMissing, "{seed}: {sea_hpa} hPa");
     }
 }

@@ -450,3 +450,57 @@ fn errors_of_targets_that_are_others_each_way_are_no_noise() {
         assert_eq!(found.verdict, Verdict::Unexplained, "{seed}");
     }
 }
+
+/// Passes of 120 rows at some speeds, rpm, of a screw of 8 mm, there or there and back; the error is of pass, place
+/// and way.
+fn at_speeds(
+    noise: &mut dyn FnMut() -> f64,
+    (speeds_rpm, turns_back): (&[f64], bool),
+    error_um: &dyn Fn(f64, f64, f64) -> f64,
+) -> Diagnosis {
+    let titles = ["pass", "time_s", "position_mm", "direction", "speed_rpm", "error_um"];
+    let mut columns = titles.map(|name| (name, Vec::new()));
+    let (mut pass, mut begins_s) = (0.0, 0.0);
+    for rpm in speeds_rpm {
+        let interval_s = 2.0 / (8.0 * rpm / 60.0);
+        for row in 0..120_u16 {
+            let is_back = turns_back && 60 <= row;
+            let (place, way) = if is_back { (119 - row, -1.0) } else { (row, 1.0) };
+            let (time_s, mm) = (begins_s + interval_s * f64::from(row), 2.0 * f64::from(place));
+            let cells = [pass, time_s, mm, way, *rpm, error_um(pass, mm, way) + noise()];
+            columns.iter_mut().zip(cells).for_each(|((_, values), cell)| values.push(cell));
+        }
+        pass += 1.0;
+        begins_s += 120.0 * interval_s + 60.0;
+    }
+    diagnosed(columns.into())
+}
+
+/// A beam that is askew and a fringe lost in the first pass, where the slope has come as far: a hop of the laser's
+/// wavelength at that moment draws all that follows.
+#[test]
+fn a_slope_and_a_slip_are_no_hop_of_the_laser() {
+    let lost = |pass, mm| if 0.5 < pass || 80.0 <= mm { 0.5 * 0.632_819_83 } else { 0.0 };
+    for seed in seeds(1, 6) {
+        let error = |pass, mm: f64, _| 0.004 * mm + lost(pass, mm);
+        let found = at_speeds(&mut white(seed, 0.06), (&[12.0, 24.0, 18.0], false), &error);
+        assert!(!names(&found).contains(&"laser-drift"), "{seed}: {:?}", names(&found));
+        assert!(names(&found).contains(&"fringe-slip"), "{seed}: {:?}", names(&found));
+    }
+}
+
+/// A sensor that is late by a time is as far behind as the axis is quick; play is as wide at any speed.
+#[test]
+fn what_is_late_at_two_speeds_is_no_play() {
+    for seed in seeds(1, 6) {
+        let of_way = |quick: f64| {
+            move |pass, _, way: f64| if pass < 0.5 { 0.3 * way } else { 0.3 * quick * way }
+        };
+        let shown =
+            |quick: f64| at_speeds(&mut white(seed, 0.3), (&[12.0, 36.0], true), &of_way(quick));
+        let late = shown(3.0);
+        assert_eq!(left(&late), ["late by a time, better than backlash"], "{seed}");
+        assert!(names(&late).is_empty(), "{seed}: {:?}", names(&late));
+        assert_eq!(names(&shown(1.0)), ["backlash"], "{seed}");
+    }
+}

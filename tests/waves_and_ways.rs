@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use helixlock_lab::{Diagnosis, FittedEffect, Verdict};
+use helixlock_lab::{Diagnosis, FittedEffect, Found, Verdict, diagnose, discover};
 
-use crate::support::diagnosed::{diagnosed, diagnosed_on, names};
+use crate::support::diagnosed::{self, diagnosed, diagnosed_on, names, problem_of};
 use crate::support::passes::{MACHINE, white};
 use crate::support::seeds::seeds;
 
@@ -400,5 +400,29 @@ fn what_switches_at_even_times_is_no_vibrations() {
         assert_eq!((found.verdict, names(&found)), (Verdict::Unexplained, vec![]), "{seed}");
         let told = found.residual.iter().any(|one| one.shape.contains("square wave in time"));
         assert!(told, "{seed}");
+    }
+}
+
+/// A thrust bearing moves the table once a turn, which recorder and thread show with opposite signs: the grating and
+/// the workpiece would have to do that between them.
+#[test]
+fn what_moves_the_table_is_no_two_waves_that_undo_each_other() {
+    for seed in seeds(1, 6) {
+        let mut noise = white(seed, 1.0);
+        let place = |row: u16| 1.7 * f64::from(row);
+        let mut table = vec![("position_mm", (0..360).map(place).collect())];
+        for (name, sign) in [("error_um", -1.0), ("lead_error_um", 1.0)] {
+            let ahead = |row| libm::sin(TAU * place(row) / 8.0 + 0.3);
+            table.push((name, (0..360).map(|row| sign * ahead(row) + noise()).collect()));
+        }
+        let problem = problem_of(diagnosed::MACHINE, table);
+        let found = diagnose(&problem);
+        assert_eq!(found.verdict, Verdict::Unexplained, "{seed}: {:?}", names(&found));
+        assert!(names(&found).is_empty(), "{seed}: {:?}", names(&found));
+        let along: Vec<&str> = found.residual.iter().map(|one| one.along.as_str()).collect();
+        assert_eq!(along, ["motion"], "{seed}");
+        let proposed = discover(&problem);
+        assert_eq!(proposed.found, Found::Formula, "{seed}");
+        assert!(proposed.effects.is_empty(), "{seed}");
     }
 }

@@ -47,11 +47,18 @@ pub(crate) fn formulas(problem: &Problem) -> Vec<Shape> {
     let mut all = nameless(problem);
     all.extend(each_turn(&quantities, problem, true));
     let shafts = problem.shafts(TURNS).into_iter().filter(|shaft| !shaft.of_a_gear);
-    let several = |shaft: Shaft| (2..=MOST_A_TURN).map(move |times| f64::from(times) * shaft.order);
-    let mut orders: Vec<f64> = shafts.flat_map(several).collect();
-    orders.sort_by(f64::total_cmp);
-    orders.dedup();
-    all.extend(orders.into_iter().flat_map(|order| several_a_turn(problem, order)));
+    let times = |shaft: Shaft| {
+        (1..=MOST_A_TURN).map(f64::from).map(move |times| (times * shaft.order, times))
+    };
+    let mut orders: Vec<(f64, f64)> = shafts.flat_map(times).collect();
+    orders.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    orders.dedup_by(|a, b| a.0.total_cmp(&b.0).is_eq());
+    all.extend(orders.iter().flat_map(|(order, _)| several_a_turn(problem, *order)));
+    if 1 < problem.sensors.len() {
+        // One sensor shows what goes in anywhere as it shows an effect of that order, which has a name.
+        let sine = |&(order, times)| Shape { listed: times, ..turning::sine(&quantities, order) };
+        all.extend(orders.iter().map(sine));
+    }
     all.extend(turning::waves(&quantities, problem));
     all.extend(turning::switching(&quantities, problem));
     all.extend(turning::resonances(&quantities, problem));

@@ -473,14 +473,16 @@ pub(super) fn of_each_pass(all: &Quantities) -> Vec<Shape> {
     shapes
 }
 
-/// What is late by a time, where the speed of every sample is known.
+/// What is late by a time, where the speed of every sample is known, or is another one in other passes: one that
+/// turns back at a single speed may as well have play.
 pub(super) fn late(all: &Quantities) -> Option<Shape> {
-    all.velocity.as_ref().map(|velocity| late_by(of(velocity)))
-}
-
-fn late_by(velocity: Expression) -> Shape {
-    shape("late by a time", "speed", "a sensor or a follower that is late by a time")
-        .curve("size", velocity)
+    let turns_back = 0.0 < spread(&all.speed.values) && 0.0 < spread(&all.direction.values);
+    let velocity = match &all.velocity {
+        Some(velocity) => of(velocity),
+        None => turns_back.then(|| of(&all.speed) * of(&all.direction))?,
+    };
+    let physics = "a sensor or a follower that is late by a time";
+    Some(shape("late by a time", "speed", physics).curve("size", velocity))
 }
 
 /// What depends on how fast, which way, and which pass.
@@ -495,9 +497,6 @@ pub(super) fn of_the_way(all: &Quantities) -> Vec<Shape> {
         );
     }
     if 0.0 < spread(&v.values) {
-        if all.velocity.is_none() {
-            shapes.push(late_by(of(v) * of(way)));
-        }
         let physics = "friction or heat that grows with speed";
         shapes.push(shape("by speed", "speed", physics).curve("size", of(v)));
         if moves {

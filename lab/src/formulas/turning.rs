@@ -39,6 +39,13 @@ pub(super) fn several_a_turn(all: &Quantities, shaft: &str, order: f64) -> Vec<S
     of_turns(shaft, &(shaft_turns(&all.turns, order) + unknown(0)), SEVERAL)
 }
 
+/// A sine of so many waves a turn of the spindle.
+pub(super) fn sine(all: &Quantities, order: f64) -> Shape {
+    let angle = turns(shaft_turns(&all.turns, order));
+    shape("sine each turn or several times", "spindle angle", "a bearing or a wheel that runs out")
+        .wave("amplitude", "phase_rad", None, angle)
+}
+
 fn of_turns(shaft: &str, turn: &Expression, words: [&'static str; 5]) -> Vec<Shape> {
     let each = |words, physics, most: f64, points| {
         let mut one = shape(words, shaft, physics).unknown(

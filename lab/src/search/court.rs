@@ -212,7 +212,7 @@ pub(super) struct Court<'a> {
     pub(super) state: &'a State,
     shapes: &'a [Shape],
     /// What each effect pays.
-    prices: Vec<Price>,
+    pub(super) prices: Vec<Price>,
     /// Shapes of each noise whose own noise is fitted.
     shortlist: usize,
     /// Places from which on a shape is looked for beside the effects only.
@@ -289,7 +289,7 @@ impl<'a> Court<'a> {
     }
 
     /// Columns of the effects that are in no group.
-    fn without(&self, group: &[usize]) -> Option<Columns> {
+    pub(super) fn without(&self, group: &[usize]) -> Option<Columns> {
         Columns::of_model(self.problem, &self.state.without(group)).ok()
     }
 
@@ -350,7 +350,7 @@ impl<'a> Court<'a> {
     /// True where some effects are ahead of columns that stand alone in their place.
     fn is_behind(&self, group: &[usize], rest: &Columns) -> bool {
         let Some(base) = self.without(group) else { return false };
-        let alone = self.likelihood_of(&base.and(rest));
+        let alone = self.settled(&base.and(rest)).log_likelihood;
         MARGIN < 2.0 * (self.state.fit.log_likelihood - alone)
     }
 
@@ -410,7 +410,7 @@ impl<'a> Court<'a> {
     fn claims_in(&self, seat: &Seat<'_>, tried: Tried<'a>) -> Vec<Claim<'a>> {
         let Seat { group, base, entries, stages } = seat;
         let listed = count(self.shapes.len() * entries.len());
-        let nothing = self.likelihood_of(base);
+        let nothing = self.settled(base).log_likelihood;
         let least_um = SHARE_OF_AN_EFFECT * self.shown_um(group);
         let mut claims = Vec::new();
         for (stage, tried) in stages.iter().zip(tried) {
@@ -440,7 +440,7 @@ impl<'a> Court<'a> {
     }
 
     /// Size of what some effects show together, µm.
-    fn shown_um(&self, group: &[usize]) -> f64 {
+    pub(super) fn shown_um(&self, group: &[usize]) -> f64 {
         let mut all = vec![0.0; self.problem.samples.len()];
         for shown in group.iter().filter_map(|&index| shown(self.problem, self.state, index)) {
             all.iter_mut().zip(shown).for_each(|(all, shown)| *all += shown);
@@ -448,16 +448,17 @@ impl<'a> Court<'a> {
         rms(&self.problem.layout, &all)
     }
 
-    /// Where a shape may enter in the place of a group.
+    /// Where a shape may enter in the place of a group: what goes in at several places may have one cause, which
+    /// goes in at another.
     fn entries(&self, group: &[usize]) -> Vec<Entry> {
-        let mut entries: Vec<Entry> =
-            group.iter().map(|&index| self.state.components[index].term.entry).collect();
-        if group.is_empty() || self.problem.sensors.len() == 1 {
-            entries = self.problem.distinct_entries();
+        let own = group.iter().map(|&index| self.state.components[index].term.entry);
+        let own: BTreeSet<Entry> = own.collect();
+        let is_of_one = own.len() == 1 && 1 < self.problem.sensors.len();
+        let more = if is_of_one { Vec::new() } else { self.problem.distinct_entries() };
+        if self.problem.sensors.len() == 1 {
+            return more;
         }
-        entries.sort();
-        entries.dedup();
-        entries
+        own.into_iter().chain(more).collect::<BTreeSet<Entry>>().into_iter().collect()
     }
 
     /// The shapes that take the most away under a stage's noise.
@@ -486,13 +487,12 @@ impl<'a> Court<'a> {
         placed.price(self.problem.price_of_a_number(), looks, gain)
     }
 
-    /// Log likelihood of some columns under the likelier of two noises: that of the model adjusted, and one of
-    /// what they leave.
-    fn likelihood_of(&self, base: &Columns) -> f64 {
+    /// Some columns under the likelier of two noises: that of the model adjusted, and one of what they leave.
+    pub(super) fn settled(&self, columns: &Columns) -> Fit {
         let problem = self.problem;
-        let near = settle(problem, base, &self.state.fit.noises);
-        let anew = settle(problem, base, &noises_of(problem, &near.left));
-        near.log_likelihood.max(anew.log_likelihood)
+        let near = settle(problem, columns, &self.state.fit.noises);
+        let anew = settle(problem, columns, &noises_of(problem, &near.left));
+        if near.log_likelihood < anew.log_likelihood { anew } else { near }
     }
 
     /// The model with a shape, under the likelier of two noises: that of the model adjusted, and

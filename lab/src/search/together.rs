@@ -158,8 +158,9 @@ fn clear_winner(
     (wins && best.is_beyond_noise(problem, now) && best.is_mutual(problem, now)).then_some(best)
 }
 
-/// Two effects in the place of one of many numbers, which may bend to what they draw together: one of few, such as a
-/// play, and one that is accepted beside it. `None` unless they are clearly ahead.
+/// Two effects in the place of one of many numbers, or of a free place or moment, which may bend to what they draw
+/// together, as a hop of the laser does to a slope and a slip: one of few, such as a play, and one that is accepted
+/// beside it. `None` unless they are clearly ahead.
 pub(super) fn instead(
     problem: &Problem,
     now: &State,
@@ -167,11 +168,13 @@ pub(super) fn instead(
     single: &[Judged],
 ) -> Option<Together> {
     let numbers = |one: &Judged| one.component.width() + one.component.term.nonlinear().len();
-    if numbers(best) < MANY_NUMBERS {
+    let name = best.component.term.name.as_str();
+    if numbers(best) < MANY_NUMBERS && !bends(&best.component.term) {
         return None;
     }
+    let is_other = |one: &&Judged| numbers(one) < MANY_NUMBERS && one.component.term.name != name;
     let mut firsts: Vec<&Judged> = Vec::new();
-    for one in single.iter().filter(|one| numbers(one) < MANY_NUMBERS) {
+    for one in single.iter().filter(is_other) {
         let is_like = |other: &&Judged| (other.gain - one.gain).abs() < SAME_CURVE;
         if !firsts.iter().any(is_like) {
             firsts.push(one);
@@ -179,7 +182,6 @@ pub(super) fn instead(
     }
     let of = |one: &Judged| Start::with(problem, now, &[], one)?.complete(problem, now);
     let pairs = firsts.into_iter().take(FIRST_OF_PAIRS).filter_map(of);
-    let name = best.component.term.name.as_str();
     let others = pairs.filter(|pair| !pair.names().contains(&name));
     let two = others.max_by(|a, b| a.evidence.total_cmp(&b.evidence))?;
     (best.evidence + MARGIN < two.evidence && two.is_mutual(problem, now)).then_some(two)

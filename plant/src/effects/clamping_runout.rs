@@ -17,7 +17,7 @@ pub(super) const CARD: Card = Card {
     kind: "clamping-runout",
     entry: Entry::Workpiece,
     summary: "the workpiece sits off the axis, or bent, in its clamping",
-    formula: "a₁·sin(θ + φ₁) + a₂·sin(2θ + φ₂)",
+    formula: "a₁·sin(θ + index + φ₁) + a₂·sin(2·(θ + index) + φ₂)",
     example: "a₁ = 1 µm: 1 µm at a quarter turn, on the thread only",
     parameters: &[
         Parameter::amplitude("amplitude1", UM, "once a turn").within(0.0..=100.0),

@@ -21,7 +21,7 @@ pub(super) const CARD: Card = Card {
     kind: "grating-eccentricity",
     entry: Entry::AngleReference,
     summary: "the grating disc sits off the spindle axis",
-    formula: "S·e/(π·D)·sin(θ + φ)",
+    formula: "S·e/(π·D)·sin(θ + index + φ)",
     example: "e = 1 µm, D = 200 mm, S = 6 mm: 0.0095 µm",
     parameters: &[
         Parameter::amplitude("eccentricity", UM, "distance of the disc from the axis")

@@ -17,7 +17,7 @@ pub(super) const CARD: Card = Card {
     kind: "grating-graduation",
     entry: Entry::AngleReference,
     summary: "the lines of the grating are not evenly divided",
-    formula: "a·sin(k·θ + φ), k ≥ 2",
+    formula: "a·sin(k·(θ + index) + φ), k ≥ 2",
     example: "a = 0.05 µm, S = 6 mm: 10.8 seconds of arc",
     parameters: &[
         Parameter::amplitude("amplitude", UM, "as lead").within(0.0..=50.0),
