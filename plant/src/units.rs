@@ -83,6 +83,12 @@ impl Unit {
         matches!(self.dimension, Time | Frequency | Drift | RelativeDrift)
     }
 
+    /// True of how fast something runs away evenly, of which each pass's zero takes all that came before it.
+    #[must_use]
+    pub fn is_of_drift(&self) -> bool {
+        self.dimension == Dimension::Drift
+    }
+
     /// The unit as the tail of a column or key name, such as `um_per_m`; empty for a number.
     #[must_use]
     pub fn suffix(&self) -> String {

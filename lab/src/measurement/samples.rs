@@ -99,6 +99,16 @@ pub struct Measurement {
     pub notes: Vec<String>,
 }
 
+impl Measurement {
+    /// True unless there are several passes, and no clock ran through all of them: how long the axis stood in between
+    /// is not known then.
+    pub(crate) fn tells_pauses(&self) -> bool {
+        let between = |row: &usize| self.pass[row - 1] != self.pass[*row];
+        let mut firsts = (1..self.pass.len()).filter(between);
+        firsts.all(|row| self.timed && self.time_s[row - 1] <= self.time_s[row])
+    }
+}
+
 impl Deref for Measurement {
     type Target = Samples;
 

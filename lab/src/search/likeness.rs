@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use helixlock_plant::prediction::gain;
+use helixlock_plant::units::Unit;
 use helixlock_plant::{CATALOGUE, Entry, Role, Search, Term};
 
 use crate::model::{Component, Problem, State, pattern};
@@ -252,15 +253,16 @@ pub(crate) fn by_the_clock(problem: &Problem, component: &Component) -> bool {
 
 /// True unless an effect runs by the clock where nobody measured it and the axis stands at targets, or between
 /// passes: the time that follows from the travel is none then. What happens at a moment, or is forgotten within a
-/// pass, knows nothing of the pauses between them.
+/// pass, knows nothing of the pauses between them, nor does what drifts evenly by a clock that begins anew with each.
 #[must_use]
 pub(crate) fn has_its_time(problem: &Problem, component: &Component) -> bool {
-    if problem.measurement.timed {
-        return true;
-    }
-    let by_time = component.term.parameters.iter().any(|what| what.unit.is_of_time());
-    let across_passes = 1 < problem.record.passes().len() && component.goes_on_with_time();
-    !(by_time && problem.places().is_some() || across_passes)
+    let measurement = &problem.measurement;
+    let units = || component.term.parameters.iter().map(|what| &what.unit);
+    let by_time = units().any(Unit::is_of_time);
+    let stands = !measurement.timed && problem.places().is_some();
+    let is_even = measurement.timed && units().all(|one| !one.is_of_time() || one.is_of_drift());
+    let goes_on = component.goes_on_with_time() && !is_even;
+    !(by_time && stands || goes_on && !measurement.tells_pauses())
 }
 
 /// True unless all samples lie at a few places that do not tell a wave over the travel from a longer

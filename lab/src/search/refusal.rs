@@ -128,7 +128,7 @@ impl fmt::Display for Refusal {
             Self::Clock => {
                 f.write_str("a frequency in time needs a clock and three waves in a pass")
             }
-            Self::Untimed => f.write_str("no time was measured, and pauses are in no log"),
+            Self::Untimed => f.write_str("how long the axis stood is in no log"),
             Self::Targets => f.write_str("not told by the targets from a longer wave"),
             Self::OneTarget => f.write_str("it shows at one target alone, where it has no shape"),
             Self::Play => f.write_str("a play wider than every move of the motor"),
