@@ -103,7 +103,8 @@ enum Apart {
     Constant,
 }
 
-/// That of two passes, as far as the shorter goes, to within what numbers of a table are rounded by; `None` where it varies.
+/// That of two passes, as far as the shorter goes, to within what numbers of a table are rounded by; `None` where it
+/// varies.
 fn apart(measurement: &Measurement, first: &Range<usize>, again: &Range<usize>) -> Option<Apart> {
     let mut by = Apart::Nothing;
     for values in measurement.observations.values() {

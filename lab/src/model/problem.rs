@@ -296,13 +296,13 @@ impl Problem {
     fn column_of(&self, entry: Entry, unit: &dyn Effect, lags: &[(Entry, Sum)]) -> Vec<f64> {
         let late = if unit.feeds_back() { &[] } else { lags };
         let filters = self.model.filter_cutoff_hz.is_some();
-        let is_asked = |finer: &Finer| match late {
-            [] => finer.measured.is_some() && filters,
-            _ => finer.is_between() || finer.record.len() <= MOST_BETWEEN,
+        let finer = match late {
+            [] if !filters => None,
+            [] => self.finer().filter(|finer| finer.measured.is_some()),
+            _ => self
+                .finer()
+                .filter(|finer| finer.is_between() || finer.record.len() <= MOST_BETWEEN),
         };
-        let is_known_alone = late.is_empty() && !filters;
-        let finer =
-            if is_known_alone { None } else { self.finer().filter(|finer| is_asked(finer)) };
         if late.is_empty() && finer.is_none() {
             return self.column(entry, &self.deltas_um(unit));
         }

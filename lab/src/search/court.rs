@@ -451,14 +451,15 @@ impl<'a> Court<'a> {
     /// Where a shape may enter in the place of a group: what goes in at several places may have one cause, which
     /// goes in at another.
     fn entries(&self, group: &[usize]) -> Vec<Entry> {
-        let own = group.iter().map(|&index| self.state.components[index].term.entry);
-        let own: BTreeSet<Entry> = own.collect();
-        let is_of_one = own.len() == 1 && 1 < self.problem.sensors.len();
-        let more = if is_of_one { Vec::new() } else { self.problem.distinct_entries() };
         if self.problem.sensors.len() == 1 {
-            return more;
+            return self.problem.distinct_entries();
         }
-        own.into_iter().chain(more).collect::<BTreeSet<Entry>>().into_iter().collect()
+        let own = group.iter().map(|&index| self.state.components[index].term.entry);
+        let mut entries: BTreeSet<Entry> = own.collect();
+        if entries.len() != 1 {
+            entries.extend(self.problem.distinct_entries());
+        }
+        entries.into_iter().collect()
     }
 
     /// The shapes that take the most away under a stage's noise.

@@ -16,10 +16,17 @@ use crate::policy::evidence::MARGIN;
 /// The one cause that is farthest ahead of two effects.
 #[must_use]
 pub(crate) fn one_cause(problem: &Problem, state: &State, found: &[Rivals]) -> Option<Winner> {
+    if problem.sensors.len() == 1 {
+        return None;
+    }
     let court = Court::new(problem, state, found, &[], (0, 0.0));
-    let entry = |index: usize| state.components[index].term.entry;
-    let all = (0..state.components.len()).flat_map(|one| (0..one).map(move |other| [other, one]));
-    let pairs = all.filter(|[one, other]| entry(*one) != entry(*other));
+    let term = |index: usize| &state.components[index].term;
+    // Numbers of the file are where they are.
+    let is_own =
+        |index: &usize| term(*index).nature().is_setting() || term(*index).instead_of.is_some();
+    let free: Vec<usize> = (0..state.components.len()).filter(|index| !is_own(index)).collect();
+    let all = free.iter().flat_map(|&one| free.iter().map(move |&other| [one, other]));
+    let pairs = all.filter(|[one, other]| one < other && term(*one).entry != term(*other).entry);
     let won = pairs.filter_map(|pair| instead_of(problem, state, &court, pair));
     won.max_by(|a, b| a.ahead.total_cmp(&b.ahead))
 }

@@ -160,7 +160,7 @@ fn clear_winner(
 
 /// Two effects in the place of one of many numbers, or of a free place or moment, which may bend to what they draw
 /// together, as a hop of the laser does to a slope and a slip: one of few, such as a play, and one that is accepted
-/// beside it. `None` unless they are clearly ahead.
+/// beside it. `None` unless they are clearly ahead of that one, and likelier than it with the best beside it.
 pub(super) fn instead(
     problem: &Problem,
     now: &State,
@@ -184,7 +184,9 @@ pub(super) fn instead(
     let pairs = firsts.into_iter().take(FIRST_OF_PAIRS).filter_map(of);
     let others = pairs.filter(|pair| !pair.names().contains(&name));
     let two = others.max_by(|a, b| a.evidence.total_cmp(&b.evidence))?;
-    (best.evidence + MARGIN < two.evidence && two.is_mutual(problem, now)).then_some(two)
+    let is_likelier = || of(best).is_none_or(|more| more.evidence < two.evidence);
+    let wins = best.evidence + MARGIN < two.evidence && is_likelier();
+    (wins && two.is_mutual(problem, now)).then_some(two)
 }
 
 /// A model with one effect more.
