@@ -477,11 +477,11 @@ fn at_speeds(
 }
 
 /// A beam that is askew and a fringe lost in the first pass, where the slope has come as far: a hop of the laser's
-/// wavelength at that moment draws all that follows.
+/// wavelength at that moment draws all that follows. (In the noise of seed 0 a hop and a growth are the likelier two.)
 #[test]
 fn a_slope_and_a_slip_are_no_hop_of_the_laser() {
     let lost = |pass, mm| if 0.5 < pass || 80.0 <= mm { 0.5 * 0.632_819_83 } else { 0.0 };
-    for seed in seeds(1, 6) {
+    for &seed in cases(1, &[1, 2, 3, 4, 5, 6, 7]) {
         let error = |pass, mm: f64, _| 0.004 * mm + lost(pass, mm);
         let found = at_speeds(&mut white(seed, 0.06), (&[12.0, 24.0, 18.0], false), &error);
         assert!(!names(&found).contains(&"laser-drift"), "{seed}: {:?}", names(&found));
