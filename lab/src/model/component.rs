@@ -2,7 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use helixlock_plant::{Column, Context, EffectError, Estimate, Role, Search, Smoothness, Term};
+use helixlock_plant::{
+    Column, Context, EffectError, Estimate, Parameter, Role, Search, Smoothness, Term,
+};
 
 use super::columns::Columns;
 use super::problem::{Design, Problem};
@@ -58,15 +60,6 @@ impl Columns {
     }
 }
 
-/// Columns of a parameter's own.
-fn width_of(role: Role) -> usize {
-    match role {
-        Role::Amplitude => 2,
-        Role::Linear | Role::Squared | Role::Known { .. } => 1,
-        Role::Phase | Role::Nonlinear | Role::Start { .. } => 0,
-    }
-}
-
 /// Some effects at coefficients of their columns in use, row by row in µm (arcsec); `None` when one
 /// cannot be worked out.
 #[must_use]
@@ -109,7 +102,11 @@ impl Component {
         let mut atoms = Vec::new();
         let mut column = 0;
         for parameter in &self.term.parameters {
-            let width = width_of(parameter.role);
+            let width = match parameter.role {
+                Role::Amplitude => 2,
+                Role::Linear | Role::Squared | Role::Known { .. } => 1,
+                Role::Phase | Role::Nonlinear | Role::Start { .. } => 0,
+            };
             if 0 < width {
                 atoms.push((column..column + width).collect());
                 column += width;
@@ -121,26 +118,26 @@ impl Component {
     /// Columns whose coefficient counts something and must be whole.
     #[must_use]
     pub(crate) fn counts(&self) -> Vec<usize> {
-        let atoms = self.atoms();
-        let is_open =
-            |what: &helixlock_plant::Parameter| !matches!(what.role, Role::Phase | Role::Nonlinear);
-        let linear = self.term.parameters.iter().filter(|what| is_open(what));
-        let counting =
-            |what: &helixlock_plant::Parameter| what.role == Role::Linear && what.name == "count";
-        linear.zip(atoms).filter(|(what, _)| counting(what)).map(|(_, atom)| atom[0]).collect()
+        let counting = |what: &Parameter| what.role == Role::Linear && what.name == "count";
+        self.sizes().filter(|(what, _)| counting(what)).map(|(_, atom)| atom[0]).collect()
+    }
+
+    /// Parameters that have columns of their own, with those.
+    fn sizes(&self) -> impl Iterator<Item = (&Parameter, Vec<usize>)> {
+        let parameters = self.term.parameters.iter();
+        parameters
+            .filter(|what| !matches!(what.role, Role::Phase | Role::Nonlinear))
+            .zip(self.atoms())
     }
 
     /// True for one that has a rate or a time constant in use, and forgets nothing within a pass.
     #[must_use]
     pub(crate) fn goes_on_with_time(&self) -> bool {
-        let mut kept = self.kept.iter();
-        let mut goes_on = |what: &helixlock_plant::Parameter| {
-            let columns = width_of(what.role);
-            let in_use = kept.by_ref().take(columns).any(|kept| *kept) || columns == 0;
-            in_use && what.unit.is_of_time() && what.search != Search::Time
-        };
-        let goes_on = self.term.parameters.iter().filter(|what| goes_on(what)).count();
-        0 < goes_on && !self.term.nature().delays
+        let runs = |what: &Parameter| what.unit.is_of_time() && what.search != Search::Time;
+        let is_kept = |atom: &[usize]| atom.iter().any(|&column| self.kept[column]);
+        let by_a_rate = self.sizes().any(|(what, atom)| runs(what) && is_kept(&atom));
+        let mut others = self.term.parameters.iter().filter(|what| what.role == Role::Nonlinear);
+        !self.term.nature().delays && (by_a_rate || others.any(runs))
     }
 
     /// Per column of its basis: true for a size of its own that is not in use.

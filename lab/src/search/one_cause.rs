@@ -27,24 +27,20 @@ pub(crate) fn one_cause(problem: &Problem, state: &State, found: &[Rivals]) -> O
     let free: Vec<usize> = (0..state.components.len()).filter(|index| !is_own(index)).collect();
     let all = free.iter().flat_map(|&one| free.iter().map(move |&other| [one, other]));
     let pairs = all.filter(|[one, other]| one < other && term(*one).entry != term(*other).entry);
-    let won = pairs.filter_map(|pair| instead_of(problem, state, &court, pair));
+    let won = pairs.filter_map(|pair| of_both(&court, pair));
     won.max_by(|a, b| a.ahead.total_cmp(&b.ahead))
 }
 
 /// The curve of one of two effects, where it is more likely to go in alone than both are where they do.
-fn instead_of(
-    problem: &Problem,
-    state: &State,
-    court: &Court<'_>,
-    pair: [usize; 2],
-) -> Option<Winner> {
+fn of_both(court: &Court<'_>, pair: [usize; 2]) -> Option<Winner> {
+    let (problem, components) = (court.problem, &court.state.components);
     let base = court.without(&pair)?;
-    let taken = pair.map(|index| state.components[index].term.entry);
+    let taken = pair.map(|index| components[index].term.entry);
     let entries = problem.distinct_entries().into_iter().filter(|entry| !taken.contains(entry));
     let places: Vec<(usize, Entry)> =
         entries.flat_map(|entry| pair.map(|index| (index, entry))).collect();
     let ahead = |&(index, entry): &(usize, Entry)| {
-        let mut one = state.components[index].clone();
+        let mut one = components[index].clone();
         one.term.entry = entry;
         let columns = Columns::of(problem, &[one]).ok()?;
         let fit = court.settled(&base.and(&columns));
@@ -56,8 +52,8 @@ fn instead_of(
     if ahead <= MARGIN {
         return None;
     }
-    let [one, other] = pair.map(|index| state.components[index].term.name.as_str());
-    let curve = &state.components[index].term.name;
+    let [one, other] = pair.map(|index| components[index].term.name.as_str());
+    let curve = &components[index].term.name;
     let shape = format!("one cause with the curve of {curve}, better than {one} and {other}");
     let chance = libm::exp(-0.5 * ahead).min(1.0);
     let shown = Structure::without_place(entry.word(), &shape, court.shown_um(&pair), chance);
