@@ -66,6 +66,7 @@ mod pages;
 mod parquet_readers;
 mod passes_and_turns;
 mod phase_meter;
+mod places_and_clocks;
 mod print;
 mod programmable_divider;
 mod properties;

@@ -426,3 +426,21 @@ fn what_moves_the_table_is_no_two_waves_that_undo_each_other() {
         assert!(proposed.effects.is_empty(), "{seed}");
     }
 }
+
+/// A shaft that no file lists goes 0.4 times less into the travel than the screw's second harmonic: three quarters of
+/// it are that harmonic, and the rest would be a line beside it.
+#[test]
+fn a_shaft_beside_a_harmonic_of_the_screw_is_not_that_harmonic() {
+    for seed in seeds(1, 6) {
+        let mut noise = white(seed, 1.0);
+        let turn = |row: u16| 34.0 * f64::from(row) / 1200.0;
+        let error = |turn: f64| 0.8 * libm::sin(TAU * (2.0 - 0.4 / 34.0) * turn + 1.0);
+        let columns = vec![
+            ("time_s", (0..1200).map(turn).collect()),
+            ("position_mm", (0..1200).map(|row| 5.0 * turn(row)).collect()),
+            ("error_um", (0..1200).map(|row| error(turn(row)) + noise()).collect()),
+        ];
+        let found = diagnosed_on(AXIS, columns);
+        assert_eq!((found.verdict, names(&found)), (Verdict::Unexplained, vec![]), "{seed}");
+    }
+}

@@ -33,9 +33,11 @@ pub(crate) fn hint(error: &anyhow::Error) -> String {
 /// A table that is an instrument's, by what it was refused for.
 fn foreign_table<'a>(cause: &'a (dyn Error + 'static)) -> Option<&'a Path> {
     match cause.downcast_ref::<LabError>() {
-        Some(LabError::NoObservation { path, .. } | LabError::NoCoordinate { path, .. }) => {
-            return Some(Path::new(path));
-        }
+        Some(
+            LabError::NoObservation { path, .. }
+            | LabError::NoCoordinate { path, .. }
+            | LabError::NoPosition { path, .. },
+        ) => return Some(Path::new(path)),
         Some(LabError::Trace(error)) => return foreign_trace(error),
         _ => {}
     }

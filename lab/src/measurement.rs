@@ -3,7 +3,9 @@
 //! Headers are understood, coordinates completed from each other, rows split into passes, rounded
 //! logs bridged, and impossible readings refused with their place.
 
+mod clock_ticks;
 mod coordinates;
+mod direction;
 mod error;
 mod headers;
 mod held;

@@ -27,6 +27,7 @@ mod starts;
 mod suspected;
 mod together;
 mod uneven;
+mod unlisted_order;
 
 pub(crate) use analysis::{Step, search, take_for_a_shape, tried_beside};
 pub(crate) use beside_the_rest::{not_told, untold};
@@ -41,3 +42,4 @@ pub(crate) use pruning::{Dropped, pruned, pruned_in_doubt};
 pub(crate) use refusal::Refusal;
 pub(crate) use rivals::{Rivals, rivals};
 pub(crate) use suspected::suspected;
+pub(crate) use unlisted_order::unlisted_order;

@@ -21,7 +21,7 @@ use crate::policy::chance::{AT_AN_END, STANDARD_ERRORS};
 use crate::policy::extent::{COARSER, COMPARED_ROWS, FEWEST_COARSE, SEARCHED_ROWS, STEPPED_ROWS};
 use crate::search::{
     Dropped, Refusal, Rivals, Step, at_flanks, come_again, hear, nobodys, not_told, one_cause,
-    one_comb, pruned, rivals, suspected, tried_beside, untold,
+    one_comb, pruned, rivals, suspected, tried_beside, unlisted_order, untold,
 };
 
 /// What can be said about a model and a measurement.
@@ -272,8 +272,9 @@ fn answered(searched: Searched, suspects: &[Suspect], rows: usize) -> Diagnosis 
     confuse(&mut found, heard.witnesses.into_iter().chain(suspected.witnesses));
     let problems = (&problem, &small);
     let asked = || at_flanks(&small, last, &found).or_else(|| come_again(&small, last, &found));
-    let first = heard.winner.into_iter().chain(one_cause(&small, last, &found));
-    let first = first.max_by(|a, b| a.ahead.total_cmp(&b.ahead));
+    let first =
+        [heard.winner, one_cause(&small, last, &found), unlisted_order(&small, last, &found)];
+    let first = first.into_iter().flatten().max_by(|a, b| a.ahead.total_cmp(&b.ahead));
     if let Some(winner) = first.or_else(asked) {
         found = take_out(problems, (&mut steps, &mut states), (&winner.beaten, BEATEN), found);
         residual.push(winner.shown);

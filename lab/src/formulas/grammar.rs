@@ -74,6 +74,12 @@ pub(crate) fn switching(problem: &Problem) -> Option<Shape> {
     turning::switching(&Quantities::of(problem), problem)
 }
 
+/// A sine of an order within so much of another.
+#[must_use]
+pub(crate) fn sine_near(problem: &Problem, order: f64, off: f64) -> Option<Shape> {
+    turning::sine_near(&Quantities::of(problem), problem, order, off)
+}
+
 /// What comes so often a turn of the spindle, several times with each of the spindle or of the screw: each one of those
 /// that come as often or less.
 #[must_use]

@@ -86,19 +86,8 @@ pub(super) fn each_way(all: &Quantities, shaft: &str, order: f64) -> Option<Shap
 
 /// A sine of any order of the spindle, and of any frequency in time.
 pub(super) fn waves(all: &Quantities, problem: &Problem) -> Vec<Shape> {
-    let mut shapes = Vec::new();
-    let over = &all.turns;
-    let highest = problem.highest_order().min(0.5 * usual_rate(&over.values));
-    let lowest = LONGEST_WAVE / spread(&over.values).max(f64::MIN_POSITIVE);
-    let band = Band::new(over.values.clone(), [lowest, highest]).filter(|_| all.placed);
-    if let Some(band) = band {
-        let physics = "a shaft, wheel or belt that the machine file does not list";
-        let mut wave = shape("sine of an order", "spindle angle", physics)
-            .unknown(ORDER, &Dimension::number(), vec![lowest, highest])
-            .wave("amplitude", "phase_rad", None, turns(unknown(0) * of(over)));
-        wave.scan = Some(band);
-        shapes.push(wave);
-    }
+    let mut shapes: Vec<Shape> =
+        orders_resolved(all, problem).map(|band| sine_of_an_order(all, band)).into_iter().collect();
     if let Some(band) = in_time(all, problem) {
         let over = &all.time;
         let mut wave =
@@ -109,6 +98,37 @@ pub(super) fn waves(all: &Quantities, problem: &Problem) -> Vec<Shape> {
         shapes.push(wave);
     }
     shapes
+}
+
+/// A sine of an order within so much of another: one of all that may be, wherever it is looked for.
+pub(super) fn sine_near(
+    all: &Quantities,
+    problem: &Problem,
+    order: f64,
+    off: f64,
+) -> Option<Shape> {
+    let [lowest, highest] = orders_resolved(all, problem)?.ends;
+    let ends = [(order - off).max(lowest), (order + off).min(highest)];
+    let band = Band::new(all.turns.values.clone(), ends)?;
+    let listed = (highest - lowest) / (ends[1] - ends[0]);
+    Some(Shape { listed, ..sine_of_an_order(all, band) })
+}
+
+fn sine_of_an_order(all: &Quantities, band: Band) -> Shape {
+    let physics = "a shaft, wheel or belt that the machine file does not list";
+    let mut wave = shape("sine of an order", "spindle angle", physics)
+        .unknown(ORDER, &Dimension::number(), band.ends.to_vec())
+        .wave("amplitude", "phase_rad", None, turns(unknown(0) * of(&all.turns)));
+    wave.scan = Some(band);
+    wave
+}
+
+/// Orders of the spindle that the samples resolve.
+fn orders_resolved(all: &Quantities, problem: &Problem) -> Option<Band> {
+    let over = &all.turns;
+    let highest = problem.highest_order().min(0.5 * usual_rate(&over.values));
+    let lowest = LONGEST_WAVE / spread(&over.values).max(f64::MIN_POSITIVE);
+    Band::new(over.values.clone(), [lowest, highest]).filter(|_| all.placed)
 }
 
 /// What switches at even times: on for a share of each period.

@@ -2,10 +2,10 @@
 
 use helixlock_traces::Table;
 
-use super::Nominal;
 use super::error::LabError;
+use super::{Nominal, clock_ticks, headers};
 use crate::numerics::spread;
-use crate::policy::reading::{CLOCK_S, LATE};
+use crate::policy::reading::{AS_FAR, CLOCK_S, LATE};
 
 /// Coordinates of the rows of a table, in the order of the file; NaN where unknown.
 #[derive(Debug, Clone)]
@@ -58,15 +58,31 @@ pub(crate) fn complete(table: &Table, nominal: &Nominal) -> Result<Coordinates, 
         Some(position) => position.to_vec(),
         None => scaled(&angle_rev, if nominal.rotary { 0.0 } else { nominal.lead_mm }),
     };
-    let time_s = if let Some(time) = time {
+    let placed = position.is_some() || angle.is_some();
+    if !placed && !nominal.rotary {
+        refuse_another_travel(table, &position_mm)?;
+    }
+    let apart = time.filter(|_| placed).and_then(|time| clock_ticks::told_apart(time, &angle_rev));
+    if apart.is_some() {
+        notes.push("rows of one reading of `time_s` lie evenly between it and the next".to_owned());
+    }
+    let time_s = if let Some(time) = apart.as_deref().or(time) {
         notes.extend(late_start(time));
         from_start(time)
     } else {
         notes.push("time follows from travel and the spindle speed".to_owned());
         elapsed(&angle_rev, turns_per_second)
     };
-    let placed = position.is_some() || angle.is_some();
     Ok(Coordinates { time_s, position_mm, angle_rev, timed: time.is_some(), placed, notes })
+}
+
+/// Refuses a travel that only a clock tells where a column in a unit of length moves as far: that is where the axis was.
+fn refuse_another_travel(table: &Table, made_mm: &[f64]) -> Result<(), LabError> {
+    let far_mm = AS_FAR * spread(made_mm);
+    let Some((name, _)) = headers::lengths(table).find(|(_, mm)| far_mm < spread(mm)) else {
+        return Ok(());
+    };
+    Err(LabError::NoPosition { path: table.path.display().to_string(), found: name.to_owned() })
 }
 
 /// True for an axis that goes either way.

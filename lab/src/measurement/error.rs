@@ -27,6 +27,16 @@ pub enum LabError {
         /// Names of the columns there are.
         found: String,
     },
+    /// A column in a unit of length moves as far as the axis, and has no name that says what it is.
+    #[error(
+        "{path}: found `{found}`, which moves as far as the axis, expected `position_mm` for where that is"
+    )]
+    NoPosition {
+        /// The file.
+        path: String,
+        /// The column.
+        found: String,
+    },
     /// The file measures another kind of machine than the machine file describes.
     #[error("{path}: found `{found}`, expected {expected}\n\nhint: {hint}")]
     OtherKind {
@@ -118,6 +128,7 @@ impl LabError {
             Self::Cell { at, .. } => At::clone(at),
             Self::NoObservation { path, .. }
             | Self::NoCoordinate { path, .. }
+            | Self::NoPosition { path, .. }
             | Self::OtherKind { path, .. }
             | Self::TooFew { path, .. }
             | Self::LonePasses { path, .. }
@@ -133,6 +144,7 @@ impl LabError {
             Self::Trace(error) => error.column(),
             Self::Cell { column, .. } => Some(column),
             Self::LonePasses { .. } => Some("pass"),
+            Self::NoPosition { found, .. } => Some(found),
             _ => None,
         }
     }

@@ -35,13 +35,26 @@ pub(super) fn is_known(name: &str) -> bool {
     LoggedColumn::named(name).is_some() || meaning(name).is_some()
 }
 
+/// Columns in a unit of machines' travels, in mm, whose names say nothing to us.
+pub(super) fn lengths(table: &Table) -> impl Iterator<Item = (&str, Vec<f64>)> {
+    let unknown = table.columns.iter().filter(|column| !is_known(&column.name));
+    unknown.filter_map(|column| {
+        let (_, unit) = split(&column.name.to_lowercase())?;
+        let units = LoggedColumn::named("position_mm")?.units.iter();
+        let (_, factor, _) =
+            units.filter(|(_, factor, _)| 1.0 <= *factor).find(|(name, ..)| *name == unit)?;
+        Some((column.name.as_str(), column.values.iter().map(|value| factor * value).collect()))
+    })
+}
+
 /// Our name for a column, with factor and offset.
 fn meaning(name: &str) -> Option<(&'static str, f64, f64)> {
     if LoggedColumn::named(name).is_some() {
         return None;
     }
     let lower = name.trim().to_lowercase();
-    let called = |name: &str, known: &LoggedColumn| known.headers.contains(&name);
+    let called =
+        |name: &str, known: &LoggedColumn| known.headers.contains(&name.trim_end_matches('.'));
     let bare = |known: &&LoggedColumn| known.units.is_empty() && called(&lower, known);
     if let Some(bare) = LOGGED_COLUMNS.iter().find(bare) {
         return Some((bare.name, 1.0, 0.0));
@@ -87,6 +100,8 @@ mod tests {
             ("Part temperature (°F)", "workpiece_temperature_c", -17.222_222_222),
             ("humidity (%)", "humidity_pct", 1.0),
             ("Pass", "pass", 1.0),
+            ("Run No.", "pass", 1.0),
+            ("Pos. / mm", "position_mm", 1.0),
         ] {
             let (found, factor, offset) = meaning(name).expect(name);
             assert_eq!(found, column, "{name}");

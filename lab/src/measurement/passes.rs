@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use helixlock_traces::Table;
 
 use super::coordinates::Coordinates;
+use super::direction;
 use crate::numerics::{count, median, spread, weighted_median};
 use crate::policy::reading::{
-    DIRECTION_REACH, JUMP_OF_MOVES, JUMP_OF_TRAVEL, LONE_PASSES, REVERSAL_REACH, ROWS_A_PASS,
-    ROWS_A_REVERSAL, WAY_OF_A_RESTART,
+    JUMP_OF_MOVES, JUMP_OF_TRAVEL, LONE_PASSES, ROWS_A_PASS, ROWS_A_REVERSAL, WAY_OF_A_RESTART,
 };
 
 /// Rows of the table in pass and time order, with what follows from that order.
@@ -66,7 +66,7 @@ pub(crate) fn split(
         let fallen = |by_s| Restart { pass: name, by_s };
         passes.restart = passes.restart.or_else(|| fell_by_s(&members, coordinates).map(fallen));
         order(&mut members, coordinates);
-        passes.direction.extend(direction(table, coordinates, &members));
+        passes.direction.extend(direction::of_rows(table, coordinates, &members));
         passes.speed_rpm.extend(speed(table, coordinates, &members));
         passes.pass.extend(std::iter::repeat_n(index, members.len()));
         passes.rows.extend(members);
@@ -174,52 +174,6 @@ fn order(members: &mut [usize], coordinates: &Coordinates) {
         .count();
     if members.len() < ROWS_A_REVERSAL * turns {
         members.sort_by(|&a, &b| angle(a).total_cmp(&angle(b)));
-    }
-}
-
-fn direction(table: &Table, coordinates: &Coordinates, members: &[usize]) -> Vec<f64> {
-    let given = table.column("direction");
-    let travel = |from: usize, to: usize| {
-        coordinates.angle_rev[members[to]] - coordinates.angle_rev[members[from]]
-    };
-    let last = members.len() - 1;
-    let mut before = if travel(0, last) < 0.0 { -1.0 } else { 1.0 };
-    let mut signs = Vec::with_capacity(members.len());
-    for (index, &row) in members.iter().enumerate() {
-        let told = given.map_or(f64::NAN, |column| column[row]);
-        let way =
-            travel(index.saturating_sub(DIRECTION_REACH), (index + DIRECTION_REACH).min(last));
-        if told.is_finite() && told != 0.0 {
-            before = told.signum();
-        } else if way != 0.0 {
-            before = way.signum();
-        }
-        signs.push(before);
-    }
-    if given.is_none() {
-        let angle = |index: usize| coordinates.angle_rev[members[index]];
-        turn_at_extremes(&mut signs, angle, |index| coordinates.time_s[members[index]]);
-    }
-    signs
-}
-
-/// Moves every change of sign to where the travel is farthest; a wide window told it only roughly.
-///
-/// The farthest sample lies on one side of the turning point: the turn is in the interval that
-/// was passed more slowly.
-fn turn_at_extremes(signs: &mut [f64], angle: impl Fn(usize) -> f64, time: impl Fn(usize) -> f64) {
-    let changes: Vec<usize> = (1..signs.len()).filter(|&i| signs[i - 1] * signs[i] < 0.0).collect();
-    let speed = |i: usize| ((angle(i + 1) - angle(i)) / (time(i + 1) - time(i))).abs();
-    for change in changes {
-        let way = signs[change - 1];
-        let window =
-            change.saturating_sub(REVERSAL_REACH)..(change + REVERSAL_REACH).min(signs.len());
-        let far = |&a: &usize, &b: &usize| (way * angle(a)).total_cmp(&(way * angle(b)));
-        let Some(last) = window.clone().max_by(far) else { continue };
-        let turned = 0 < last && last + 1 < signs.len() && speed(last - 1) < speed(last);
-        for index in window {
-            signs[index] = if index < last || (index == last && !turned) { way } else { -way };
-        }
     }
 }
 

@@ -199,6 +199,17 @@ pub(crate) const OWN_SHAPE: f64 = 0.5;
 /// whether it is one switch, and is none.
 pub(crate) const MULTIPLES: f64 = 7.0;
 
+/// How many times its plausible size an effect may have and be a rival.
+///
+/// Chosen: sizes of causes scatter by decades. Doubled: a slope of 20 µm in a few seconds is a drift of the table.
+pub(crate) const LARGEST_RIVAL: f64 = 10.0;
+
+/// Waves over the record by which an order may be off that draws a wave of a listed one.
+///
+/// Derived: sines that differ by a whole wave over the record have nothing in common. Doubled: a line of its own, which
+/// nobody has explained yet, stands in the place of the wave beside it.
+pub(crate) const OFF_AN_ORDER: f64 = 1.0;
+
 /// Waves of one name from which on they are the harmonics of one shape.
 ///
 /// Chosen: of two, one is a multiple of the other oftener than not. Doubled: pulses a fifth of their distance wide

@@ -117,6 +117,31 @@ pub(crate) const LONE_PASSES: usize = 1;
 /// Chosen. Doubled: reversals are told later, and moved back to the farthest sample all the same.
 pub(crate) const DIRECTION_REACH: usize = 2;
 
+/// Part of the steps that make most of the way up to which an axis rests, at half of the rows or more.
+///
+/// Chosen: encoders tremble by less than that of a step between targets. Doubled: an axis that goes slowly for most of
+/// the time stands there.
+pub(crate) const AT_REST: f64 = 0.05;
+
+/// What a position may jitter by from row to row: so much of a turn of the spindle, and of the travel of a pass.
+///
+/// Chosen: 25 µm of a screw of 5 mm, and a row of a thousand. Doubled: a step of a pilgrim's walk over 500 targets is
+/// a jitter.
+pub(crate) const JITTER_REV: f64 = 0.005;
+pub(crate) const JITTER_OF_TRAVEL: f64 = 0.001;
+
+/// Strokes of no more than [`DIRECTION_REACH`] rows from which on an axis makes such strokes.
+///
+/// Chosen: a reading far off its place is one or two. Doubled: an axis that turns round in six of its targets has gone
+/// one way.
+pub(crate) const SHORT_STROKES: usize = 3;
+
+/// Rows a reading, on average, from which on a clock is coarse.
+///
+/// Chosen: of two rows at one instant one may be the other sensor's. Doubled: noise that goes on over three rows is
+/// none within a tick and leaps at its end.
+pub(crate) const ROWS_A_TICK: usize = 3;
+
 /// Samples on each side in which a reversal, or a slip at one, lies.
 ///
 /// Derived: one more than [`DIRECTION_REACH`]. Doubled: slips six samples from a reversal rival
@@ -140,6 +165,11 @@ pub(crate) const WRITTEN_INTERVAL: f64 = 1e-3;
 /// Chosen: less is not seen in a picture. Doubled: a moment is told by a fiftieth of the record
 /// earlier than the file has it, and nothing is said.
 pub(crate) const LATE: f64 = 0.01;
+
+/// Part of the travel that a clock tells from which on a length of no known name is where the axis was.
+///
+/// Chosen: gaps, levels and wear are smaller. Doubled: an axis that rested for most of the record goes by the clock.
+pub(crate) const AS_FAR: f64 = 0.1;
 
 /// Seconds from which on a first time is a clock's, and the record begins at zero.
 ///

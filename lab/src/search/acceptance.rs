@@ -18,7 +18,7 @@ use crate::numerics::{chi_squared_tail, longest};
 use crate::policy::chance::{
     FEW_SAMPLES, NAMED, NAMED_IN_OTHER_NOISE, NO_ALL_CLEAR, STANDARD_ERRORS,
 };
-use crate::policy::evidence::{MOST_OF_A_NAME, MOST_WHOLE_WAVES};
+use crate::policy::evidence::{LARGEST_RIVAL, MOST_OF_A_NAME, MOST_WHOLE_WAVES};
 use crate::policy::extent::STROKES_A_SHORT_ONE;
 use crate::policy::size::{SHARE_OF_NOISE, TRUE_TO};
 
@@ -37,7 +37,7 @@ pub(crate) fn refusal(problem: &Problem, now: &State, judged: &Judged) -> Option
     too_small(problem, judged, component.size_um(problem, used))
         .or_else(|| undone(problem, now, judged))
         .or_else(|| no_better_unseen(problem, now, judged))
-        .or_else(|| implausible(problem, judged))
+        .or_else(|| implausible(problem, judged, 1.0))
         .or_else(|| (!likeness::turns_once(problem, component)).then_some(Refusal::Turn))
         .or_else(|| (!likeness::turns_enough(problem, component, used)).then_some(Refusal::Piece))
         .or_else(|| (!likeness::has_both_sides(problem, component, used)).then_some(Refusal::Edge))
@@ -188,15 +188,16 @@ pub(super) fn is_of_whole_waves(term: &Term) -> bool {
     term.parameters.iter().any(|what| matches!(what.search, Search::Whole | Search::GearOrder))
 }
 
-/// True when nothing in an effect's values and shape speaks against it.
+/// True when nothing in an effect's values and shape speaks against it as a rival: a size that nobody has met makes no
+/// name, but it does not make another one sure.
 #[must_use]
-pub(crate) fn plausible(problem: &Problem, judged: &Judged) -> bool {
-    implausible(problem, judged).is_none()
+pub(crate) fn may_rival(problem: &Problem, judged: &Judged) -> bool {
+    implausible(problem, judged, LARGEST_RIVAL).is_none()
 }
 
-/// Refused unless all parameters lie in their plausible ranges, to within two standard errors, and
-/// the shape shows enough of itself.
-fn implausible(problem: &Problem, judged: &Judged) -> Option<Refusal> {
+/// Refused unless all parameters lie in their plausible ranges, those that begin at nothing so many times as wide, to
+/// within two standard errors, and the shape shows enough of itself.
+fn implausible(problem: &Problem, judged: &Judged, reach: f64) -> Option<Refusal> {
     let component = &judged.component;
     if !likeness::shows_both_flanks(problem, component) {
         return Some(Refusal::Flank);
@@ -209,7 +210,8 @@ fn implausible(problem: &Problem, judged: &Judged) -> Option<Refusal> {
         if what.role == Role::Squared && estimate.value <= 0.0 {
             return Some(Refusal::NegativeSquare { parameter: what.key() });
         }
-        let (low, high) = (*what.range.start(), *what.range.end());
+        let reach = if what.range.contains(&0.0) { reach } else { 1.0 };
+        let (low, high) = (reach * *what.range.start(), reach * *what.range.end());
         let slack = STANDARD_ERRORS * estimate.stderr;
         let inside =
             high <= low || (low <= estimate.value + slack && estimate.value - slack <= high);

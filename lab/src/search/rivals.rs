@@ -1,6 +1,6 @@
 //! Who explains the data as well as an effect that was found, so that no name is safe.
 
-use super::acceptance::plausible;
+use super::acceptance::may_rival;
 use super::aliases::by_sampling;
 use super::judging::tried;
 use super::likeness::{by_physics, far_fetched};
@@ -76,7 +76,7 @@ fn confused(problem: &Problem, state: &State, index: usize, tried: &[Judged]) ->
     tried
         .iter()
         .filter(|judged| judged.component.term.name != *name && 0.0 < judged.gain)
-        .filter(|judged| plausible(problem, judged))
+        .filter(|judged| may_rival(problem, judged))
         .filter(|judged| !far_fetched(&judged.component, component, &state.components))
         .filter(|judged| {
             let behind = own.evidence - judged.evidence;
@@ -113,7 +113,7 @@ fn beside_a_part(problem: &Problem, state: &State, index: usize) -> Vec<String> 
                 |both| {
                     let ahead = 2.0 * (both.fit.log_likelihood - state.fit.log_likelihood);
                     let judged = Judged { fit: both.fit, ..judged.clone() };
-                    -MARGIN < ahead + saved - judged.price() && plausible(problem, &judged)
+                    -MARGIN < ahead + saved - judged.price() && may_rival(problem, &judged)
                 },
             )
         });

@@ -83,7 +83,7 @@ pub const LOGGED_COLUMNS: &[LoggedColumn] = &[
     coordinate("angle_rev", &["angle", "spindle angle", "rotation"], TURNS),
     coordinate("speed_rpm", &["speed", "spindle speed"], TURNS_A_MINUTE),
     coordinate("direction", &["direction"], &[]),
-    coordinate("pass", &["pass"], &[]),
+    coordinate("pass", &["pass", "pass no", "pass number", "run", "run no", "run number"], &[]),
     observed("error_um", &["error", "recorder error"], MICROMETRES),
     observed("error_arcsec", &["error", "angular error"], ARCSECONDS),
     observed("lead_error_um", &["lead error", "lead deviation", "travel deviation"], MICROMETRES),
