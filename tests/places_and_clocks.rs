@@ -45,7 +45,7 @@ fn play_is_told_where_single_steps_go_to_and_fro() {
         for places_mm in [anywhere, pilgrims] {
             let found = visited(seed, &places_mm);
             let told = (found.verdict, names(&found));
-            assert_eq!(told, (Verdict::Explained, vec!["backlash".to_owned()]), "{seed}");
+            assert_eq!(told, (Verdict::Explained, vec!["backlash"]), "{seed}");
         }
     }
 }
@@ -60,7 +60,7 @@ fn play_is_told_where_positions_tremble_at_rest() {
         let places_mm: Vec<f64> = readings.map(|target| target + tremble()).collect();
         let found = visited(seed, &places_mm);
         let told = (found.verdict, names(&found));
-        assert_eq!(told, (Verdict::Explained, vec!["backlash".to_owned()]), "{seed}");
+        assert_eq!(told, (Verdict::Explained, vec!["backlash"]), "{seed}");
     }
 }
 
