@@ -65,10 +65,11 @@ mod tests {
 
     #[test]
     fn rows_of_one_reading_lie_evenly_in_its_tick() {
-        let time_s = [7.0, 7.0, 8.0, 8.0, 8.0, 8.0, 9.0, 9.0, 9.0, 9.0, 10.0, 10.0, 10.0];
-        let angle_rev: Vec<f64> = (0..13).map(f64::from).collect();
+        let rows = [(7.0, 2), (8.0, 4), (9.0, 4), (10.0, 4), (11.0, 3)];
+        let time_s: Vec<f64> = rows.iter().flat_map(|(time, rows)| vec![*time; *rows]).collect();
+        let angle_rev: Vec<f64> = (0..17).map(f64::from).collect();
         let apart = told_apart(&time_s, &angle_rev).expect("four rows a tick");
-        let even: Vec<f64> = (0..13).map(|row| 7.5 + 0.25 * f64::from(row)).collect();
+        let even: Vec<f64> = (0..17).map(|row| 7.5 + 0.25 * f64::from(row)).collect();
         assert_eq!(apart, even);
     }
 
