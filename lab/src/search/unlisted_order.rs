@@ -2,7 +2,8 @@
 //!
 //! A wave that goes 0.4 times less into the travel than the screw's second harmonic is three quarters of that harmonic,
 //! and what is left of it is a line beside. So a sine of a free order stands in the place of each wave of a shaft, with
-//! those that no more than a wave over the record tells from it; among all orders it was looked for.
+//! those that no more than a wave over the record tells from it; among all orders it was looked for. It is the cause
+//! where it explains more than a line beside all waves would.
 
 use super::court::{Winner, in_place_of_any};
 use super::rivals::Rivals;
@@ -29,5 +30,9 @@ pub(crate) fn unlisted_order(problem: &Problem, state: &State, found: &[Rivals])
         let shape = sine_near(problem, order, off)?;
         in_place_of_any(problem, state, found, vec![near(order)], &[shape])
     };
-    orders.iter().filter_map(better).max_by(|a, b| a.ahead.total_cmp(&b.ahead))
+    let won = orders.iter().filter_map(better).max_by(|a, b| a.ahead.total_cmp(&b.ahead))?;
+    // Where another line stands beside them all, they are not to blame for it.
+    let any = sine_near(problem, 0.0, f64::INFINITY)?;
+    let beside = in_place_of_any(problem, state, found, vec![Vec::new()], &[any]);
+    beside.is_none_or(|beside| beside.ahead < won.ahead).then_some(won)
 }
