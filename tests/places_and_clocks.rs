@@ -39,9 +39,8 @@ fn play_is_told_where_single_steps_go_to_and_fro() {
         let mut chance = white(100 + seed, 1.0);
         let anywhere: Vec<f64> =
             (0..100).map(|_| 400.0 * (0.5 + libm::atan(chance()) / TAU)).collect();
-        let pilgrims: Vec<f64> = (0_u32..120)
-            .map(|row| 4.5 * f64::from(row / 4 * 2 + [0, 1, 2, 3][row as usize % 4]))
-            .collect();
+        let pilgrims: Vec<f64> =
+            (0_u32..120).map(|row| 4.5 * f64::from(row / 4 * 2 + row % 4)).collect();
         for places_mm in [anywhere, pilgrims] {
             let found = visited(seed, &places_mm);
             let told = (found.verdict, names(&found));
@@ -98,13 +97,14 @@ fn a_rival_of_no_plausible_size_is_a_rival() {
     }
 }
 
-fn read(first: &str, factor: f64) -> Result<Measurement, LabError> {
+/// Two runs over 76 mm or less, their places under a name.
+fn read(name: &str, factor: f64) -> Result<Measurement, LabError> {
     let rows = || (0..40_u32).map(f64::from);
     let column = |name: &str, values| Column { name: name.to_owned(), values };
     let table = Table::new(vec![
         column("Run No.", rows().map(|row| (row / 20.0).floor()).collect()),
         column("Time (s)", rows().collect()),
-        column(first, rows().map(|row| factor * (row % 20.0)).collect()),
+        column(name, rows().map(|row| factor * (row % 20.0)).collect()),
         column("error_um", rows().map(|row| row % 3.0).collect()),
     ]);
     let machine = Model::parse(AXIS, Path::new("machine.toml")).expect("a machine");

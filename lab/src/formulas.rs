@@ -10,5 +10,5 @@ mod quantities;
 mod shape;
 mod turning;
 
-pub(crate) use grammar::{formulas, nameless, several_a_turn, sine_near, switching};
+pub(crate) use grammar::{formulas, nameless, several_a_turn, sine_between, switching};
 pub(crate) use shape::{Delta, ORDER, Placed, Shape};

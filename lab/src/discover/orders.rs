@@ -3,7 +3,6 @@
 use helixlock_plant::Term;
 
 use crate::model::{Component, Problem};
-use crate::numerics::spread;
 use crate::policy::extent::{OVERTONES, SIDEBANDS};
 use crate::spectrum::gear_orders;
 
@@ -48,5 +47,5 @@ fn named(problem: &Problem, model: &[Component]) -> Vec<f64> {
 
 /// Turns of the spindle in a record, where it turns at all.
 fn turns(problem: &Problem) -> f64 {
-    spread(&problem.record.turns().collect::<Vec<_>>()).max(f64::MIN_POSITIVE)
+    problem.turned().max(f64::MIN_POSITIVE)
 }

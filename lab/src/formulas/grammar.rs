@@ -74,10 +74,10 @@ pub(crate) fn switching(problem: &Problem) -> Option<Shape> {
     turning::switching(&Quantities::of(problem), problem)
 }
 
-/// A sine of an order within so much of another.
+/// A sine of an order between two.
 #[must_use]
-pub(crate) fn sine_near(problem: &Problem, order: f64, off: f64) -> Option<Shape> {
-    turning::sine_near(&Quantities::of(problem), problem, order, off)
+pub(crate) fn sine_between(problem: &Problem, ends: [f64; 2]) -> Option<Shape> {
+    turning::sine_between(&Quantities::of(problem), problem, ends)
 }
 
 /// What comes so often a turn of the spindle, several times with each of the spindle or of the screw: each one of those

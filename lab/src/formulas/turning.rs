@@ -100,15 +100,14 @@ pub(super) fn waves(all: &Quantities, problem: &Problem) -> Vec<Shape> {
     shapes
 }
 
-/// A sine of an order within so much of another: one of all that may be, wherever it is looked for.
-pub(super) fn sine_near(
+/// A sine of an order between two: one of all that may be, wherever it is looked for.
+pub(super) fn sine_between(
     all: &Quantities,
     problem: &Problem,
-    order: f64,
-    off: f64,
+    [least, most]: [f64; 2],
 ) -> Option<Shape> {
     let [lowest, highest] = orders_resolved(all, problem)?.ends;
-    let ends = [(order - off).max(lowest), (order + off).min(highest)];
+    let ends = [least.max(lowest), most.min(highest)];
     let band = Band::new(all.turns.values.clone(), ends)?;
     let listed = (highest - lowest) / (ends[1] - ends[0]);
     Some(Shape { listed, ..sine_of_an_order(all, band) })

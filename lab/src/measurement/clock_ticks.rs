@@ -1,7 +1,7 @@
 //! Rows that share the readings of a coarse clock while the axis moves on.
 
 use crate::numerics::{count, median};
-use crate::policy::reading::ROWS_A_TICK;
+use crate::policy::reading::{ROWS_A_TICK, TICK_MISSED};
 
 /// Equal readings of a clock on end.
 #[derive(Debug, Clone, Copy)]
@@ -25,7 +25,7 @@ pub(super) fn told_apart(time_s: &[f64], angle_rev: &[f64]) -> Option<Vec<f64>> 
         return None;
     }
     let (tick, usual) = (median(&mut ticks), median(&mut rows));
-    let goes_on = |of: usize| ahead(of).is_some_and(|step| 0.0 < step && step < 1.5 * tick);
+    let goes_on = |of: usize| ahead(of).is_some_and(|step| 0.0 < step && step < TICK_MISSED * tick);
     let mut all = Vec::with_capacity(time_s.len());
     for (of, Reading { time_s, rows }) in readings.iter().enumerate() {
         let begins = of == 0 || !goes_on(of - 1);

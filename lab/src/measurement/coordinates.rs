@@ -79,7 +79,7 @@ pub(crate) fn complete(table: &Table, nominal: &Nominal) -> Result<Coordinates, 
 /// Refuses a travel that only a clock tells where a column in a unit of length moves as far: that is where the axis was.
 fn refuse_another_travel(table: &Table, made_mm: &[f64]) -> Result<(), LabError> {
     let far_mm = AS_FAR * spread(made_mm);
-    let Some((name, _)) = headers::lengths(table).find(|(_, mm)| far_mm < spread(mm)) else {
+    let Some((name, _)) = headers::lengths(table).find(|(_, mm)| far_mm < *mm) else {
         return Ok(());
     };
     Err(LabError::NoPosition { path: table.path.display().to_string(), found: name.to_owned() })

@@ -12,7 +12,9 @@ use crate::policy::reading::{
 pub(super) fn of_rows(table: &Table, coordinates: &Coordinates, members: &[usize]) -> Vec<f64> {
     let given = table.column("direction");
     let angles: Vec<f64> = members.iter().map(|&row| coordinates.angle_rev[row]).collect();
-    if let Some(least) = least_step(&angles).filter(|_| given.is_none()) {
+    if given.is_none()
+        && let Some(least) = least_step(&angles)
+    {
         return from_the_row_before(&angles, least);
     }
     let last = angles.len() - 1;
@@ -37,19 +39,24 @@ pub(super) fn of_rows(table: &Table, coordinates: &Coordinates, members: &[usize
 
 /// Of an axis that goes from place to place, rather than through them: the least step that is not a jitter.
 fn least_step(angles: &[f64]) -> Option<f64> {
-    let sizes = || angles.windows(2).map(|two| (two[1] - two[0]).abs());
-    let mut steps: Vec<(f64, f64)> = sizes().map(|size| (size, size)).collect();
-    let rest = AT_REST * weighted_median(&mut steps);
+    let sizes = || steps(angles).map(f64::abs);
+    let mut by_size: Vec<(f64, f64)> = sizes().map(|size| (size, size)).collect();
+    let rest = AT_REST * weighted_median(&mut by_size);
     let stands = 0.0 < rest && angles.len() < 2 * sizes().filter(|size| *size < rest).count();
     let jitter = JITTER_REV.max(JITTER_OF_TRAVEL * spread(angles));
     stands.then_some(rest).or_else(|| makes_short_strokes(angles, jitter).then_some(jitter))
+}
+
+/// From each row to the next.
+fn steps(angles: &[f64]) -> impl Iterator<Item = f64> {
+    angles.windows(2).map(|two| two[1] - two[0])
 }
 
 /// True for an axis that goes to and fro again and again within fewer rows than tell a way from a jitter, by far more
 /// than one: targets in any order, or three ahead and one back.
 fn makes_short_strokes(angles: &[f64], least: f64) -> bool {
     let mut strokes: Vec<(f64, usize)> = Vec::new();
-    for step in angles.windows(2).map(|two| two[1] - two[0]) {
+    for step in steps(angles) {
         let goes_on = step.abs() < least || strokes.last().is_some_and(|last| 0.0 < last.0 * step);
         match strokes.last_mut() {
             Some((_, rows)) if goes_on => *rows += 1,
@@ -64,9 +71,8 @@ fn makes_short_strokes(angles: &[f64], least: f64) -> bool {
 
 /// The way that the axis came to each row; to the first as it goes on.
 fn from_the_row_before(angles: &[f64], least: f64) -> Vec<f64> {
-    let steps = || angles.windows(2).map(|two| two[1] - two[0]);
-    let first = steps().find(|step| least <= step.abs()).unwrap_or(1.0).signum();
-    let ways = steps().scan(first, |way, step| {
+    let first = steps(angles).find(|step| least <= step.abs()).unwrap_or(1.0).signum();
+    let ways = steps(angles).scan(first, |way, step| {
         *way = if least <= step.abs() { step.signum() } else { *way };
         Some(*way)
     });

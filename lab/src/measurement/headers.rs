@@ -6,6 +6,8 @@
 use helixlock_plant::{HeaderUnit, LOGGED_COLUMNS, LoggedColumn};
 use helixlock_traces::Table;
 
+use crate::numerics::spread;
+
 /// The table with the columns it can be sure of renamed and converted, and a note on each; `None`
 /// when there are none.
 pub(super) fn understood(table: &Table) -> Option<(Table, Vec<String>)> {
@@ -35,15 +37,15 @@ pub(super) fn is_known(name: &str) -> bool {
     LoggedColumn::named(name).is_some() || meaning(name).is_some()
 }
 
-/// Columns in a unit of machines' travels, in mm, whose names say nothing to us.
-pub(super) fn lengths(table: &Table) -> impl Iterator<Item = (&str, Vec<f64>)> {
+/// Columns in a unit of machines' travels whose names say nothing to us, and how far they go, mm.
+pub(super) fn lengths(table: &Table) -> impl Iterator<Item = (&str, f64)> {
     let unknown = table.columns.iter().filter(|column| !is_known(&column.name));
     unknown.filter_map(|column| {
         let (_, unit) = split(&column.name.to_lowercase())?;
         let units = LoggedColumn::named("position_mm")?.units.iter();
         let (_, factor, _) =
             units.filter(|(_, factor, _)| 1.0 <= *factor).find(|(name, ..)| *name == unit)?;
-        Some((column.name.as_str(), column.values.iter().map(|value| factor * value).collect()))
+        Some((column.name.as_str(), factor * spread(&column.values)))
     })
 }
 

@@ -15,6 +15,11 @@ pub(crate) struct Shaft {
 }
 
 impl Problem {
+    /// Turns of the spindle from one end of the record to the other.
+    pub(crate) fn turned(&self) -> f64 {
+        spread(&self.record.turns().collect::<Vec<_>>())
+    }
+
     /// The spindle, the machine's screw and the slowest shafts of its gears, of those that make more than so many
     /// turns.
     #[must_use]
@@ -32,7 +37,7 @@ impl Problem {
         });
         let mut gears: Vec<Shaft> = gears.collect();
         gears.sort_by(|a, b| a.order.total_cmp(&b.order));
-        let turns = spread(&self.record.turns().collect::<Vec<_>>());
+        let turns = self.turned();
         let mut shafts: Vec<Shaft> = Vec::new();
         for shaft in own.chain(gears) {
             let order = shaft.order;

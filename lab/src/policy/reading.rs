@@ -142,6 +142,11 @@ pub(crate) const SHORT_STROKES: usize = 3;
 /// none within a tick and leaps at its end.
 pub(crate) const ROWS_A_TICK: usize = 3;
 
+/// Ticks from a reading of a coarse clock to the next from which on the log has paused between them.
+///
+/// Derived: half way from one tick to two. Doubled: rows before a second that nobody logged lie evenly through it.
+pub(crate) const TICK_MISSED: f64 = 1.5;
+
 /// Samples on each side in which a reversal, or a slip at one, lies.
 ///
 /// Derived: one more than [`DIRECTION_REACH`]. Doubled: slips six samples from a reversal rival

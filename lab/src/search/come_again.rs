@@ -23,8 +23,7 @@ pub(crate) fn come_again(problem: &Problem, state: &State, found: &[Rivals]) -> 
     let order = |one: &Component| {
         one.term.harmonic().filter(|waves| 1 < *waves).map(|_| one.waves_a_turn(problem))
     };
-    let turns = spread(&problem.record.turns().collect::<Vec<f64>>());
-    let in_turns = || harmonics(state, turns, order).into_iter();
+    let in_turns = || harmonics(state, problem.turned(), order).into_iter();
     let comes =
         |(order, group): (f64, Vec<usize>)| hear(vec![group], &several_a_turn(problem, order));
     switches.or_else(|| in_turns().filter_map(comes).max_by(|a, b| a.ahead.total_cmp(&b.ahead)))

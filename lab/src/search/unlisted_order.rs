@@ -7,16 +7,14 @@
 
 use super::court::{Winner, in_place_of_any};
 use super::rivals::Rivals;
-use crate::formulas::sine_near;
+use crate::formulas::sine_between;
 use crate::model::{Problem, State};
-use crate::numerics::spread;
 use crate::policy::evidence::OFF_AN_ORDER;
 
 /// The sine of an order that no part has, where that explains more than waves of shafts.
 #[must_use]
 pub(crate) fn unlisted_order(problem: &Problem, state: &State, found: &[Rivals]) -> Option<Winner> {
-    let turns = spread(&problem.record.turns().collect::<Vec<f64>>());
-    let off = OFF_AN_ORDER / turns.max(f64::MIN_POSITIVE);
+    let off = OFF_AN_ORDER / problem.turned().max(f64::MIN_POSITIVE);
     let all = state.components.iter().enumerate();
     let orders: Vec<(usize, f64)> = all
         .filter(|(_, one)| one.term.is_wave() && one.term.frequency_hz().is_none())
@@ -27,12 +25,12 @@ pub(crate) fn unlisted_order(problem: &Problem, state: &State, found: &[Rivals])
         orders.iter().filter(is_near).map(|(index, _)| *index).collect::<Vec<usize>>()
     };
     let better = |&(_, order): &(usize, f64)| {
-        let shape = sine_near(problem, order, off)?;
+        let shape = sine_between(problem, [order - off, order + off])?;
         in_place_of_any(problem, state, found, vec![near(order)], &[shape])
     };
     let won = orders.iter().filter_map(better).max_by(|a, b| a.ahead.total_cmp(&b.ahead))?;
     // Where another line stands beside them all, they are not to blame for it.
-    let any = sine_near(problem, 0.0, f64::INFINITY)?;
+    let any = sine_between(problem, [0.0, f64::INFINITY])?;
     let beside = in_place_of_any(problem, state, found, vec![Vec::new()], &[any]);
     beside.is_none_or(|beside| beside.ahead < won.ahead).then_some(won)
 }
