@@ -106,8 +106,16 @@ fn fits_the_smallest_board_with_room_and_gives_the_same_bytes_twice() {
     assert_eq!(said["settings"]["divide_b"], 150);
 }
 
-/// Boards that are like another one to the tools: built when all are asked for.
-const ALIKE: [&str; 5] = ["upduino", "tinyfpga-bx", "colorlight-i5", "orangecrab", "tang-nano-20k"];
+/// Boards that are like another one to the tools, or whose bitstream another test runs: built when all are asked for.
+const ALIKE: [&str; 7] = [
+    "icebreaker",
+    "hx8k",
+    "upduino",
+    "tinyfpga-bx",
+    "colorlight-i5",
+    "orangecrab",
+    "tang-nano-20k",
+];
 
 #[test]
 fn builds_for_every_other_board() {

@@ -49,6 +49,20 @@ fn play_is_told_where_single_steps_go_to_and_fro() {
     }
 }
 
+/// Thirteen rows ahead and ten back, and a row at each turn: it has come there, and the play is not taken up yet.
+#[test]
+fn play_at_once_takes_no_way_where_rows_are_at_the_turns() {
+    for seed in seeds(1, 4) {
+        let row_of_stroke = (0_u32..138).map(|row| (row / 23 * 3, row % 23));
+        let places = row_of_stroke.map(|(from, row)| from + if row < 14 { row } else { 26 - row });
+        let places_mm: Vec<f64> = places.map(|place| 4.1234 * f64::from(place)).collect();
+        let found = visited(seed, &places_mm);
+        let last = found.rounds.last().expect("there is always a round 0");
+        let ways: Vec<Vec<f64>> = last.effects.iter().map(|one| one.term.nonlinear()).collect();
+        assert_eq!((names(&found), ways), (vec!["backlash"], vec![vec![0.0]]), "{seed}");
+    }
+}
+
 /// Five readings at each target there and back, by an encoder that trembles.
 #[test]
 fn play_is_told_where_positions_tremble_at_rest() {

@@ -1,11 +1,14 @@
 //! Which way the axis goes at each row.
 
+use std::ops::Range;
+
 use helixlock_traces::Table;
 
 use super::coordinates::Coordinates;
 use crate::numerics::{spread, weighted_median};
 use crate::policy::reading::{
     AT_REST, DIRECTION_REACH, JITTER_OF_TRAVEL, JITTER_REV, REVERSAL_REACH, SHORT_STROKES,
+    SLOWED_BY, TREMBLES, TURNS_AT_ROWS,
 };
 
 /// That of each row of a pass: as told, or as the axis moves.
@@ -17,6 +20,7 @@ pub(super) fn of_rows(table: &Table, coordinates: &Coordinates, members: &[usize
     {
         return from_the_row_before(&angles, least);
     }
+    let rests = if given.is_some() { vec![false; angles.len()] } else { at_rest(&angles) };
     let last = angles.len() - 1;
     let mut before = if angles[last] < angles[0] { -1.0 } else { 1.0 };
     let mut signs = Vec::with_capacity(members.len());
@@ -26,24 +30,58 @@ pub(super) fn of_rows(table: &Table, coordinates: &Coordinates, members: &[usize
             - angles[index.saturating_sub(DIRECTION_REACH)];
         if told.is_finite() && told != 0.0 {
             before = told.signum();
-        } else if way != 0.0 {
+        } else if way != 0.0 && !rests[index] {
             before = way.signum();
         }
         signs.push(before);
     }
     if given.is_none() {
-        turn_at_extremes(&mut signs, |row| angles[row], |row| coordinates.time_s[members[row]]);
+        let time = |row: usize| coordinates.time_s[members[row]];
+        turn_at_extremes(&mut signs, &rests, |row| angles[row], time);
     }
     signs
 }
 
+/// Rows at which an axis stands and trembles: they go nowhere, and less far than all their steps would lead.
+fn at_rest(angles: &[f64]) -> Vec<bool> {
+    let mut rests = vec![false; angles.len()];
+    let least = rest(angles).min(jitter(angles));
+    let mut from = 0;
+    while from < angles.len() {
+        let (mut low, mut high, mut gone) = (angles[from], angles[from], 0.0);
+        let mut to = from + 1;
+        while let Some(next) = angles.get(to) {
+            (low, high) = (low.min(*next), high.max(*next));
+            if least <= high - low {
+                break;
+            }
+            gone += (next - angles[to - 1]).abs();
+            to += 1;
+        }
+        let stands = (angles[to - 1] - angles[from]).abs() < TREMBLES * gone;
+        rests[from..to].fill(stands);
+        // Half of what is no stand, so that a long one costs no square of its rows.
+        from = if stands { to } else { from + (to - from).div_ceil(2) };
+    }
+    rests
+}
+
+/// Steps up to which an axis that makes such steps may rest.
+fn rest(angles: &[f64]) -> f64 {
+    let mut by_size: Vec<(f64, f64)> = steps(angles).map(|step| (step.abs(), step.abs())).collect();
+    AT_REST * weighted_median(&mut by_size)
+}
+
+/// What the places of an axis may jitter by.
+fn jitter(angles: &[f64]) -> f64 {
+    JITTER_REV.max(JITTER_OF_TRAVEL * spread(angles))
+}
+
 /// Of an axis that goes from place to place, rather than through them: the least step that is not a jitter.
 fn least_step(angles: &[f64]) -> Option<f64> {
-    let sizes = || steps(angles).map(f64::abs);
-    let mut by_size: Vec<(f64, f64)> = sizes().map(|size| (size, size)).collect();
-    let rest = AT_REST * weighted_median(&mut by_size);
-    let stands = 0.0 < rest && angles.len() < 2 * sizes().filter(|size| *size < rest).count();
-    let jitter = JITTER_REV.max(JITTER_OF_TRAVEL * spread(angles));
+    let (rest, jitter) = (rest(angles), jitter(angles));
+    let at_rest = steps(angles).filter(|step| step.abs() < rest).count();
+    let stands = 0.0 < rest && angles.len() < 2 * at_rest;
     stands.then_some(rest).or_else(|| makes_short_strokes(angles, jitter).then_some(jitter))
 }
 
@@ -79,22 +117,54 @@ fn from_the_row_before(angles: &[f64], least: f64) -> Vec<f64> {
     std::iter::once(first).chain(ways).collect()
 }
 
-/// Moves every change of sign to where the travel is farthest; a wide window told it only roughly.
+/// Moves every change of sign to where the travel is farthest; a wide window told it only roughly. From where it stood,
+/// an axis turns as it leaves.
 ///
-/// The farthest sample lies on one side of the turning point: the turn is in the interval that
-/// was passed more slowly.
-fn turn_at_extremes(signs: &mut [f64], angle: impl Fn(usize) -> f64, time: impl Fn(usize) -> f64) {
-    let changes: Vec<usize> = (1..signs.len()).filter(|&i| signs[i - 1] * signs[i] < 0.0).collect();
+/// The farthest sample lies on one side of the turning point: the turn is in the interval next to it that was passed more
+/// slowly than all around. Where many turns are in neither, the axis turns at its samples, to which it has come.
+fn turn_at_extremes(
+    signs: &mut [f64],
+    rests: &[bool],
+    angle: impl Fn(usize) -> f64,
+    time: impl Fn(usize) -> f64,
+) {
+    let end = signs.len() - 1;
     let speed = |i: usize| ((angle(i + 1) - angle(i)) / (time(i + 1) - time(i))).abs();
-    for change in changes {
+    let is_slowest = |row: usize, window: &Range<usize>| {
+        let others = window.clone().filter(|other| *other != row && *other < end);
+        speed(row) < SLOWED_BY * others.map(speed).fold(f64::INFINITY, f64::min)
+    };
+    let turn = |change: usize| {
         let way = signs[change - 1];
-        let window =
-            change.saturating_sub(REVERSAL_REACH)..(change + REVERSAL_REACH).min(signs.len());
+        let window = change.saturating_sub(REVERSAL_REACH)..(change + REVERSAL_REACH).min(end + 1);
         let far = |&a: &usize, &b: &usize| (way * angle(a)).total_cmp(&(way * angle(b)));
-        let Some(last) = window.clone().max_by(far) else { continue };
-        let turned = 0 < last && last + 1 < signs.len() && speed(last - 1) < speed(last);
+        let last = window.clone().max_by(far)?;
+        let is_before = 0 < last && last < end && is_slowest(last - 1, &window);
+        let is_between = is_before || (last < end && is_slowest(last, &window));
+        Some(Turn { way, window, last, is_before, is_between })
+    };
+    let changes = (1..=end).filter(|&row| signs[row - 1] * signs[row] < 0.0 && !rests[row - 1]);
+    let turns: Vec<Turn> = changes.filter_map(turn).collect();
+    let at_rows = turns.iter().filter(|turn| !turn.is_between).count();
+    let at_rows = turns.len() <= TURNS_AT_ROWS * at_rows;
+    for Turn { way, window, last, is_before, .. } in turns {
         for index in window {
-            signs[index] = if index < last || (index == last && !turned) { way } else { -way };
+            let behind = last < index || (index == last && is_before && !at_rows);
+            signs[index] = if behind { -way } else { way };
         }
     }
+}
+
+/// A reversal, near the row where the travel is farthest.
+struct Turn {
+    /// The way before it.
+    way: f64,
+    /// Rows around it.
+    window: Range<usize>,
+    /// The farthest of them.
+    last: usize,
+    /// True when the interval before that was passed more slowly than all around.
+    is_before: bool,
+    /// True when that or the one behind it was.
+    is_between: bool,
 }

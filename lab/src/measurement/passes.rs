@@ -9,6 +9,7 @@ use super::direction;
 use crate::numerics::{count, median, spread, weighted_median};
 use crate::policy::reading::{
     JUMP_OF_MOVES, JUMP_OF_TRAVEL, LONE_PASSES, ROWS_A_PASS, ROWS_A_REVERSAL, WAY_OF_A_RESTART,
+    WAY_OF_ONE_RESTART,
 };
 
 /// Rows of the table in pass and time order, with what follows from that order.
@@ -145,11 +146,12 @@ fn by_jumps(
 }
 
 /// By how much the clock fell, s, where the way through the rows is far shorter as they stand in the file than as
-/// it has them; `None` where it rises, or rows were listed in another order than that of their instants.
+/// it has them, or shorter where it fell but once; `None` where it rises, or rows were listed in another order than that of their instants.
 fn fell_by_s(members: &[usize], coordinates: &Coordinates) -> Option<f64> {
     let Coordinates { time_s, angle_rev, timed, .. } = coordinates;
     let fall = |pair: &[usize]| time_s[pair[0]] - time_s[pair[1]];
     let furthest = members.windows(2).map(fall).fold(0.0, f64::max);
+    let falls = members.windows(2).map(fall).filter(|by_s| 0.0 < *by_s).count();
     if !timed || furthest <= 0.0 {
         return None;
     }
@@ -158,7 +160,8 @@ fn fell_by_s(members: &[usize], coordinates: &Coordinates) -> Option<f64> {
     };
     let mut in_time = members.to_vec();
     order(&mut in_time, coordinates);
-    (WAY_OF_A_RESTART * way(members) < way(&in_time)).then_some(furthest)
+    let longer = if falls == 1 { WAY_OF_ONE_RESTART } else { WAY_OF_A_RESTART };
+    (longer * way(members) < way(&in_time)).then_some(furthest)
 }
 
 /// Time order; without a clock the order of the file, or that of travel when rows are shuffled.

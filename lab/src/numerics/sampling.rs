@@ -2,17 +2,37 @@
 
 use super::fourier;
 use super::summary::{count, median, spread};
-use crate::policy::extent::{ALIKE_WINDOW, HIGHEST_AGAINST_RATE, SAME_WINDOW, WINDOW_FROM};
+use crate::policy::extent::{
+    ALIKE_WINDOW, HIGHEST_AGAINST_RATE, ROWS_A_TURN, SAME_PLACE, SAME_WINDOW, WINDOW_FROM,
+};
 
 /// Most frequencies at which the window is worked out.
 const MOST_POINTS: f64 = 65_536.0;
 
-/// Usual number of samples a unit of a coordinate: one over the median distance of neighbours.
+/// Usual number of samples a unit of a coordinate: one over the median distance of neighbours, in the order of their
+/// places where they were visited in none.
 #[must_use]
 pub(crate) fn usual_rate(coordinate: &[f64]) -> f64 {
-    let moves = coordinate.windows(2).map(|pair| (pair[1] - pair[0]).abs());
-    let mut moves: Vec<f64> = moves.filter(|step| 0.0 < *step).collect();
+    let mut moves = if are_in_no_order(coordinate) {
+        let mut places = coordinate.to_vec();
+        places.sort_unstable_by(f64::total_cmp);
+        moves(&places, SAME_PLACE * spread(&places) / count(places.len()))
+    } else {
+        moves(coordinate, 0.0)
+    };
     1.0 / median(&mut moves).max(f64::MIN_POSITIVE)
+}
+
+/// Distances of neighbours beyond the least.
+fn moves(places: &[f64], least: f64) -> Vec<f64> {
+    let moves = places.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+    moves.filter(|step| least < *step).collect()
+}
+
+/// True where the way to the next sample is another one every few samples.
+fn are_in_no_order(coordinate: &[f64]) -> bool {
+    let turns = |three: &&[f64]| (three[1] - three[0]) * (three[2] - three[1]) < 0.0;
+    coordinate.len() < ROWS_A_TURN * coordinate.windows(3).filter(turns).count()
 }
 
 /// Highest frequency that the places resolve, cycles a unit of the coordinate.
@@ -108,6 +128,14 @@ mod tests {
         let places: Vec<f64> = (0..500).map(|i| 0.1 * f64::from(i)).collect();
         let highest = highest_frequency(&places);
         assert!((highest - 5.0).abs() < 0.05, "{highest}");
+    }
+
+    /// Fifty places, visited in another order by steps of nineteen, the first of them by an encoder that trembles.
+    #[test]
+    fn places_in_no_order_resolve_what_they_do_in_theirs() {
+        let mut places: Vec<f64> = (0..50).map(|i| f64::from(19 * i % 50)).collect();
+        places.extend([0.002, 0.004, 0.001]);
+        assert!((usual_rate(&places) - 1.0).abs() < 1e-9, "{}", usual_rate(&places));
     }
 
     #[test]

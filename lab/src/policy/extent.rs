@@ -163,6 +163,17 @@ pub(crate) const ALIKE_WINDOW: f64 = 0.7;
 /// Not to be doubled; of even places it is 1.
 pub(crate) const SAME_WINDOW: f64 = 0.95;
 
+/// Rows a turn of the way, on average, below which places are visited in no order.
+///
+/// Derived: in random order two of three rows are turns, and half where an axis goes three ahead and one back. Doubled:
+/// strokes of eight rows are in no order either, which their places are the denser for.
+pub(crate) const ROWS_A_TURN: usize = 4;
+
+/// Part of the mean distance of places within which two of them are the same one, met again.
+///
+/// Chosen: an encoder trembles by less. Doubled: one in ten gaps of random places is none; they are the smallest.
+pub(crate) const SAME_PLACE: f64 = 0.05;
+
 /// Part of the usual rate from which on the window is looked at; below it is its own peak.
 ///
 /// Chosen, above half the rate, which even samples resolve. Doubled: the first return of samples

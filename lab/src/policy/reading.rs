@@ -85,6 +85,12 @@ pub(crate) const JUMP_OF_TRAVEL: f64 = 0.2;
 /// that began anew shortly before the end is not told.
 pub(crate) const WAY_OF_A_RESTART: f64 = 2.0;
 
+/// The same where the clock fell but once: the axis goes on from there, and by the clock would go back first.
+///
+/// Derived: a stroke has the way of two so; one there and back that was cut in the middle has none more. Doubled: only
+/// strokes that were cut where another clock is behind the first are told.
+pub(crate) const WAY_OF_ONE_RESTART: f64 = 1.25;
+
 /// Share of the most that an effect of one place shows, from which on a row is within its reach.
 ///
 /// Derived: four standard deviations of a bell. Doubled: three and a half.
@@ -123,6 +129,12 @@ pub(crate) const DIRECTION_REACH: usize = 2;
 /// the time stands there.
 pub(crate) const AT_REST: f64 = 0.05;
 
+/// Part of the sum of its steps that an axis has gone at most where it stands and trembles.
+///
+/// Derived: over five rows that tremble alone a quarter is to be expected, and all where an axis creeps. Doubled: it
+/// stands wherever it creeps.
+pub(crate) const TREMBLES: f64 = 0.5;
+
 /// What a position may jitter by from row to row: so much of a turn of the spindle, and of the travel of a pass.
 ///
 /// Chosen: 25 µm of a screw of 5 mm, and a row of a thousand. Doubled: a step of a pilgrim's walk over 500 targets is
@@ -152,6 +164,18 @@ pub(crate) const TICK_MISSED: f64 = 1.5;
 /// Derived: one more than [`DIRECTION_REACH`]. Doubled: slips six samples from a reversal rival
 /// backlash.
 pub(crate) const REVERSAL_REACH: usize = 3;
+
+/// Part of the slowest speed around that an interval is passed by in which an axis turns.
+///
+/// Chosen: rounded places and times move a speed by a thousandth. Nearer to 1: an axis of even speed that turns at its
+/// rows turns beside them. Half of it: one that turns within a quarter of a step of a row turns there.
+pub(crate) const SLOWED_BY: f64 = 0.98;
+
+/// Turns of which one at a row makes all to be at rows.
+///
+/// Derived: where an axis of uneven speed turns at its rows, three of five are next to no slowest interval; where it
+/// turns anywhere, hardly any. Doubled: one odd stroke in six moves all turns.
+pub(crate) const TURNS_AT_ROWS: usize = 3;
 
 /// Samples on each side of a reversal that stay single where others are averaged: there play and
 /// wind-up change quickly.
