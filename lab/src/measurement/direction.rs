@@ -130,8 +130,9 @@ fn turn_at_extremes(
 ) {
     let end = signs.len() - 1;
     let speed = |i: usize| ((angle(i + 1) - angle(i)) / (time(i + 1) - time(i))).abs();
-    let is_slowest = |row: usize, window: &Range<usize>| {
-        let others = window.clone().filter(|other| *other != row && *other < end);
+    // A stroke may have no more than six rows: two intervals on either side.
+    let is_slowest = |row: usize, last: usize| {
+        let others = (last.saturating_sub(2)..(last + 2).min(end)).filter(|other| *other != row);
         speed(row) < SLOWED_BY * others.map(speed).fold(f64::INFINITY, f64::min)
     };
     let turn = |change: usize| {
@@ -139,8 +140,8 @@ fn turn_at_extremes(
         let window = change.saturating_sub(REVERSAL_REACH)..(change + REVERSAL_REACH).min(end + 1);
         let far = |&a: &usize, &b: &usize| (way * angle(a)).total_cmp(&(way * angle(b)));
         let last = window.clone().max_by(far)?;
-        let is_before = 0 < last && last < end && is_slowest(last - 1, &window);
-        let is_between = is_before || (last < end && is_slowest(last, &window));
+        let is_before = 0 < last && last < end && is_slowest(last - 1, last);
+        let is_between = is_before || (last < end && is_slowest(last, last));
         Some(Turn { way, window, last, is_before, is_between })
     };
     let changes = (1..=end).filter(|&row| signs[row - 1] * signs[row] < 0.0 && !rests[row - 1]);

@@ -173,7 +173,7 @@ pub(crate) const SLOWED_BY: f64 = 0.98;
 
 /// Turns of which one at a row makes all to be at rows.
 ///
-/// Derived: where an axis of uneven speed turns at its rows, three of five are next to no slowest interval; where it
+/// Derived: where an axis of uneven speed turns at its rows, half of them are next to no slowest interval; where it
 /// turns anywhere, hardly any. Doubled: one odd stroke in six moves all turns.
 pub(crate) const TURNS_AT_ROWS: usize = 3;
 
