@@ -63,6 +63,41 @@ fn play_at_once_takes_no_way_where_rows_are_at_the_turns() {
     }
 }
 
+/// Strokes of five rows there and back, and eight rows at each end by an encoder that trembles.
+#[test]
+fn play_is_told_where_a_swift_axis_stands_before_it_turns() {
+    for seed in seeds(1, 4) {
+        let mut tremble = white(300 + seed, 0.0001);
+        let strokes = (0_u32..140).map(|row| (row / 14 % 2, (row % 14).min(6)));
+        let targets = strokes.map(|(back, row)| if back == 0 { row } else { 6 - row });
+        let places_mm: Vec<f64> = targets.map(|at| 15.0 * f64::from(at) + tremble()).collect();
+        let found = visited(seed, &places_mm);
+        let told = (found.verdict, names(&found));
+        assert_eq!(told, (Verdict::Explained, vec!["backlash"]), "{seed}");
+    }
+}
+
+/// A wave that goes 0.4 times more into the travel than a listed wheel turns, at 200 targets in random order.
+#[test]
+fn an_order_beside_a_wheels_is_not_its_own_at_targets_in_random_order() {
+    let machine = format!("{AXIS}gear = [{{ name = \"wheel\", order = 2.5 }}]\n");
+    for seed in seeds(1, 4) {
+        let (mut chance, mut noise) = (white(400 + seed, 1.0), white(seed, 1.0));
+        let places_mm: Vec<f64> =
+            (0..200).map(|_| 400.0 * (0.5 + libm::atan(chance()) / TAU)).collect();
+        let order = 2.5 + 0.4 * 5.0 / 200.0;
+        let wave_um = |mm: &f64| 1.6 * libm::sin(TAU * order * mm / 5.0);
+        let columns = vec![
+            ("time_s", (0_u32..200).map(|row| 6.0 * f64::from(row)).collect()),
+            ("error_um", places_mm.iter().map(|mm| wave_um(mm) + noise()).collect()),
+            ("position_mm", places_mm),
+        ];
+        let found = diagnosed_on(&machine, columns);
+        assert_eq!(found.verdict, Verdict::Unexplained, "{seed}: {:?}", names(&found));
+        assert!(names(&found).is_empty(), "{seed}: {:?}", names(&found));
+    }
+}
+
 /// Five readings at each target there and back, by an encoder that trembles.
 #[test]
 fn play_is_told_where_positions_tremble_at_rest() {

@@ -8,12 +8,6 @@
 /// Chosen: odds of 55 to 1. Doubled: 3000 to 1, and more answers are `ambiguous`.
 pub(crate) const MARGIN: f64 = 8.0;
 
-/// Evidence by which a shape without a name may be ahead of an effect that still has its name alone.
-///
-/// Chosen: half of [`MARGIN`], for of some hundred shapes one is ahead by little. Doubled: creep behind a reversal is
-/// play alone. 0: a tenth of the names that are right is `ambiguous`.
-pub(crate) const AS_LIKELY: f64 = 0.5 * MARGIN;
-
 /// Evidence that overrules a high inflation.
 ///
 /// Chosen: odds of 270 000 to 1, which no model of the noise is good enough for. Doubled: effects

@@ -27,7 +27,7 @@ use crate::model::{
 use crate::noise::{Noise, about_means, rms};
 use crate::numerics::{Looks, chi_squared_tail, count, in_parallel, spread};
 use crate::policy::chance::{NO_ALL_CLEAR, SIGNIFICANCE};
-use crate::policy::evidence::{AS_LIKELY, MARGIN, SHAPE};
+use crate::policy::evidence::{MARGIN, SHAPE};
 use crate::policy::size::SHARE_OF_AN_EFFECT;
 
 /// Shapes of each noise whose own noise is fitted.
@@ -375,10 +375,8 @@ impl<'a> Court<'a> {
             beside.is_some_and(|columns| self.are_sums_of(columns, group))
         };
         let others = claims.iter().filter(|claim| !adds(&claim.placed));
-        let least = if 1 < self.names(group).len() { -MARGIN } else { AS_LIKELY };
-        let Some(claim) = farthest(others).filter(|claim| least < claim.ahead) else {
-            return Vec::new();
-        };
+        let near = farthest(others).filter(|claim| -MARGIN < claim.ahead);
+        let Some(claim) = near.filter(|_| 1 < self.names(group).len()) else { return Vec::new() };
         group.iter().map(|&index| (index, claim.words())).collect()
     }
 

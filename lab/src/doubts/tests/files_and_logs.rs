@@ -75,6 +75,7 @@ fn a_clock_that_began_anew_within_a_pass_is_told() {
     };
     assert_eq!(of(330, 270.0, false), Some("clock"));
     assert_eq!(of(570, 470.0, false), Some("clock"));
+    assert_eq!(of(330, 1000.0, false), Some("clock"), "another clock, behind the first");
     assert_eq!(of(330, 0.0, true), None, "the later half may be listed first");
 }
 
