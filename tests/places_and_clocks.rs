@@ -49,27 +49,31 @@ fn play_is_told_where_single_steps_go_to_and_fro() {
     }
 }
 
-/// Thirteen rows ahead and ten back, and a row at each turn: it has come there, and the play is not taken up yet.
+/// Thirteen rows ahead and ten back at an uneven pace, and a row at each turn: the axis has come there, and its play
+/// is not taken up yet.
 #[test]
 fn play_at_once_takes_no_way_where_rows_are_at_the_turns() {
     for seed in seeds(1, 4) {
-        let row_of_stroke = (0_u32..138).map(|row| (row / 23 * 3, row % 23));
-        let places = row_of_stroke.map(|(from, row)| from + if row < 14 { row } else { 26 - row });
-        let places_mm: Vec<f64> = places.map(|place| 4.1234 * f64::from(place)).collect();
-        let found = visited(seed, &places_mm);
+        let mut chance = white(500 + seed, 0.8);
+        let way = |row: u32| if row % 23 < 13 { 1.0 } else { -1.0 };
+        let places = (0..138).scan(0.0, |at_mm, row| {
+            *at_mm += way(row) * (4.0 + chance());
+            Some(*at_mm)
+        });
+        let found = visited(seed, &places.collect::<Vec<f64>>());
         let last = found.rounds.last().expect("there is always a round 0");
         let ways: Vec<Vec<f64>> = last.effects.iter().map(|one| one.term.nonlinear()).collect();
         assert_eq!((names(&found), ways), (vec!["backlash"], vec![vec![0.0]]), "{seed}");
     }
 }
 
-/// Strokes of five rows there and back, and eight rows at each end by an encoder that trembles.
+/// Strokes of seven rows there and back, and six rows at each end by an encoder that trembles.
 #[test]
 fn play_is_told_where_a_swift_axis_stands_before_it_turns() {
     for seed in seeds(1, 4) {
         let mut tremble = white(300 + seed, 0.0001);
-        let strokes = (0_u32..140).map(|row| (row / 14 % 2, (row % 14).min(6)));
-        let targets = strokes.map(|(back, row)| if back == 0 { row } else { 6 - row });
+        let strokes = (0_u32..144).map(|row| (row / 12 % 2, (row % 12).min(7)));
+        let targets = strokes.map(|(back, row)| if back == 0 { row } else { 7 - row });
         let places_mm: Vec<f64> = targets.map(|at| 15.0 * f64::from(at) + tremble()).collect();
         let found = visited(seed, &places_mm);
         let told = (found.verdict, names(&found));
