@@ -172,8 +172,7 @@ impl<'a> Section<'a> {
         if !self.has(key.name) {
             return self.missing_key(key);
         }
-        let expected =
-            "a lead from 0.001 mm to 1000 mm such as \"6 mm\", \"1/6 in\" or \"0.5 pi mm\"";
+        let expected = "a lead from 0.001 mm to 1000 mm in at most nine digits such as \"6 mm\", \"1/6 in\" or \"0.5 pi mm\"";
         let lead = self.text(key.name)?.parse();
         lead.map_or_else(|_| self.refuse(self.wrong(key.name, expected)), Some)
     }
