@@ -146,7 +146,8 @@ fn by_jumps(
 }
 
 /// By how much the clock fell, s, where the way through the rows is far shorter as they stand in the file than as
-/// it has them, or shorter where it fell but once; `None` where it rises, or rows were listed in another order than that of their instants.
+/// it has them, or shorter where it fell but once; `None` where it rises, or rows were listed in another order than that
+/// of their instants.
 fn fell_by_s(members: &[usize], coordinates: &Coordinates) -> Option<f64> {
     let Coordinates { time_s, angle_rev, timed, .. } = coordinates;
     let fall = |pair: &[usize]| time_s[pair[0]] - time_s[pair[1]];
