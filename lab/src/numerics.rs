@@ -22,7 +22,9 @@ pub(crate) use golden_section::golden_maximum;
 pub(crate) use looks::Looks;
 pub(crate) use parallel::in_parallel;
 pub(crate) use random_effects::drawn_sizes_gain;
-pub(crate) use sampling::{highest_frequency, may_resolve, nearly_even_rate, resolves, usual_rate};
+pub(crate) use sampling::{
+    highest_frequency, may_resolve, nearly_even_rate, resolves, turns_of_the_way, usual_rate,
+};
 pub(crate) use summary::{
     count, deviation, longest, mean, median, one_in, rms_about_means, spread, weighted_median,
 };

@@ -13,39 +13,44 @@ use crate::policy::reading::{
 
 /// That of each row of a pass: as told, or as the axis moves.
 pub(super) fn of_rows(table: &Table, coordinates: &Coordinates, members: &[usize]) -> Vec<f64> {
-    let given = table.column("direction");
     let angles: Vec<f64> = members.iter().map(|&row| coordinates.angle_rev[row]).collect();
-    if given.is_none()
-        && let Some(least) = least_step(&angles)
-    {
+    let rows = 0..members.len();
+    let all = if angles.last() < angles.first() { -1.0 } else { 1.0 };
+    if let Some(column) = table.column("direction") {
+        let told =
+            |row: usize| Some(column[members[row]]).filter(|way| way.is_finite() && *way != 0.0);
+        return kept(all, rows.map(|row| told(row).unwrap_or_else(|| around(&angles, row))));
+    }
+    let (rest, jitter) = (rest(&angles), jitter(&angles));
+    if let Some(least) = least_step(&angles, rest, jitter) {
         return from_the_row_before(&angles, least);
     }
-    let rests = if given.is_some() { vec![false; angles.len()] } else { at_rest(&angles) };
-    let last = angles.len() - 1;
-    let mut before = if angles[last] < angles[0] { -1.0 } else { 1.0 };
-    let mut signs = Vec::with_capacity(members.len());
-    for (index, &row) in members.iter().enumerate() {
-        let told = given.map_or(f64::NAN, |column| column[row]);
-        let way = angles[(index + DIRECTION_REACH).min(last)]
-            - angles[index.saturating_sub(DIRECTION_REACH)];
-        if told.is_finite() && told != 0.0 {
-            before = told.signum();
-        } else if way != 0.0 && !rests[index] {
-            before = way.signum();
-        }
-        signs.push(before);
-    }
-    if given.is_none() {
-        let time = |row: usize| coordinates.time_s[members[row]];
-        turn_at_extremes(&mut signs, &rests, |row| angles[row], time);
-    }
+    let rests = at_rest(&angles, rest.min(jitter));
+    let mut signs = kept(all, rows.map(|row| if rests[row] { 0.0 } else { around(&angles, row) }));
+    let time = |row: usize| coordinates.time_s[members[row]];
+    turn_at_extremes(&mut signs, &rests, |row| angles[row], time);
     signs
 }
 
-/// Rows at which an axis stands and trembles: they go nowhere, and less far than all their steps would lead.
-fn at_rest(angles: &[f64]) -> Vec<bool> {
+/// How far an axis goes over the rows around one.
+fn around(angles: &[f64], row: usize) -> f64 {
+    let to = (row + DIRECTION_REACH).min(angles.len() - 1);
+    angles[to] - angles[row.saturating_sub(DIRECTION_REACH)]
+}
+
+/// The way of each row; one that is 0 keeps the way before it.
+fn kept(before: f64, ways: impl Iterator<Item = f64>) -> Vec<f64> {
+    let keep = |before: &mut f64, way: f64| {
+        *before = if way == 0.0 { *before } else { way.signum() };
+        Some(*before)
+    };
+    ways.scan(before, keep).collect()
+}
+
+/// Rows at which an axis stands and trembles by less than that: they go nowhere, and less far than all their steps would
+/// lead.
+fn at_rest(angles: &[f64], least: f64) -> Vec<bool> {
     let mut rests = vec![false; angles.len()];
-    let least = rest(angles).min(jitter(angles));
     let mut from = 0;
     while from < angles.len() {
         let (mut low, mut high, mut gone) = (angles[from], angles[from], 0.0);
@@ -78,8 +83,7 @@ fn jitter(angles: &[f64]) -> f64 {
 }
 
 /// Of an axis that goes from place to place, rather than through them: the least step that is not a jitter.
-fn least_step(angles: &[f64]) -> Option<f64> {
-    let (rest, jitter) = (rest(angles), jitter(angles));
+fn least_step(angles: &[f64], rest: f64, jitter: f64) -> Option<f64> {
     let at_rest = steps(angles).filter(|step| step.abs() < rest).count();
     let stands = 0.0 < rest && angles.len() < 2 * at_rest;
     stands.then_some(rest).or_else(|| makes_short_strokes(angles, jitter).then_some(jitter))
@@ -110,11 +114,8 @@ fn makes_short_strokes(angles: &[f64], least: f64) -> bool {
 /// The way that the axis came to each row; to the first as it goes on.
 fn from_the_row_before(angles: &[f64], least: f64) -> Vec<f64> {
     let first = steps(angles).find(|step| least <= step.abs()).unwrap_or(1.0).signum();
-    let ways = steps(angles).scan(first, |way, step| {
-        *way = if least <= step.abs() { step.signum() } else { *way };
-        Some(*way)
-    });
-    std::iter::once(first).chain(ways).collect()
+    let ways = steps(angles).map(|step| if least <= step.abs() { step } else { 0.0 });
+    kept(first, std::iter::once(first).chain(ways))
 }
 
 /// Moves every change of sign to where the travel is farthest; a wide window told it only roughly. From where it stood,
@@ -146,8 +147,8 @@ fn turn_at_extremes(
     };
     let changes = (1..=end).filter(|&row| signs[row - 1] * signs[row] < 0.0 && !rests[row - 1]);
     let turns: Vec<Turn> = changes.filter_map(turn).collect();
-    let at_rows = turns.iter().filter(|turn| !turn.is_between).count();
-    let at_rows = turns.len() <= TURNS_AT_ROWS * at_rows;
+    let beside_none = turns.iter().filter(|turn| !turn.is_between).count();
+    let at_rows = turns.len() <= TURNS_AT_ROWS * beside_none;
     for Turn { way, window, last, is_before, .. } in turns {
         for index in window {
             let behind = last < index || (index == last && is_before && !at_rows);

@@ -6,7 +6,7 @@ use helixlock_traces::Table;
 
 use super::coordinates::Coordinates;
 use super::direction;
-use crate::numerics::{count, median, spread, weighted_median};
+use crate::numerics::{count, median, spread, turns_of_the_way, weighted_median};
 use crate::policy::reading::{
     JUMP_OF_MOVES, JUMP_OF_TRAVEL, LONE_PASSES, ROWS_A_PASS, ROWS_A_REVERSAL, WAY_OF_A_RESTART,
     WAY_OF_ONE_RESTART,
@@ -150,10 +150,9 @@ fn by_jumps(
 /// of their instants.
 fn fell_by_s(members: &[usize], coordinates: &Coordinates) -> Option<f64> {
     let Coordinates { time_s, angle_rev, timed, .. } = coordinates;
-    let fall = |pair: &[usize]| time_s[pair[0]] - time_s[pair[1]];
-    let furthest = members.windows(2).map(fall).fold(0.0, f64::max);
-    let falls = members.windows(2).map(fall).filter(|by_s| 0.0 < *by_s).count();
-    if !timed || furthest <= 0.0 {
+    let steps = members.windows(2).map(|pair| time_s[pair[0]] - time_s[pair[1]]);
+    let falls: Vec<f64> = steps.filter(|by_s| 0.0 < *by_s).collect();
+    if !timed || falls.is_empty() {
         return None;
     }
     let way = |rows: &[usize]| -> f64 {
@@ -161,8 +160,8 @@ fn fell_by_s(members: &[usize], coordinates: &Coordinates) -> Option<f64> {
     };
     let mut in_time = members.to_vec();
     order(&mut in_time, coordinates);
-    let longer = if falls == 1 { WAY_OF_ONE_RESTART } else { WAY_OF_A_RESTART };
-    (longer * way(members) < way(&in_time)).then_some(furthest)
+    let longer = if falls.len() == 1 { WAY_OF_ONE_RESTART } else { WAY_OF_A_RESTART };
+    (longer * way(members) < way(&in_time)).then(|| falls.into_iter().fold(0.0, f64::max))
 }
 
 /// Time order; without a clock the order of the file, or that of travel when rows are shuffled.
@@ -172,10 +171,7 @@ fn order(members: &mut [usize], coordinates: &Coordinates) {
         return;
     }
     let angle = |row: usize| coordinates.angle_rev[row];
-    let turns = members
-        .windows(3)
-        .filter(|w| (angle(w[1]) - angle(w[0])) * (angle(w[2]) - angle(w[1])) < 0.0)
-        .count();
+    let turns = turns_of_the_way(&members.iter().map(|&row| angle(row)).collect::<Vec<_>>());
     if members.len() < ROWS_A_REVERSAL * turns {
         members.sort_by(|&a, &b| angle(a).total_cmp(&angle(b)));
     }

@@ -31,8 +31,14 @@ fn moves(places: &[f64], least: f64) -> Vec<f64> {
 
 /// True where the way to the next sample is another one every few samples.
 fn are_in_no_order(coordinate: &[f64]) -> bool {
+    coordinate.len() < ROWS_A_TURN * turns_of_the_way(coordinate)
+}
+
+/// How often the way through places turns round.
+#[must_use]
+pub(crate) fn turns_of_the_way(places: &[f64]) -> usize {
     let turns = |three: &&[f64]| (three[1] - three[0]) * (three[2] - three[1]) < 0.0;
-    coordinate.len() < ROWS_A_TURN * coordinate.windows(3).filter(turns).count()
+    places.windows(3).filter(turns).count()
 }
 
 /// Highest frequency that the places resolve, cycles a unit of the coordinate.
