@@ -5,10 +5,10 @@ use std::ops::Range;
 use helixlock_traces::Table;
 
 use super::coordinates::Coordinates;
-use crate::numerics::{spread, weighted_median};
+use crate::numerics::{deviation, median, spread, weighted_median};
 use crate::policy::reading::{
-    AT_REST, DIRECTION_REACH, JITTER_OF_TRAVEL, JITTER_REV, REVERSAL_REACH, SHORT_STROKES,
-    SLOWED_BY, TREMBLES, TURNS_AT_ROWS,
+    AT_REST, BEYOND_TREMBLING, DIRECTION_REACH, JITTER_OF_TRAVEL, JITTER_REV, REVERSAL_REACH,
+    ROWS_OF_A_STAND, SHORT_STROKES, SLOWED_BY, TREMBLES, TURNS_AT_ROWS,
 };
 
 /// That of each row of a pass: as told, or as the axis moves.
@@ -47,28 +47,48 @@ fn kept(before: f64, ways: impl Iterator<Item = f64>) -> Vec<f64> {
     ways.scan(before, keep).collect()
 }
 
-/// Rows at which an axis stands and trembles by less than that: they go nowhere, and less far than all their steps would
-/// lead.
+/// Rows at which an axis stands and trembles by less than that.
 fn at_rest(angles: &[f64], least: f64) -> Vec<bool> {
     let mut rests = vec![false; angles.len()];
     let mut from = 0;
     while from < angles.len() {
-        let (mut low, mut high, mut gone) = (angles[from], angles[from], 0.0);
-        let mut to = from + 1;
-        while let Some(next) = angles.get(to) {
+        let (mut low, mut high) = (angles[from], angles[from]);
+        let leaves = |next: &f64| {
             (low, high) = (low.min(*next), high.max(*next));
-            if least <= high - low {
-                break;
-            }
-            gone += (next - angles[to - 1]).abs();
-            to += 1;
+            least <= high - low
+        };
+        let to = angles[from..].iter().position(leaves).map_or(angles.len(), |rows| from + rows);
+        let rows = without_slow_ends(angles, from..to);
+        if trembles(&angles[rows.clone()]) {
+            rests[rows.clone()].fill(true);
+            from = rows.end;
+        } else {
+            // Half of what is no stand, so that a long one costs no square of its rows.
+            from += (to - from).div_ceil(2);
         }
-        let stands = (angles[to - 1] - angles[from]).abs() < TREMBLES * gone;
-        rests[from..to].fill(stands);
-        // Half of what is no stand, so that a long one costs no square of its rows.
-        from = if stands { to } else { from + (to - from).div_ceil(2) };
     }
     rests
+}
+
+/// Rows of what may be a stand, without those at its ends at which the axis slowly comes or goes: they are farther off
+/// than it trembles.
+fn without_slow_ends(angles: &[f64], rows: Range<usize>) -> Range<usize> {
+    let middle = median(&mut angles[rows.clone()].to_vec());
+    let off = |row: usize| (angles[row] - middle).abs();
+    let trembling = deviation(&mut rows.clone().map(off).collect::<Vec<f64>>());
+    let stands = |row: &usize| off(*row) <= BEYOND_TREMBLING * trembling;
+    let first = rows.clone().find(stands).unwrap_or(rows.start);
+    let last = rows.clone().rfind(stands).unwrap_or(first);
+    first..last + 1
+}
+
+/// True where an axis goes nowhere, less far than all its steps would lead, and more often to and fro than once: that is
+/// a turn.
+fn trembles(angles: &[f64]) -> bool {
+    let gone: f64 = steps(angles).map(f64::abs).sum();
+    let moves: Vec<f64> = steps(angles).filter(|step| *step != 0.0).collect();
+    let turns = moves.windows(2).filter(|two| two[0] * two[1] < 0.0).count();
+    2 <= turns && (angles[angles.len() - 1] - angles[0]).abs() < TREMBLES * gone
 }
 
 /// Steps up to which an axis that makes such steps may rest.
@@ -141,6 +161,11 @@ fn turn_at_extremes(
         let window = change.saturating_sub(REVERSAL_REACH)..(change + REVERSAL_REACH).min(end + 1);
         let far = |&a: &usize, &b: &usize| (way * angle(a)).total_cmp(&(way * angle(b)));
         let last = window.clone().max_by(far)?;
+        let back = |row: usize| way * (angle(last) - angle(row));
+        let stood = stood_until(last..window.end.min(end), window.start, back);
+        if let Some(last) = stood {
+            return Some(Turn { way, window, last, is_before: false, is_between: true });
+        }
         let is_before = 0 < last && last < end && is_slowest(last - 1, last);
         let is_between = is_before || (last < end && is_slowest(last, last));
         Some(Turn { way, window, last, is_before, is_between })
@@ -155,6 +180,16 @@ fn turn_at_extremes(
             signs[index] = if behind { -way } else { way };
         }
     }
+}
+
+/// The last of some rows behind a turn at which the axis still stood there, with those before them: a row later it is
+/// far away against how near they all are.
+fn stood_until(behind: Range<usize>, first: usize, back: impl Fn(usize) -> f64) -> Option<usize> {
+    behind.rev().find(|&row| {
+        let least = AT_REST * back(row + 1);
+        let near = (first..row).filter(|&other| back(other) < least).count();
+        back(row) < least && ROWS_OF_A_STAND <= near + 1
+    })
 }
 
 /// A reversal, near the row where the travel is farthest.

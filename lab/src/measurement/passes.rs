@@ -9,7 +9,6 @@ use super::direction;
 use crate::numerics::{count, median, spread, turns_of_the_way, weighted_median};
 use crate::policy::reading::{
     JUMP_OF_MOVES, JUMP_OF_TRAVEL, LONE_PASSES, ROWS_A_PASS, ROWS_A_REVERSAL, WAY_OF_A_RESTART,
-    WAY_OF_ONE_RESTART,
 };
 
 /// Rows of the table in pass and time order, with what follows from that order.
@@ -146,13 +145,13 @@ fn by_jumps(
 }
 
 /// By how much the clock fell, s, where the way through the rows is far shorter as they stand in the file than as
-/// it has them, or shorter where it fell but once; `None` where it rises, or rows were listed in another order than that
-/// of their instants.
+/// it has them, or where it fell but once and the axis went on; `None` where it rises, or rows were listed in another
+/// order than that of their instants.
 fn fell_by_s(members: &[usize], coordinates: &Coordinates) -> Option<f64> {
     let Coordinates { time_s, angle_rev, timed, .. } = coordinates;
     let steps = members.windows(2).map(|pair| time_s[pair[0]] - time_s[pair[1]]);
-    let falls: Vec<f64> = steps.filter(|by_s| 0.0 < *by_s).collect();
-    if !timed || falls.is_empty() {
+    let fall = steps.fold(0.0, f64::max);
+    if !timed || fall <= 0.0 {
         return None;
     }
     let way = |rows: &[usize]| -> f64 {
@@ -160,8 +159,26 @@ fn fell_by_s(members: &[usize], coordinates: &Coordinates) -> Option<f64> {
     };
     let mut in_time = members.to_vec();
     order(&mut in_time, coordinates);
-    let longer = if falls.len() == 1 { WAY_OF_ONE_RESTART } else { WAY_OF_A_RESTART };
-    (longer * way(members) < way(&in_time)).then(|| falls.into_iter().fold(0.0, f64::max))
+    let anew = WAY_OF_A_RESTART * way(members) < way(&in_time) || fell_once(members, coordinates);
+    anew.then_some(fall)
+}
+
+/// True where a clock fell but once, to before all there was, the axis went on from there as it goes, and all that came
+/// behind would by the clock have ended long before the rest began.
+fn fell_once(members: &[usize], coordinates: &Coordinates) -> bool {
+    let Coordinates { time_s, angle_rev, .. } = coordinates;
+    let (mut falls, mut longest_s, mut widest_rev) = (Vec::new(), 0.0_f64, 0.0_f64);
+    for (one, next) in members.windows(2).map(|pair| (pair[0], pair[1])) {
+        if time_s[next] < time_s[one] {
+            falls.push((one, next));
+        } else {
+            longest_s = longest_s.max(time_s[next] - time_s[one]);
+            widest_rev = widest_rev.max((angle_rev[next] - angle_rev[one]).abs());
+        }
+    }
+    let [(one, next)] = falls[..] else { return false };
+    let pause_s = time_s[members[0]] - time_s[members[members.len() - 1]];
+    longest_s < pause_s && (angle_rev[next] - angle_rev[one]).abs() <= widest_rev
 }
 
 /// Time order; without a clock the order of the file, or that of travel when rows are shuffled.

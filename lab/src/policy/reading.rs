@@ -85,12 +85,6 @@ pub(crate) const JUMP_OF_TRAVEL: f64 = 0.2;
 /// that began anew shortly before the end is not told.
 pub(crate) const WAY_OF_A_RESTART: f64 = 2.0;
 
-/// The same where the clock fell but once: the axis goes on from there, and by the clock would go back first.
-///
-/// Derived: a stroke has the way of two so; one there and back that was cut in the middle has none more. Doubled: only
-/// strokes that were cut where another clock is behind the first are told.
-pub(crate) const WAY_OF_ONE_RESTART: f64 = 1.25;
-
 /// Share of the most that an effect of one place shows, from which on a row is within its reach.
 ///
 /// Derived: four standard deviations of a bell. Doubled: three and a half.
@@ -135,6 +129,11 @@ pub(crate) const AT_REST: f64 = 0.05;
 /// stands wherever it creeps.
 pub(crate) const TREMBLES: f64 = 0.5;
 
+/// Deviations by which a standing axis trembles up to which a row belongs to the stand.
+///
+/// Derived: of normal trembling one row in 16 000 is farther. Doubled: the first row of a slow start is one of the stand.
+pub(crate) const BEYOND_TREMBLING: f64 = 4.0;
+
 /// What a position may jitter by from row to row: so much of a turn of the spindle, and of the travel of a pass.
 ///
 /// Chosen: 25 µm of a screw of 5 mm, and a row of a thousand. Doubled: a step of a pilgrim's walk over 500 targets is
@@ -164,6 +163,12 @@ pub(crate) const TICK_MISSED: f64 = 1.5;
 /// Derived: one more than [`DIRECTION_REACH`]. Doubled: slips six samples from a reversal rival
 /// backlash.
 pub(crate) const REVERSAL_REACH: usize = 3;
+
+/// Rows at a turn that are as near to each other as a standing axis trembles, where it stood.
+///
+/// Derived: a turn half way between two rows leaves these two at one place, and the third a sixth of the way of a row
+/// off or more. Doubled: an axis that rests for two rows turns before it rests.
+pub(crate) const ROWS_OF_A_STAND: usize = 3;
 
 /// Part of the slowest speed around that an interval is passed by in which an axis turns.
 ///
