@@ -10,6 +10,7 @@ mod finer;
 mod fit;
 mod holdout;
 mod judged;
+mod left_out;
 mod problem;
 mod shafts;
 mod stage;

@@ -140,13 +140,12 @@ impl Component {
         !self.term.nature().delays && (by_a_rate || others.any(runs))
     }
 
-    /// Per column of its basis: true for a size of its own that is not in use.
+    /// Columns of its basis that are sizes of their own and count nothing.
     #[must_use]
-    pub(crate) fn set_aside(&self) -> Vec<bool> {
+    pub(crate) fn sizes_alone(&self) -> Vec<usize> {
         let counts = self.counts();
         let alone = self.atoms().into_iter().filter(|atom| atom.len() == 1).map(|atom| atom[0]);
-        let alone: Vec<usize> = alone.filter(|column| !counts.contains(column)).collect();
-        (0..self.kept.len()).map(|column| !self.kept[column] && alone.contains(&column)).collect()
+        alone.filter(|column| !counts.contains(column)).collect()
     }
 
     /// Number of columns in use.

@@ -7,7 +7,7 @@ use super::columns::Columns;
 use super::component::{Component, shown_um};
 use super::problem::Problem;
 use super::state::State;
-use super::unsure::widening;
+use super::{left_out, unsure};
 use crate::noise::{Noise, Whitener};
 use crate::numerics::least_squares;
 
@@ -29,17 +29,18 @@ pub(crate) fn joint_covariance(problem: &Problem, state: &State) -> JointCovaria
 }
 
 /// Two covariances as they are told: of the values in use; and where a value that was left at 0 for want
-/// of evidence may be another one, for a slope is known no better than the bow beside it lets it be. Both
-/// with what is not known of the noise.
+/// of evidence may be another one. Both with what is not known of the noise.
 #[must_use]
 pub(crate) fn told_covariances(problem: &Problem, state: &State) -> [JointCovariance; 2] {
-    let told = |one: &Linearised| one.parted(state, &one.under_any(problem, state));
     let linearised = Linearised::of(problem, state);
-    let of_used = told(&linearised);
-    let others = set_aside(problem, state);
-    let of_all =
-        if others.raw.is_empty() { of_used.clone() } else { told(&linearised.beside(&others)) };
-    [of_used, of_all]
+    let of_used = linearised.under_any(problem, state);
+    let is_whole = |one: &Component| one.sizes_alone().iter().all(|&column| one.kept[column]);
+    let of_all = if state.components.iter().all(is_whole) {
+        of_used.clone()
+    } else {
+        widened(&of_used, &left_out::widening(problem, state, &linearised.columns))
+    };
+    [of_used, of_all].map(|covariance| linearised.parted(state, &covariance))
 }
 
 /// A model's columns, and how it changes with its nonlinear values.
@@ -61,11 +62,6 @@ impl Linearised {
         Self { columns: columns.and(&Columns::free(raw)), slopes, linear_width }
     }
 
-    /// It with others beside.
-    fn beside(self, others: &Columns) -> Self {
-        Self { columns: self.columns.and(others), ..self }
-    }
-
     /// Covariance of all coefficients under the fitted noise.
     fn under_fitted(&self, problem: &Problem, state: &State) -> DMatrix<f64> {
         covariance(problem, &self.columns, &state.fit.noises)
@@ -77,10 +73,7 @@ impl Linearised {
         if state.components.is_empty() {
             return fitted;
         }
-        let wider = widening(problem, state, &self.columns);
-        DMatrix::from_fn(fitted.nrows(), fitted.ncols(), |i, j| {
-            wider[i] * fitted[(i, j)] * wider[j]
-        })
+        widened(&fitted, &unsure::widening(problem, state, &self.columns))
     }
 
     /// A covariance of all coefficients as that of the linear ones and errors of the others.
@@ -96,17 +89,11 @@ impl Linearised {
     }
 }
 
-/// The columns of a model's effects that are not in use, but for counts, which are whole, and for the
-/// sizes of waves, which hardly share anything with others.
-fn set_aside(problem: &Problem, state: &State) -> Columns {
-    let mut all = Columns::default();
-    for component in &state.components {
-        let Ok(design) = problem.design(&component.term) else { continue };
-        let free = component.set_aside();
-        let columns = design.columns.into_iter().zip(free).filter(|(_, free)| *free);
-        all = all.and(&Columns::free(columns.map(|(column, _)| column)));
-    }
-    all
+/// A covariance whose standard errors are so many times as large.
+fn widened(covariance: &DMatrix<f64>, by: &[f64]) -> DMatrix<f64> {
+    DMatrix::from_fn(covariance.nrows(), covariance.ncols(), |i, j| {
+        by[i] * covariance[(i, j)] * by[j]
+    })
 }
 
 fn covariance(problem: &Problem, columns: &Columns, noises: &[Noise]) -> DMatrix<f64> {

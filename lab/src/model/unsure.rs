@@ -19,7 +19,7 @@ use crate::numerics::{count, in_parallel};
 use crate::policy::extent::SEARCHED_ROWS;
 
 /// Rows that tell which noises may be, and the linearised model on them.
-struct Rows<'a> {
+pub(super) struct Rows<'a> {
     layout: Layout,
     columns: Columns,
     left: Vec<f64>,
@@ -57,7 +57,7 @@ pub(super) fn widening(problem: &Problem, state: &State, columns: &Columns) -> V
 impl<'a> Rows<'a> {
     /// All rows, or as many, evenly picked, as a search looks at: what is faint among many rows is as
     /// faint against the errors of few.
-    fn of(problem: &'a Problem, state: &'a State, columns: &Columns) -> Self {
+    pub(super) fn of(problem: &'a Problem, state: &'a State, columns: &Columns) -> Self {
         let (noises, least_variance) = (&state.fit.noises, &problem.least_variance);
         let step = problem.samples.len().div_ceil(SEARCHED_ROWS).max(1);
         let (layout, rows) = problem.layout.every(step);
@@ -74,7 +74,7 @@ impl<'a> Rows<'a> {
     }
 
     /// What is added to the fitted coefficients under some noises.
-    fn fit(&self, noises: &[Noise]) -> Fit {
+    pub(super) fn fit(&self, noises: &[Noise]) -> Fit {
         with_noise(&self.layout, &self.columns, &self.left, noises)
     }
 

@@ -48,6 +48,22 @@ pub(crate) const KNOWN_IN_SETS: usize = 5;
 /// averaged in files of 3000 to 6000 rows no more. Reported figures are fitted to all rows.
 pub(crate) const SEARCHED_ROWS: usize = 3000;
 
+/// Sizes that are in use or not against the model that was found, in those that say how sure its values are.
+///
+/// Derived: a slope, a bow and an S are three. Doubled: of a formula with six sizes 64 models are weighed for 42.
+pub(crate) const MOST_CHANGED: usize = 3;
+
+/// Orders that are measured against a frequency in time, those first that are the strongest by a scan.
+///
+/// Chosen: half of those that 300 rows resolve; where targets are visited by turns the right one was the 18th to the 44th
+/// of a thousand. Doubled: twice the time of that question.
+pub(crate) const MEASURED_ORDERS: usize = 512;
+
+/// The same against a wave of a listed order, which was no choice among many: those of the few highest peaks.
+///
+/// Chosen: three points a peak, of four. Doubled: chance is given as many places again to be nearly as good.
+pub(crate) const MEASURED_FOR_A_LISTED_ONE: usize = 12;
+
 /// How many times fewer they are where a search has left structure and is made once more, and the fewest.
 ///
 /// Chosen: a ripple of a hundred waves a turn is noise to a row in 375, and a wave of few turns still has all
