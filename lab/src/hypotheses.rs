@@ -40,7 +40,7 @@ pub(crate) use agreement::{Disagreement, disagreements};
 pub(crate) use calibration::chance as chance_in_noise;
 pub(crate) use candidates::{
     Candidate, as_it_stands, candidate, candidates, candidates_like, however_begun, of_known_size,
-    turn_scan,
+    turn_scan, whole,
 };
 pub(crate) use flaws::{above_flaws, above_hunting, least_above_hunting};
 pub(crate) use likelihood::Likelihood;

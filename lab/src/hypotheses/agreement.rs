@@ -10,7 +10,7 @@ use crate::model::{Columns, Component, Problem, State, plain_noises, settle};
 use crate::noise::{Block, rms};
 use crate::numerics::{chi_squared_tail, count, mean, spread};
 use crate::policy::chance::DISAGREES;
-use crate::policy::evidence::WAVES_A_PASS;
+use crate::policy::evidence::WAVES_IN_TIME;
 use crate::policy::extent::{COLUMNS_OF_PASSES, PARTS_OF_A_RECORD};
 
 /// Shares of what follows a jump within which it may die away to a third.
@@ -74,7 +74,7 @@ fn beating_slowly(problem: &Problem, state: &State, index: usize) -> Vec<usize> 
     let is_near = |other: &usize| {
         *other != index
             && hertz(&state.components[*other])
-                .is_some_and(|hertz| (hertz - own).abs() * range_s < WAVES_A_PASS)
+                .is_some_and(|hertz| (hertz - own).abs() * range_s < WAVES_IN_TIME)
     };
     (0..state.components.len()).filter(is_near).collect()
 }

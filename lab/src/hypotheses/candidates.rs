@@ -385,7 +385,9 @@ fn logarithmic(problem: &Problem, parameter: &Parameter) -> Vec<f64> {
     by_factors(low.max(1e-12), high.max(1e-12), PLAIN)
 }
 
-fn whole(low: f64, high: f64) -> Vec<f64> {
+/// The whole numbers between two values, but for none, 64 at most.
+#[must_use]
+pub(crate) fn whole(low: f64, high: f64) -> Vec<f64> {
     let mut values = Vec::new();
     let mut value = low.ceil();
     while value <= high && values.len() < 64 {

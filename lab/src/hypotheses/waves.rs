@@ -55,12 +55,14 @@ fn of_line(problem: &Problem, along: &str, line: Line) -> Structure {
     Structure { at, at_stderr, line: Some(line), ..told }
 }
 
-/// Bands over the spindle angle and over time, sensor by sensor.
+/// Bands over the spindle angle and over time, sensor by sensor; where a clock begins anew in each pass also over
+/// the time that has gone, for a wave with a phase of its own in each is a band there.
 pub(super) fn bands(problem: &Problem, fit: &Fit) -> Vec<Structure> {
+    let axes: Vec<Cyclic> = cyclic(problem).into_iter().chain(time_gone(problem)).collect();
     let mut found = Vec::new();
     for sensor in 0..problem.sensors.len() {
-        for Cyclic { frequency, values, highest, .. } in cyclic(problem) {
-            let search = LineSearch { problem, fit, sensor, coordinate: &values, highest };
+        for &Cyclic { frequency, ref values, highest, .. } in &axes {
+            let search = LineSearch { problem, fit, sensor, coordinate: values, highest };
             let Some(band) = search.band() else { continue };
             let p_value = of_all(problem, band.p_value);
             let shape =
@@ -131,18 +133,33 @@ fn way(problem: &Problem) -> Option<Cyclic> {
     if once {
         return None;
     }
-    let turns: Vec<f64> = problem.record.turns().collect();
-    let mut gone = 0.0;
-    let steps = turns.windows(2).map(|two| (two[1] - two[0]).abs());
-    let values: Vec<f64> = std::iter::once(0.0)
-        .chain(steps.map(|step| {
-            gone += step;
-            gone
-        }))
-        .collect();
+    let values = gone_through(problem.record.turns());
     let highest = 0.5 * usual_rate(&values);
     let frequency = "order of the way";
     Some(Cyclic { along: "way", frequency, values: values.into(), highest })
+}
+
+/// The time that has gone since the record began, where a clock begins anew in each pass.
+fn time_gone(problem: &Problem) -> Option<Cyclic> {
+    let measurement = &problem.measurement;
+    (measurement.timed && !measurement.tells_pauses()).then(|| Cyclic {
+        along: "time",
+        frequency: "frequency in time",
+        values: gone_through(problem.record.time_s.iter().copied()).into(),
+        highest: problem.highest_hz(),
+    })
+}
+
+/// The sum of all steps up to each value.
+fn gone_through(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut before = None;
+    let mut gone = 0.0;
+    values
+        .map(|value| {
+            gone += before.replace(value).map_or(0.0, |before: f64| (value - before).abs());
+            gone
+        })
+        .collect()
 }
 
 fn time_is_travel(problem: &Problem) -> bool {

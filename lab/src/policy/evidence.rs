@@ -90,10 +90,15 @@ pub(crate) const SHAPE: f64 = 1e-3;
 /// Chosen: a tenth of its size. Doubled: a wave needs to show more of itself, a seventh.
 pub(crate) const WAVE: f64 = 0.01;
 
-/// Waves in the longest pass that a frequency in time must show.
+/// Share of a curve's square that another leaves where both are one.
 ///
-/// Chosen: what turns less is a drift. Doubled: shaking of less than six waves a pass is not named.
-pub(crate) const WAVES_A_PASS: f64 = 3.0;
+/// Chosen: a thousandth of its size, as rounded places leave. Doubled: a seven-hundredth.
+pub(crate) const SAME_CURVE: f64 = 1e-6;
+
+/// Waves that a frequency in time must show in what one clock has logged.
+///
+/// Chosen: what turns less is a drift. Doubled: shaking of less than six waves is not named.
+pub(crate) const WAVES_IN_TIME: f64 = 3.0;
 
 /// Samples a place, on average, from which on a record is a table of targets.
 ///

@@ -11,7 +11,7 @@ use crate::noise::{Block, Whitener, about_means};
 use crate::numerics::least_squares::dot;
 use crate::numerics::{count, least_squares, mean, median, resolves, spread};
 use crate::policy::evidence::{
-    HIGH_HARMONIC_PRICE, OF_THE_FILE_PRICE, OTHER_TARGETS, SHAPE, WAVE, WAVES_A_PASS,
+    HIGH_HARMONIC_PRICE, OF_THE_FILE_PRICE, OTHER_TARGETS, SHAPE, WAVE, WAVES_IN_TIME,
 };
 use crate::policy::extent::{FEWEST_TARGETS, MOST_OF_A_TURN, ROWS_A_COLUMN, RUN_IN};
 use crate::policy::reading::REVERSAL_REACH;
@@ -237,7 +237,7 @@ fn beyond_a_parabola(problem: &Problem, values: &[f64], rows: Range<usize>) -> f
 }
 
 /// True unless a frequency in time was found where no clock tells of it: times that were not measured, or less
-/// than three waves in every pass.
+/// than three waves in all passes that one clock went through, without their pauses, or in every pass by itself.
 #[must_use]
 pub(crate) fn by_the_clock(problem: &Problem, component: &Component) -> bool {
     let term = &component.term;
@@ -247,8 +247,12 @@ pub(crate) fn by_the_clock(problem: &Problem, component: &Component) -> bool {
     };
     let record = &problem.record;
     let seconds = record.passes().into_iter().map(|rows| spread(&record.time_s[rows]));
-    let longest_s = seconds.fold(0.0, f64::max);
-    problem.measurement.timed && WAVES_A_PASS <= longest_s * term.values[hertz]
+    let all_s: f64 = if problem.measurement.tells_pauses() {
+        seconds.sum()
+    } else {
+        seconds.fold(0.0, f64::max)
+    };
+    problem.measurement.timed && WAVES_IN_TIME <= all_s * term.values[hertz]
 }
 
 /// True unless an effect runs by the clock where nobody measured it and the axis stands at targets, or between

@@ -6,9 +6,12 @@ use super::likeness;
 use super::refusal::Refusal;
 use crate::hypotheses::{gain_at, turn_scan};
 use crate::model::{Columns, Judged, Problem, Stage, State};
-use crate::numerics::{count, golden_maximum, least_squares, median, spread};
+use crate::numerics::{
+    count, golden_maximum, in_parallel, least_squares, median, spread, usual_rate,
+};
 use crate::policy::evidence::{HELD_FOR, MARGIN, OFF_AN_EVEN_MOTION, TIME_LOCK};
-use crate::spectrum::wave;
+use crate::policy::extent::{MEASURED_FOR_A_LISTED_ONE, MEASURED_ORDERS};
+use crate::spectrum::{Point, Scan, strongest_first, wave};
 
 /// Steps to the best order near one.
 const STEPS: usize = 16;
@@ -46,7 +49,10 @@ fn ahead_of_orders(problem: &Problem, now: &State, judged: &Judged) -> Option<(f
     let of_row: Vec<f64> = problem.samples.iter().map(|&sample| turns[sample]).collect();
     let unit = problem.unit_column(judged.component.term.entry);
     let scan = turn_scan(&stage, &of_row, &unit);
-    let line = scan.strongest_anywhere(&stage.target[..of_row.len()]).map(|line| line.frequency);
+    let scan = Scan { highest: scan.highest.max(as_many_a_row(problem, judged, &turns)), ..scan };
+    let free = judged.component.term.frequency_hz().is_some();
+    let measured = if free { MEASURED_ORDERS } else { MEASURED_FOR_A_LISTED_ONE };
+    let line = strongest_anywhere(&scan, &stage.target[..of_row.len()], measured);
     let best_near = |order: f64, turns: &[f64]| {
         let mut explained = |order: f64| stage.gain(&waves(problem, turns, order)).gain;
         let near = (order - scan.resolution(), order + scan.resolution());
@@ -60,6 +66,26 @@ fn ahead_of_orders(problem: &Problem, now: &State, judged: &Judged) -> Option<(f
     let best = of_line.into_iter().chain(of_frequency);
     let (order, gain) = best.max_by(|a, b| a.1.total_cmp(&b.1))?;
     Some((order, own - gain))
+}
+
+/// The frequency that explains most of those that are the strongest by a scan: where targets are visited by turns, a scan
+/// takes many others for stronger.
+fn strongest_anywhere(scan: &Scan<'_>, white: &[f64], measured: usize) -> Option<f64> {
+    let points: Vec<Point> = strongest_first(scan.spectrum(white)).take(measured).collect();
+    let gains = in_parallel(&points, |point| scan.gain(white, point.frequency));
+    let best = points.iter().zip(gains).max_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some(best.0.frequency)
+}
+
+/// The order that has as many waves from row to row as a frequency in time has: among as many frequencies above what
+/// readings resolve at their usual rate, chance draws one that is as good as a wave of the travel.
+fn as_many_a_row(problem: &Problem, judged: &Judged, turns: &[f64]) -> f64 {
+    let a_row = |hertz: f64| hertz / usual_rate(&problem.record.time_s);
+    judged
+        .component
+        .term
+        .frequency_hz()
+        .map_or(0.0, |hertz| (a_row(hertz) + 1.5) * usual_rate(turns))
 }
 
 /// Turns as an even motion through each pass makes them, as far as rows lie within a part of a wave of it, or within

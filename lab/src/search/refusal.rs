@@ -31,7 +31,7 @@ pub(crate) enum Refusal {
     Piece,
     /// A moment so near the start or end of a pass that a machine which runs in does as much.
     Edge,
-    /// A frequency in time, without a clock or enough waves in a pass.
+    /// A frequency in time, without a clock or enough waves by one.
     Clock,
     /// A time, at targets that nobody measured the time of.
     Untimed,
@@ -125,9 +125,9 @@ impl fmt::Display for Refusal {
             Self::Edge => {
                 f.write_str("so near the start or the end that a machine runs in or out there")
             }
-            Self::Clock => {
-                f.write_str("a frequency in time needs a clock and three waves in a pass")
-            }
+            Self::Clock => f.write_str(
+                "a frequency in time needs a clock and three waves that it went through",
+            ),
             Self::Untimed => f.write_str("how long the axis stood is in no log"),
             Self::Targets => f.write_str("not told by the targets from a longer wave"),
             Self::OneTarget => f.write_str("it shows at one target alone, where it has no shape"),

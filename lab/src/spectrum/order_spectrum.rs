@@ -129,14 +129,6 @@ impl Scan<'_> {
         lines
     }
 
-    /// The strongest line of a whitened residual, its frequency settled by bisection, of those whose
-    /// size the samples tell.
-    #[must_use]
-    pub(crate) fn strongest(&self, white: &[f64]) -> Option<Line> {
-        let swift = WINDOW_FROM * usual_rate(self.turns);
-        self.strongest_of(white, &|frequency| self.tells_of(frequency, swift))
-    }
-
     /// True when the samples tell the size of a wave: it is no slow curve in every block, and its
     /// phase there is not always the same.
     #[must_use]
@@ -150,27 +142,24 @@ impl Scan<'_> {
         !is_slow && (2.0 * frequency <= swift || !self.has_one_phase(frequency))
     }
 
-    /// The same of all frequencies.
-    #[must_use]
-    pub(crate) fn strongest_anywhere(&self, white: &[f64]) -> Option<Line> {
-        self.strongest_of(white, &|_| true)
-    }
-
-    /// The strongest line of some frequencies.
+    /// The strongest line whose size the samples tell.
     ///
     /// What the samples resolve at their usual rate and what only their unevenness resolves are
     /// looked at one after the other, each paying for its own looks: aliases above would drown a
     /// line below, and their number would cost it its significance.
-    fn strongest_of(&self, white: &[f64], is_told: &dyn Fn(f64) -> bool) -> Option<Line> {
-        let usual = (0.5 * usual_rate(self.turns)).max(self.lowest);
+    #[must_use]
+    pub(crate) fn strongest(&self, white: &[f64]) -> Option<Line> {
+        let rate = usual_rate(self.turns);
+        let is_told = |frequency| self.tells_of(frequency, WINDOW_FROM * rate);
+        let usual = (0.5 * rate).max(self.lowest);
         if self.highest <= usual {
-            return self.strongest_in_band(white, is_told);
+            return self.strongest_in_band(white, &is_told);
         }
         let bands =
             [Self { highest: usual, ..self.clone() }, Self { lowest: usual, ..self.clone() }];
         let evidence = |band: &Self, line: &Line| line.gain - 2.0 * libm::log(band.looks());
         let found = bands.iter().filter_map(|band| {
-            let line = band.strongest_in_band(white, is_told)?;
+            let line = band.strongest_in_band(white, &is_told)?;
             Some((evidence(band, &line), line))
         });
         let (_, mut line) = found.max_by(|a, b| a.0.total_cmp(&b.0))?;
