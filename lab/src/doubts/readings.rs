@@ -6,11 +6,12 @@ use std::ops::Range;
 use super::doubt::{Doubt, said_by};
 use crate::measurement::{Measurement, sensor_column};
 use crate::model::Problem;
-use crate::numerics::count;
+use crate::numerics::{count, spread};
 use crate::policy::mistakes::{
-    COPIED_ROWS, CUT_OFF_RUN, CUT_OFF_RUNS, CUT_OFF_VALUES, DIFFERENT, DOUBT, MOST_ROWS_COPIED,
-    NEXT_VALUES, OFTENER_THAN_BEFORE,
+    COPIED_ROWS, CUT_OFF_ROWS, CUT_OFF_VALUES, DIFFERENT, DOUBT, MOST_ROWS_COPIED, NEXT_VALUES,
+    OFTENER_THAN_BEFORE,
 };
+use crate::policy::reading::JITTER_OF_TRAVEL;
 
 /// Rounding of the difference of two numbers, a few units of the last place, against their size.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
@@ -21,7 +22,7 @@ pub(super) fn of_no_instrument(problem: &Problem) -> Vec<Doubt> {
     let measurement = &problem.measurement;
     let mut doubts: Vec<Doubt> = copied_pass(measurement, &passes).into_iter().collect();
     doubts.extend(copied_rows(measurement, &passes));
-    doubts.extend(cut_off(measurement, &passes));
+    doubts.extend(cut_off(problem, &passes));
     doubts
 }
 
@@ -191,13 +192,15 @@ fn copied_on_end(measurement: &Measurement, groups: &[(usize, usize)]) -> Option
     })
 }
 
-/// A column whose largest or smallest reading comes again and again, several rows on end.
-fn cut_off(measurement: &Measurement, passes: &[Range<usize>]) -> Vec<Doubt> {
+/// A column whose largest or smallest reading comes again and again, elsewhere than where passes begin.
+fn cut_off(problem: &Problem, passes: &[Range<usize>]) -> Vec<Doubt> {
+    let measurement = &problem.measurement;
+    let elsewhere = not_where_passes_begin(problem, passes);
     let mut doubts = Vec::new();
     for (sensor, values) in &measurement.observations {
         for sign in [1.0, -1.0] {
             let values: Vec<f64> = values.iter().map(|value| sign * value).collect();
-            let Some((most, rows)) = upper_limit(&values, passes) else { continue };
+            let Some((most, rows)) = upper_limit(&values, &elsewhere) else { continue };
             let (column, limit) = (sensor_column(*sensor, measurement.rotary), sign * most);
             doubts.push(Doubt {
                 what: "cut-off",
@@ -210,9 +213,18 @@ fn cut_off(measurement: &Measurement, passes: &[Range<usize>]) -> Vec<Doubt> {
     doubts
 }
 
-/// The largest value and its rows, where they stand in several runs and are more than those of the next values:
-/// noise on a lattice has fewer of its largest. A zero that each pass begins at is no run.
-fn upper_limit(values: &[f64], passes: &[Range<usize>]) -> Option<(f64, usize)> {
+/// Rows at another place than the first of their pass, where readings are often set to zero.
+fn not_where_passes_begin(problem: &Problem, passes: &[Range<usize>]) -> Vec<usize> {
+    let places: Vec<f64> = problem.record.turns().collect();
+    let near = JITTER_OF_TRAVEL * spread(&places);
+    let is_elsewhere =
+        |pass: &Range<usize>, row: &usize| near < (places[*row] - places[pass.start]).abs();
+    passes.iter().flat_map(|pass| pass.clone().filter(|row| is_elsewhere(pass, row))).collect()
+}
+
+/// The largest value and its rows, where several are elsewhere than at the start, and all more than those of the next
+/// values: noise on a lattice has fewer of its largest.
+fn upper_limit(values: &[f64], elsewhere: &[usize]) -> Option<(f64, usize)> {
     let mut sorted: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
     sorted.sort_by(|a, b| b.total_cmp(a));
     let mut numbers: Vec<(f64, usize)> = Vec::new();
@@ -224,14 +236,9 @@ fn upper_limit(values: &[f64], passes: &[Range<usize>]) -> Option<(f64, usize)> 
     }
     let (&(most, rows), next) = numbers.split_first()?;
     let oftenest_next = next.iter().take(NEXT_VALUES).map(|(_, number)| *number).max()?;
-    let at = |row: &usize| values[*row].to_bits() == most.to_bits();
-    let runs = passes.iter().flat_map(|rows| {
-        let ends = rows.clone().filter(|row| at(row) && (row + 1 == rows.end || !at(&(row + 1))));
-        ends.map(|end| (rows.start..=end).rev().take_while(at).count()).collect::<Vec<_>>()
-    });
-    let long = runs.filter(|run| CUT_OFF_RUN <= *run).count();
+    let limited = elsewhere.iter().filter(|row| values[**row].to_bits() == most.to_bits()).count();
     let cut = CUT_OFF_VALUES <= numbers.len()
-        && CUT_OFF_RUNS <= long
+        && CUT_OFF_ROWS <= limited
         && OFTENER_THAN_BEFORE * oftenest_next < rows;
     cut.then_some((most, rows))
 }

@@ -673,10 +673,22 @@ fn readings_cut_off_are_told_and_rounded_ones_are_none() {
             "{step}"
         );
     }
-    let mut row = 0;
-    let zeroed = changed(measured(&known), "error_um", |value| {
-        row += 1;
-        if row % 30 < 2 { -4.0 } else { value }
-    });
-    assert_eq!(doubted(&known, &zeroed), None);
+    // Strokes of fifteen rows, each of which begins at the place where the readings are set to zero.
+    let mut zeroed = measured(&known);
+    let places: Vec<u32> = (0..600).map(|row| (row % 30).min(30 - row % 30)).collect();
+    zeroed.columns[0].values = places.iter().map(|place| 0.5 * f64::from(*place)).collect();
+    let mut places = places.into_iter();
+    let at_zero = |value| if places.next() == Some(0) { -9.0 } else { value };
+    let zeroed = problem(&known, &changed(zeroed, "error_um", at_zero));
+    assert!(doubts(&zeroed).iter().all(|one| one.what != "cut-off"));
+}
+
+/// Noise of which the loudest tenth is cut off: hardly two readings on end are at the limit.
+#[test]
+fn single_readings_cut_off_are_told() {
+    let known = machine(150, "");
+    let mut chance = ChaCha8Rng::seed_from_u64(11);
+    let mut noise = || -> f64 { StandardNormal.sample(&mut chance) };
+    let cut = table(&(0..600).map(|_| noise().min(1.28)).collect::<Vec<_>>());
+    assert_eq!(doubted(&known, &cut).map(|(what, _)| what), Some("cut-off"));
 }

@@ -175,12 +175,11 @@ pub(crate) const DIFFERENT: usize = 5;
 /// Chosen: a few are lost where passes were cut. Nearer to 1: these are not told.
 pub(crate) const MOST_ROWS_COPIED: f64 = 0.9;
 
-/// Rows on end that stand at a limit, and how often, of a column with so many values.
+/// Rows that stand at a limit, elsewhere than where passes begin, of a column with so many values.
 ///
-/// Chosen: a table that every run begins and ends at zero has one row there, and noise on a lattice of few values
-/// stays at any of them. Doubled: waves of few rows are cut off unnoticed.
-pub(crate) const CUT_OFF_RUN: usize = 3;
-pub(crate) const CUT_OFF_RUNS: usize = 3;
+/// Chosen: a table that every run begins and ends at zero has none, and noise on a lattice of few values is often at
+/// any of them. Doubled: what is cut off at few peaks is not told.
+pub(crate) const CUT_OFF_ROWS: usize = 9;
 pub(crate) const CUT_OFF_VALUES: usize = 20;
 
 /// How many times as often as the oftenest of so many next values.
