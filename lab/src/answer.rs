@@ -7,6 +7,7 @@ mod diagnosis;
 mod experiment;
 mod far_readings;
 mod final_check;
+mod harmonics;
 mod learn;
 mod searched;
 

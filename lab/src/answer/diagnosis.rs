@@ -6,6 +6,7 @@ use helixlock_plant::{Role, Search, Term};
 
 use super::experiment::{self, Advice};
 use super::far_readings::{FarReadings, far_readings};
+use super::harmonics::one_of_several;
 use super::searched::{Searched, search_on_all_rows, without_dropped};
 use crate::doubts::{Doubt, Suspect, doubts_and_suspects};
 use crate::hypotheses::{
@@ -490,7 +491,10 @@ fn rejected(step: &Step, chosen: Option<&str>) -> Vec<(String, String)> {
     dropped.chain(refused.map(|(judged, refusal)| (name(judged), refusal.to_string()))).collect()
 }
 
-/// How much larger a standard error is told to be wider because other values of an effect are free.
+/// Said of a whole number that the places of the samples do not tell from others.
+const OR_ANOTHER: &str = "or another that shows the same at these places";
+
+/// How much larger a standard error is told to be wider because of what other values of an effect may be.
 const WIDENED: f64 = 1.2;
 
 /// Every component of a state with its parameters.
@@ -500,7 +504,7 @@ pub(crate) fn effects(problem: &Problem, state: &State) -> Vec<FittedEffect> {
     (0..state.components.len()).map(|index| fitted(problem, state, &both, index)).collect()
 }
 
-/// A component with its values; their covariance with its other values at 0, and with all of them free.
+/// A component with its values; their covariance with its other values at 0, and with what those may be.
 fn fitted(
     problem: &Problem,
     state: &State,
@@ -532,7 +536,7 @@ fn fitted(
             .then(|| warning(estimate.value, narrow, &what.range))
             .flatten()
             .or_else(|| another_material(&component.term, estimate.parameter))
-            .or((WIDENED * narrow < stderr).then_some("± with its other values free"));
+            .or((WIDENED * narrow < stderr).then_some("± with what its values left at 0 may be"));
         parameters.push(FittedParameter {
             key: what.key(),
             value: estimate.value,
@@ -561,7 +565,9 @@ fn fitted(
             (None, stepwise) => (!what.is_listed() && 0.0 < stepwise).then_some(stepwise),
         };
         let value = if setting_counts(&term, what) { value.round() } else { value };
-        let warning = stderr.and_then(|stderr| warning_at_bound(value, stderr, &what.range));
+        let warning = stderr
+            .and_then(|stderr| warning_at_bound(value, stderr, &what.range))
+            .or_else(|| one_of_several(problem, state, index, place).then_some(OR_ANOTHER));
         let file_says = file_says(parameter);
         parameters.push(FittedParameter { key: what.key(), value, stderr, warning, file_says });
     }
