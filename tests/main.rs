@@ -77,6 +77,7 @@ mod range_stage;
 mod reset_counter;
 mod ring_distributor;
 mod rooms;
+mod runs_and_clocks;
 mod rust_hdl_simulator;
 mod rust_hdl_verilog;
 mod scale_lookup;

@@ -1,0 +1,187 @@
+//! Runs that stand at their ends, that are passes of their own by one clock or by several, targets by turns; and how sure
+//! the values are.
+
+use std::f64::consts::TAU;
+
+use helixlock_lab::{Diagnosis, Verdict};
+
+use crate::support::diagnosed::{diagnosed_on, names};
+use crate::support::passes::white;
+use crate::support::seeds::seeds;
+
+/// An axis without a laser.
+const AXIS: &str = "spindle.speed = \"60 rpm\"\nlead_screw.lead = \"5 mm\"\n";
+
+fn columns<const N: usize>(
+    titles: [&'static str; N],
+    rows: impl Iterator<Item = [f64; N]>,
+) -> Vec<(&'static str, Vec<f64>)> {
+    let mut columns = titles.map(|title| (title, Vec::new()));
+    rows.for_each(|row| columns.iter_mut().zip(row).for_each(|((_, all), one)| all.push(one)));
+    columns.into()
+}
+
+/// Nonlinear values of the effects that were found.
+fn shapes(found: &Diagnosis) -> Vec<Vec<f64>> {
+    let last = found.rounds.last().expect("there is always a round 0");
+    last.effects.iter().map(|one| one.term.nonlinear()).collect()
+}
+
+/// Strokes of 300 mm that begin and end slowly, and so many rows at each end by an encoder that trembles: the first step
+/// back is a thirtieth of the usual one, and play of 0.7 µm is taken up at once.
+#[test]
+fn an_axis_that_ends_slowly_turns_as_it_leaves() {
+    let slow = |part: f64| {
+        let ramp = |part: f64| 0.5 * part * part / 0.3;
+        let whole = 0.7;
+        let gone = if part < 0.3 {
+            ramp(part)
+        } else if part < 0.7 {
+            part - 0.15
+        } else {
+            whole - ramp(1.0 - part)
+        };
+        300.0 * gone / whole
+    };
+    for (seed, stand) in seeds(1, 6).flat_map(|seed| [(seed, 2), (seed, 24)]) {
+        let (mut noise, mut tremble) = (white(seed, 0.2), white(700 + seed, 0.000_01));
+        let strokes = (0..6_u32).flat_map(|stroke| (0..60 + stand).map(move |row| (stroke, row)));
+        let rows = strokes.enumerate().map(|(row, (stroke, inside))| {
+            let gone_mm = slow(f64::from(inside.min(60)) / 60.0);
+            let ahead = stroke % 2 == 0;
+            let (mm, way) = if ahead { (gone_mm, 1.0) } else { (300.0 - gone_mm, -1.0) };
+            // It leaves behind the stand of the stroke before.
+            let way = if inside == 0 && 0 < stroke { -way } else { way };
+            let time_s = 0.5 * f64::from(u32::try_from(row).expect("few rows"));
+            [time_s, mm + tremble(), -0.35 * way + noise()]
+        });
+        let found = diagnosed_on(AXIS, columns(["time_s", "position_mm", "error_um"], rows));
+        let told = (names(&found), shapes(&found));
+        assert_eq!(told, (vec!["backlash"], vec![vec![0.0]]), "{seed}, {stand}");
+    }
+}
+
+/// What clock the passes of a log have.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Clock {
+    Through,
+    OfPasses,
+}
+
+/// Ten runs over 21 targets, there and back, each a pass: vibration at 0.021 Hz, less than three waves a run. Where
+/// each run has a clock of its own, it begins anywhere in the wave.
+fn shaken(seed: u64, clock: Clock) -> Diagnosis {
+    let (mut noise, mut chance) = (white(seed, 0.15), white(800 + seed, 1.0));
+    let mut rows = Vec::new();
+    for run in 0..10_u32 {
+        let begun_s = 110.0 * f64::from(run);
+        let begun_at = if clock == Clock::Through { TAU * 0.021 * begun_s } else { 9.0 * chance() };
+        for target in 0..21_u32 {
+            let at = f64::from(if run % 2 == 0 { target } else { 20 - target });
+            let since_s = 4.7 * f64::from(target) + 0.2 * libm::sin(7.0 * at);
+            let time_s = if clock == Clock::Through { begun_s + since_s } else { since_s };
+            let wave_um = 0.5 * libm::sin(begun_at + TAU * 0.021 * since_s);
+            let mm = 23.7 * at + 1.3 * libm::sin(3.0 * at);
+            rows.push([f64::from(run), time_s, mm, wave_um + noise()]);
+        }
+    }
+    let titles = ["pass", "time_s", "position_mm", "error_um"];
+    diagnosed_on(AXIS, columns(titles, rows.into_iter()))
+}
+
+#[test]
+fn one_clock_through_all_runs_counts_the_waves_of_all() {
+    for seed in seeds(1, 4) {
+        let found = shaken(seed, Clock::Through);
+        let told = (found.verdict, names(&found));
+        assert_eq!(told, (Verdict::Explained, vec!["vibration"]), "{seed}");
+    }
+}
+
+#[test]
+fn a_wave_with_a_phase_of_each_runs_own_is_no_noise() {
+    for seed in seeds(1, 4) {
+        let found = shaken(seed, Clock::OfPasses);
+        assert_eq!(found.verdict, Verdict::Unexplained, "{seed}: {:?}", names(&found));
+    }
+}
+
+/// The second of four passes there and back begins its clock anew just behind its turn, and the others go on by that.
+#[test]
+fn a_clock_that_begins_anew_behind_a_turn_is_told() {
+    for seed in seeds(1, 4) {
+        let mut noise = white(seed, 0.2);
+        let rows = (0..560_u32).map(|row| {
+            let (pass, inside) = (row / 140, row % 140);
+            let mm = 4.0 * f64::from(inside.min(140 - inside));
+            let time_s = 0.5 * f64::from(if row < 215 { row } else { row - 213 });
+            [f64::from(pass), time_s, mm, noise()]
+        });
+        let titles = ["pass", "time_s", "position_mm", "error_um"];
+        let found = diagnosed_on(AXIS, columns(titles, rows));
+        assert_eq!(found.verdict, Verdict::DoubtfulInput, "{seed}: {:?}", names(&found));
+    }
+}
+
+/// Targets a turn apart, some of them on the way there and those between on a second way, each a tenth of a turn off: a
+/// wave of 1.035 waves a turn is seen once a row, and among the frequencies of as many waves a row one is as good.
+#[test]
+fn a_wave_of_the_travel_is_no_vibration_where_targets_are_visited_by_turns() {
+    for seed in seeds(1, 4) {
+        let (mut noise, mut off) = (white(seed, 0.2), white(900 + seed, 0.35));
+        let targets = (0..4).flat_map(|_| {
+            [0.0, 2.5].map(|first| (0..40_u32).map(move |at| 5.0 * f64::from(at) + first))
+        });
+        let places: Vec<f64> = targets.flatten().collect();
+        let rows = (0_u32..).zip(places).map(|(row, target)| {
+            let mm = target + off();
+            let time_s = 2.2 * f64::from(row) + 0.02 * libm::sin(5.0 * mm);
+            [time_s, mm, 0.45 * libm::sin(TAU * 1.035 * mm / 5.0) + noise()]
+        });
+        let found = diagnosed_on(AXIS, columns(["time_s", "position_mm", "error_um"], rows));
+        assert_eq!(found.verdict, Verdict::Unexplained, "{seed}: {:?}", names(&found));
+        assert!(!names(&found).contains(&"vibration"), "{seed}: {:?}", names(&found));
+    }
+}
+
+/// A slope of 25 of its own standard errors, there and back. What bow or S may stand beside it makes it less sure, but they are not as
+/// likely as none: with both of them free it would have 15 times its own error.
+#[test]
+fn a_slope_is_as_sure_as_what_was_left_out_beside_it_is_unlikely() {
+    for seed in seeds(1, 6) {
+        let mut noise = white(seed, 0.5);
+        let rows = (0..300_u32).map(|row| {
+            let mm = 4.0 * f64::from(row.min(299 - row));
+            [0.8 * f64::from(row), mm, -4.17 * mm / 1000.0 + noise()]
+        });
+        let found = diagnosed_on(AXIS, columns(["time_s", "position_mm", "error_um"], rows));
+        let last = found.rounds.last().expect("there is always a round 0");
+        let Some(slope) = last.effects.iter().find(|one| one.name == "screw-progressive") else {
+            panic!("{seed}: {:?}", names(&found));
+        };
+        let linear = &slope.parameters[0];
+        let stderr = linear.stderr.expect("a size has one");
+        assert!((linear.value - 4.17).abs() < 2.0 * stderr, "{seed}: {} ± {stderr}", linear.value);
+        assert!(4.0 * stderr < linear.value, "{seed}: {} ± {stderr}", linear.value);
+    }
+}
+
+/// Thirteen waves round a circle that is seen at its 24 faces are eleven as well; at 50 places they are thirteen.
+#[test]
+fn even_places_do_not_tell_which_of_two_numbers_of_waves() {
+    const CIRCLE: &str = "output = { rotary = true }\nspindle.speed = \"1 rpm\"\n\
+                          grating = { lines = 18000, diameter = \"200 mm\" }\n";
+    for (faces, is_one_of_two) in [(24.0, true), (50.0, false)] {
+        let mut noise = white(1, 0.2);
+        let rows = (0..200_u32).map(|row| {
+            let turn = f64::from(row) / faces;
+            [10.0 * f64::from(row), turn, 0.6 * libm::sin(TAU * 13.0 * turn) + noise()]
+        });
+        let found = diagnosed_on(CIRCLE, columns(["time_s", "angle_rev", "error_arcsec"], rows));
+        let last = found.rounds.last().expect("there is always a round 0");
+        let all = last.effects.iter().flat_map(|one| &one.parameters);
+        let warnings: Vec<bool> =
+            all.filter(|one| one.key == "harmonic").map(|one| one.warning.is_some()).collect();
+        assert_eq!(warnings, [is_one_of_two], "{faces}: {:?}", names(&found));
+    }
+}
