@@ -5,8 +5,9 @@ use helixlock_plant::Search;
 use crate::hypotheses::whole;
 use crate::model::{Problem, State, pattern};
 use crate::noise::Whitener;
-use crate::numerics::least_squares;
+use crate::numerics::{least_squares, usual_rate};
 use crate::policy::evidence::SAME_CURVE;
+use crate::policy::extent::WINDOW_FROM;
 
 /// True when one of an effect's nonlinear values is a whole number, and with another one in its range it would draw the
 /// same curve at all samples: of 24 even places round a turn eleven waves are thirteen.
@@ -30,6 +31,12 @@ pub(super) fn one_of_several(problem: &Problem, state: &State, index: usize, pla
         least_squares::fit(&views, &own).residual_square < SAME_CURVE * size
     };
     let found = component.term.nonlinear()[place];
+    let turns: Vec<f64> = problem.record.turns().collect();
+    let rate = usual_rate(&turns);
+    let waves = |value| component.with_value(place, value).waves_a_turn(problem);
+    // Places tell two waves apart that are fewer together than they are.
+    let may_be_one = |value: &f64| WINDOW_FROM * rate < waves(found) + waves(*value);
     let others = whole(*parameter.range.start(), *parameter.range.end());
-    others.into_iter().filter(|value| 0.5 < (value - found).abs()).any(draws_it)
+    let others = others.into_iter().filter(|value| 0.5 < (value - found).abs());
+    others.filter(may_be_one).any(draws_it)
 }

@@ -8,8 +8,8 @@ use crate::measurement::{Measurement, sensor_column};
 use crate::model::Problem;
 use crate::numerics::{count, spread};
 use crate::policy::mistakes::{
-    COPIED_ROWS, CUT_OFF_ROWS, CUT_OFF_VALUES, DIFFERENT, DOUBT, MOST_ROWS_COPIED, NEXT_VALUES,
-    OFTENER_THAN_BEFORE,
+    COPIED_ROWS, CUT_OFF_ROWS, CUT_OFF_RUNS, CUT_OFF_VALUES, DIFFERENT, DOUBT, MOST_ROWS_COPIED,
+    NEXT_VALUES, OFTENER_THAN_BEFORE,
 };
 use crate::policy::reading::JITTER_OF_TRAVEL;
 
@@ -222,8 +222,8 @@ fn not_where_passes_begin(problem: &Problem, passes: &[Range<usize>]) -> Vec<usi
     passes.iter().flat_map(|pass| pass.clone().filter(|row| is_elsewhere(pass, row))).collect()
 }
 
-/// The largest value and its rows, where several are elsewhere than at the start, and all more than those of the next
-/// values: noise on a lattice has fewer of its largest.
+/// The largest value and its rows, where many are elsewhere than at the start, not all on end, and all more than those
+/// of the next values: noise on a lattice has fewer of its largest, and what comes to rest does so once.
 fn upper_limit(values: &[f64], elsewhere: &[usize]) -> Option<(f64, usize)> {
     let mut sorted: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
     sorted.sort_by(|a, b| b.total_cmp(a));
@@ -236,9 +236,12 @@ fn upper_limit(values: &[f64], elsewhere: &[usize]) -> Option<(f64, usize)> {
     }
     let (&(most, rows), next) = numbers.split_first()?;
     let oftenest_next = next.iter().take(NEXT_VALUES).map(|(_, number)| *number).max()?;
-    let limited = elsewhere.iter().filter(|row| values[**row].to_bits() == most.to_bits()).count();
+    let at = |row: usize| values[row].to_bits() == most.to_bits();
+    let limited: Vec<usize> = elsewhere.iter().copied().filter(|row| at(*row)).collect();
+    let runs = limited.iter().filter(|row| **row == 0 || !at(**row - 1)).count();
     let cut = CUT_OFF_VALUES <= numbers.len()
-        && CUT_OFF_ROWS <= limited
+        && CUT_OFF_ROWS <= limited.len()
+        && CUT_OFF_RUNS <= runs
         && OFTENER_THAN_BEFORE * oftenest_next < rows;
     cut.then_some((most, rows))
 }

@@ -175,11 +175,12 @@ pub(crate) const DIFFERENT: usize = 5;
 /// Chosen: a few are lost where passes were cut. Nearer to 1: these are not told.
 pub(crate) const MOST_ROWS_COPIED: f64 = 0.9;
 
-/// Rows that stand at a limit, elsewhere than where passes begin, of a column with so many values.
+/// Rows that stand at a limit, elsewhere than where passes begin, and in how many runs, of a column with so many values.
 ///
-/// Chosen: a table that every run begins and ends at zero has none, and noise on a lattice of few values is often at
-/// any of them. Doubled: what is cut off at few peaks is not told.
+/// Chosen: a table that every run begins and ends at zero has none, what warms up on a coarse display comes to rest in one
+/// run, and noise on a lattice of few values is often at any of them. Doubled: what is cut off at few peaks is not told.
 pub(crate) const CUT_OFF_ROWS: usize = 9;
+pub(crate) const CUT_OFF_RUNS: usize = 3;
 pub(crate) const CUT_OFF_VALUES: usize = 20;
 
 /// How many times as often as the oftenest of so many next values.
