@@ -57,7 +57,9 @@ fn at_rest(angles: &[f64], least: f64) -> Vec<bool> {
             (low, high) = (low.min(*next), high.max(*next));
             least <= high - low
         };
-        let to = angles[from..].iter().position(leaves).map_or(angles.len(), |rows| from + rows);
+        let behind = from + 1;
+        let to =
+            angles[behind..].iter().position(leaves).map_or(angles.len(), |rows| behind + rows);
         let rows = without_slow_ends(angles, from..to);
         if trembles(&angles[rows.clone()]) {
             rests[rows.clone()].fill(true);
