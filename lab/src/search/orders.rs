@@ -49,9 +49,11 @@ fn ahead_of_orders(problem: &Problem, now: &State, judged: &Judged) -> Option<(f
     let of_row: Vec<f64> = problem.samples.iter().map(|&sample| turns[sample]).collect();
     let unit = problem.unit_column(judged.component.term.entry);
     let scan = turn_scan(&stage, &of_row, &unit);
-    let scan = Scan { highest: scan.highest.max(as_many_a_row(problem, judged, &turns)), ..scan };
-    let free = judged.component.term.frequency_hz().is_some();
-    let measured = if free { MEASURED_ORDERS } else { MEASURED_FOR_A_LISTED_ONE };
+    let (highest, measured) = match judged.component.term.frequency_hz() {
+        Some(hertz) => (as_many_a_row(problem, hertz, &turns), MEASURED_ORDERS),
+        None => (0.0, MEASURED_FOR_A_LISTED_ONE),
+    };
+    let scan = Scan { highest: scan.highest.max(highest), ..scan };
     let line = strongest_anywhere(&scan, &stage.target[..of_row.len()], measured);
     let best_near = |order: f64, turns: &[f64]| {
         let mut explained = |order: f64| stage.gain(&waves(problem, turns, order)).gain;
@@ -77,15 +79,10 @@ fn strongest_anywhere(scan: &Scan<'_>, white: &[f64], measured: usize) -> Option
     Some(best.0.frequency)
 }
 
-/// The order that has as many waves from row to row as a frequency in time has: among as many frequencies above what
-/// readings resolve at their usual rate, chance draws one that is as good as a wave of the travel.
-fn as_many_a_row(problem: &Problem, judged: &Judged, turns: &[f64]) -> f64 {
-    let a_row = |hertz: f64| hertz / usual_rate(&problem.record.time_s);
-    judged
-        .component
-        .term
-        .frequency_hz()
-        .map_or(0.0, |hertz| (a_row(hertz) + 1.5) * usual_rate(turns))
+/// Orders up to here are as often aliases of others, from row to row, as frequencies up to one in time: among so many,
+/// chance draws a frequency that is as good as a wave of the travel.
+fn as_many_a_row(problem: &Problem, hertz: f64, turns: &[f64]) -> f64 {
+    (hertz / usual_rate(&problem.record.time_s) + 1.5) * usual_rate(turns)
 }
 
 /// Turns as an even motion through each pass makes them, as far as rows lie within a part of a wave of it, or within
