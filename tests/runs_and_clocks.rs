@@ -61,47 +61,42 @@ fn an_axis_that_ends_slowly_turns_as_it_leaves() {
     }
 }
 
-/// What clock the passes of a log have.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Clock {
-    Through,
-    OfPasses,
-}
-
-/// Ten runs over 21 targets, there and back, each a pass: vibration at 0.021 Hz, less than three waves a run. Where
-/// each run has a clock of its own, it begins anywhere in the wave.
-fn shaken(seed: u64, clock: Clock) -> Diagnosis {
-    let (mut noise, mut chance) = (white(seed, 0.15), white(800 + seed, 1.0));
-    let mut rows = Vec::new();
-    for run in 0..10_u32 {
-        let begun_s = 110.0 * f64::from(run);
-        let begun_at = if clock == Clock::Through { TAU * 0.021 * begun_s } else { 9.0 * chance() };
-        for target in 0..21_u32 {
-            let at = f64::from(if run % 2 == 0 { target } else { 20 - target });
-            let since_s = 4.7 * f64::from(target) + 0.2 * libm::sin(7.0 * at);
-            let time_s = if clock == Clock::Through { begun_s + since_s } else { since_s };
-            let wave_um = 0.5 * libm::sin(begun_at + TAU * 0.021 * since_s);
-            let mm = 23.7 * at + 1.3 * libm::sin(3.0 * at);
-            rows.push([f64::from(run), time_s, mm, wave_um + noise()]);
-        }
-    }
-    let titles = ["pass", "time_s", "position_mm", "error_um"];
-    diagnosed_on(AXIS, columns(titles, rows.into_iter()))
-}
-
+/// Ten runs over 21 targets, there and back, each a pass, by one clock: vibration at 0.021 Hz, less than three waves a run.
 #[test]
 fn one_clock_through_all_runs_counts_the_waves_of_all() {
     for seed in seeds(1, 4) {
-        let found = shaken(seed, Clock::Through);
+        let mut noise = white(seed, 0.15);
+        let runs = (0..10_u32).flat_map(|run| (0..21_u32).map(move |target| (run, target)));
+        let rows = runs.map(|(run, target)| {
+            let at = f64::from(if run % 2 == 0 { target } else { 20 - target });
+            let since_s = 4.7 * f64::from(target) + 0.2 * libm::sin(7.0 * at);
+            let time_s = 110.0 * f64::from(run) + since_s;
+            let mm = 23.7 * at + 1.3 * libm::sin(3.0 * at);
+            [f64::from(run), time_s, mm, 0.5 * libm::sin(TAU * 0.021 * time_s) + noise()]
+        });
+        let titles = ["pass", "time_s", "position_mm", "error_um"];
+        let found = diagnosed_on(AXIS, columns(titles, rows));
         let told = (found.verdict, names(&found));
         assert_eq!(told, (Verdict::Explained, vec!["vibration"]), "{seed}");
     }
 }
 
+/// Four runs of 120 rows at an uneven pace, each by a clock of its own that begins anywhere in the wave.
 #[test]
 fn a_wave_with_a_phase_of_each_runs_own_is_no_noise() {
     for seed in seeds(1, 4) {
-        let found = shaken(seed, Clock::OfPasses);
+        let (mut noise, mut chance) = (white(1 + seed, 0.2), white(801 + seed, 1.0));
+        let mut rows = Vec::new();
+        for run in 0..4_u32 {
+            let begun_at = 9.0 * chance();
+            for row in 0..120_u32 {
+                let time_s = 0.166 * (f64::from(row) + 0.4 * libm::sin(2.0 * chance()));
+                let wave_um = 0.26 * libm::sin(begun_at + TAU * 2.13 * time_s);
+                rows.push([f64::from(run), time_s, 20.0 * time_s, wave_um + noise()]);
+            }
+        }
+        let titles = ["pass", "time_s", "position_mm", "error_um"];
+        let found = diagnosed_on(AXIS, columns(titles, rows.into_iter()));
         assert_eq!(found.verdict, Verdict::Unexplained, "{seed}: {:?}", names(&found));
     }
 }
@@ -123,22 +118,26 @@ fn a_clock_that_begins_anew_behind_a_turn_is_told() {
     }
 }
 
-/// Targets a turn apart, some of them on the way there and those between on a second way, each a tenth of a turn off: a
-/// wave of 1.035 waves a turn is seen once a row, and among the frequencies of as many waves a row one is as good.
+/// Targets a turn apart, each a twentieth of a turn off, and those between on a second way, four times, each reached by a
+/// move and a dwell: a wave of 1.037 a turn is seen once a row, and so is one of the frequencies far above the rate.
 #[test]
 fn a_wave_of_the_travel_is_no_vibration_where_targets_are_visited_by_turns() {
     for seed in seeds(1, 4) {
-        let (mut noise, mut off) = (white(seed, 0.2), white(900 + seed, 0.35));
-        let targets = (0..4).flat_map(|_| {
-            [0.0, 2.5].map(|first| (0..40_u32).map(move |at| 5.0 * f64::from(at) + first))
+        let (mut noise, mut off) = (white(seed, 0.2), white(900 + seed, 0.5));
+        let mut places: Vec<f64> = (0..41).map(|at| 10.0 * f64::from(at)).collect();
+        places.extend((0..40).map(|at| 5.0 + 10.0 * f64::from(at)));
+        places.iter_mut().for_each(|mm| *mm += off());
+        let (mut time_s, mut before_mm) = (0.0, 0.0);
+        let runs = (0..4_u32).flat_map(|run| places.iter().map(move |mm| (run, *mm)));
+        let rows = runs.map(|(run, mm)| {
+            time_s += 2.0 + (mm - before_mm).abs() / 50.0;
+            before_mm = mm;
+            let wave_um = 0.43 * libm::sin(TAU * 1.037 * mm / 10.0);
+            [f64::from(run), time_s, mm, wave_um + noise()]
         });
-        let places: Vec<f64> = targets.flatten().collect();
-        let rows = (0_u32..).zip(places).map(|(row, target)| {
-            let mm = target + off();
-            let time_s = 2.2 * f64::from(row) + 0.02 * libm::sin(5.0 * mm);
-            [time_s, mm, 0.45 * libm::sin(TAU * 1.035 * mm / 5.0) + noise()]
-        });
-        let found = diagnosed_on(AXIS, columns(["time_s", "position_mm", "error_um"], rows));
+        let titles = ["pass", "time_s", "position_mm", "error_um"];
+        let machine = AXIS.replace("5 mm", "10 mm");
+        let found = diagnosed_on(&machine, columns(titles, rows));
         assert_eq!(found.verdict, Verdict::Unexplained, "{seed}: {:?}", names(&found));
         assert!(!names(&found).contains(&"vibration"), "{seed}: {:?}", names(&found));
     }
