@@ -145,8 +145,8 @@ fn a_wave_of_the_travel_is_no_vibration_where_targets_are_visited_by_turns() {
     }
 }
 
-/// A slope of 25 of its own standard errors, there and back. What bow or S may stand beside it makes it less sure, but they are not as
-/// likely as none: with both of them free it would have 15 times its own error.
+/// A slope of 25 of its own standard errors, there and back. What bow or S may stand beside it makes it less sure, but
+/// they are not as likely as none: with both of them free it would have 15 times its own error.
 #[test]
 fn a_slope_is_as_sure_as_what_was_left_out_beside_it_is_unlikely() {
     let mut alone = 0;

@@ -5,7 +5,7 @@ use std::ops::Range;
 use helixlock_traces::Table;
 
 use super::coordinates::Coordinates;
-use crate::numerics::{deviation, median, spread, weighted_median};
+use crate::numerics::{deviation, median, spread, turns_of_the_way, weighted_median};
 use crate::policy::reading::{
     AT_REST, BEYOND_TREMBLING, DIRECTION_REACH, JITTER_OF_TRAVEL, JITTER_REV, REVERSAL_REACH,
     ROWS_OF_A_STAND, SHORT_STROKES, SLOWED_BY, TREMBLES, TURNS_AT_ROWS,
@@ -88,9 +88,9 @@ fn without_slow_ends(angles: &[f64], rows: Range<usize>) -> Range<usize> {
 /// a turn.
 fn trembles(angles: &[f64]) -> bool {
     let gone: f64 = steps(angles).map(f64::abs).sum();
-    let moves: Vec<f64> = steps(angles).filter(|step| *step != 0.0).collect();
-    let turns = moves.windows(2).filter(|two| two[0] * two[1] < 0.0).count();
-    2 <= turns && (angles[angles.len() - 1] - angles[0]).abs() < TREMBLES * gone
+    let mut places = angles.to_vec();
+    places.dedup();
+    2 <= turns_of_the_way(&places) && (angles[angles.len() - 1] - angles[0]).abs() < TREMBLES * gone
 }
 
 /// Steps up to which an axis that makes such steps may rest.

@@ -148,10 +148,22 @@ impl Component {
         alone.filter(|column| !counts.contains(column)).collect()
     }
 
+    /// True where one of those is not in use.
+    #[must_use]
+    pub(crate) fn leaves_out(&self) -> bool {
+        self.sizes_alone().iter().any(|&column| !self.kept[column])
+    }
+
+    /// Number of columns in use before one.
+    #[must_use]
+    pub(crate) fn used_before(&self, column: usize) -> usize {
+        self.kept[..column].iter().filter(|kept| **kept).count()
+    }
+
     /// Number of columns in use.
     #[must_use]
     pub(crate) fn width(&self) -> usize {
-        self.kept.iter().filter(|kept| **kept).count()
+        self.used_before(self.kept.len())
     }
 
     /// Free numbers, as evidence counts them: those in use, of an effect that has none of its own one,

@@ -62,16 +62,13 @@ struct Size {
 fn sizes(problem: &Problem, state: &State, behind: usize) -> (Columns, Vec<Size>) {
     let mut others = Columns::default();
     let mut sizes = Vec::new();
-    for (index, component) in state.components.iter().enumerate() {
-        let alone = component.sizes_alone();
+    let all = state.components.iter().enumerate();
+    for (index, component) in all.filter(|(_, component)| component.leaves_out()) {
         let Ok(design) = problem.design(&component.term) else { continue };
-        if alone.iter().all(|&column| component.kept[column]) {
-            continue;
-        }
         let (fitted, from) = state.coefficients(index);
-        for column in alone {
+        for column in component.sizes_alone() {
             let size = if component.kept[column] {
-                let place = component.kept[..column].iter().filter(|kept| **kept).count();
+                let place = component.used_before(column);
                 Size { column: from + place, fitted: fitted[place], is_used: true }
             } else {
                 others = others.and(&Columns::free([design.columns[column].clone()]));

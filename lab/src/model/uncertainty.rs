@@ -34,11 +34,10 @@ pub(crate) fn joint_covariance(problem: &Problem, state: &State) -> JointCovaria
 pub(crate) fn told_covariances(problem: &Problem, state: &State) -> [JointCovariance; 2] {
     let linearised = Linearised::of(problem, state);
     let of_used = linearised.under_any(problem, state);
-    let is_whole = |one: &Component| one.sizes_alone().iter().all(|&column| one.kept[column]);
-    let of_all = if state.components.iter().all(is_whole) {
-        of_used.clone()
-    } else {
+    let of_all = if state.components.iter().any(Component::leaves_out) {
         widened(&of_used, &left_out::widening(problem, state, &linearised.columns))
+    } else {
+        of_used.clone()
     };
     [of_used, of_all].map(|covariance| linearised.parted(state, &covariance))
 }

@@ -173,7 +173,7 @@ pub(super) fn counts(problem: &Problem, state: &State) -> Vec<Count> {
     let of = |index: usize| {
         let held = &state.components[index].whole;
         let column = held.iter().position(Option::is_some)?;
-        let in_use = free.components[index].kept[..column].iter().filter(|kept| **kept).count();
+        let in_use = free.components[index].used_before(column);
         let (used, from) = free.coefficients(index);
         let stderr = covariance[(from + in_use, from + in_use)].max(0.0).sqrt();
         Some(Count { index, whole: held[column]?, found: *used.get(in_use)?, stderr })
