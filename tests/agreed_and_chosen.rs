@@ -38,6 +38,7 @@ fn strokes(number: u16, rows: u16) -> impl Iterator<Item = [f64; 3]> {
 /// A bow of the screw on a day that grows colder and warm again: alone it is followed by a cube, which is kept no
 /// longer than until the air is known.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn powers_of_a_curve_are_chosen_again_beside_what_joins_it() {
     let cooler = |time_s: f64| -2.352 * libm::sin(TAU * 1.3 * time_s / 2400.0 + 3.18);
     for seed in seeds(2, 8) {
@@ -71,6 +72,7 @@ fn turned(play_um: [f64; 10]) -> Diagnosis {
 
 /// A nut that settles: the play of one reversal is half of another's.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn play_is_the_same_at_every_reversal() {
     let same = turned([1.0; 10]);
     assert_eq!((names(&same), same.verdict), (vec!["backlash"], Verdict::Explained));
@@ -99,6 +101,7 @@ fn an_uneven_clock_tells_a_vibration_from_its_alias() {
 /// A gear's wave of five standard errors in a record that switches between two levels: the noise that it stands
 /// clear of was fitted to the switching too.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn what_is_faint_has_no_name_beside_what_nobody_explains() {
     let beside_switching = |size_um: f64| {
         let mut columns = ["pass", "position_mm", "error_um"].map(|name| (name, Vec::new()));

@@ -38,6 +38,7 @@ fn shell(conditioning: &Conditioning) -> Netlist {
 
 /// What the shell was before it could do more: the device, in reset for 15 clocks.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn without_conditioning_it_is_the_device() {
     let netlist = shell(&Conditioning::OFF);
     for mut stimulus in [dense(&netlist, 11), realistic(&netlist, 12)] {
@@ -302,6 +303,7 @@ fn a_pass_begins_at_the_indices() {
 
 /// Lost count stops the board, and the panel forgets it.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn too_far_back_is_a_stop() {
     let netlist = shell(&QUADRATURE);
     let mut machine = Machine::new(&netlist);

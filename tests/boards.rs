@@ -8,6 +8,8 @@ use helixlock_gen::{Board, Family};
 use serde_json::Value;
 use tempfile::TempDir;
 
+use crate::support::seeds::all_boards_are_asked;
+
 const MACHINE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/sg7430-6mm/machine.toml");
 
 fn generate(machine: &Path, output: &Path, words: &[&str]) -> Output {
@@ -106,33 +108,20 @@ fn fits_the_smallest_board_with_room_and_gives_the_same_bytes_twice() {
     assert_eq!(said["settings"]["divide_b"], 150);
 }
 
-/// Boards that are like another one to the tools, or whose bitstream another test runs: built when all are asked for.
-const ALIKE: [&str; 7] = [
-    "icebreaker",
-    "hx8k",
-    "upduino",
-    "tinyfpga-bx",
-    "colorlight-i5",
-    "orangecrab",
-    "tang-nano-20k",
-];
-
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn builds_for_every_other_board() {
-    let all = std::env::var("HELIXLOCK_BOARD").is_ok_and(|which| which == "all");
-    for board in Board::all().expect("boards") {
-        if board.name == "icestick" || ALIKE.contains(&board.name.as_str()) && !all {
-            continue;
-        }
+    for board in Board::all().expect("boards").iter().filter(|board| board.name != "icestick") {
         let folder = tempfile::tempdir().expect("a scratch folder");
         let said = synthesised(&board.name, folder.path());
         assert_eq!(said["clock_hz"], 1_000_000 * u64::from(board.clock_mhz), "{}", board.name);
         assert_eq!(said["synthesis"]["meets_clock"], true, "{}", board.name);
-        is_in_the_readme(&board, &said);
+        is_in_the_readme(board, &said);
     }
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn the_test_bench_passes_and_finds_a_fault() {
     let folder = tempfile::tempdir().expect("a scratch folder");
     // A fast step clock and short debouncing keep the test short.
@@ -232,6 +221,7 @@ fn a_prefix_goes_before_every_module() {
 
 /// The range of the machine file is in the design; pins are those that are asked for.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn pins_are_those_asked_for() {
     let folder = tempfile::tempdir().expect("a scratch folder");
     let pins = |words: &[&str]| {
@@ -308,7 +298,7 @@ fn an_analyser_is_there_when_asked_for() {
     let (there, shell) = has("with", &["--board", "hx8k", "--pins", "analyser"]);
     assert_eq!(there, [true, true, false, false]);
     assert!(shell.contains("input  wire         rx,") && shell.contains(".megahertz(7'hc),"));
-    if std::env::var("HELIXLOCK_BOARD").is_ok_and(|words| words == "all") {
+    if all_boards_are_asked() {
         let with = folder.path().join("with");
         let said = Command::new("make").args(["sim-board_shell", "-C"]).arg(with).output();
         let said = said.expect("make starts");

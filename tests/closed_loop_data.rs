@@ -111,6 +111,7 @@ const HIDDEN: [(&str, &str); 5] = [
 
 /// With the steps in the file, the loop hides nothing.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn what_a_closed_loop_has_corrected_is_named_from_its_trace() {
     for (kind, values) in cases(2, &HIDDEN) {
         let table = passes(&format!("[[effect]]\nkind = '{kind}'\n{values}\n"), NOISE_UM);
@@ -139,6 +140,7 @@ fn a_loop_that_lacks_nothing_lacks_nothing() {
 
 /// A reading is made while the motor steps: what that leaves of a run without noise is no structure.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_run_without_noise_lacks_nothing() {
     let found = diagnosis(&passes("", 0.0), &[]);
     assert_eq!(found.verdict, Verdict::NothingMissing, "{:?}", found.residual);
@@ -146,6 +148,7 @@ fn a_run_without_noise_lacks_nothing() {
 
 /// Without the steps, what the loop has taken out is smaller than its hunting, and no name is safe.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn what_a_loop_hides_is_not_named_wrongly() {
     for (kind, values) in cases(1, &[HIDDEN[0], HIDDEN[3]]) {
         let table = passes(&format!("[[effect]]\nkind = '{kind}'\n{values}\n"), NOISE_UM);

@@ -53,6 +53,7 @@ fn only(found: &Diagnosis, kind: &str, key: &str) -> (f64, f64, f64) {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_wave_of_another_size_takes_the_place_of_the_files_own() {
     let file = machine(1.5, 0.4, [2.0, 20.0]);
     let found = measured(&file, &machine(1.62, 0.4, [2.0, 20.0]));
@@ -66,6 +67,7 @@ fn a_wave_of_another_size_takes_the_place_of_the_files_own() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_time_that_enters_in_no_proportion_is_found_too() {
     let file = machine(1.5, 0.4, [2.0, 40.0]);
     let found = measured(&file, &machine(1.5, 0.4, [2.0, 20.0]));

@@ -42,6 +42,7 @@ fn a_lens_between_there_and_back_is_no_noise() {
 
 /// Play that a nut takes up over a way from each start on.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn play_that_each_start_takes_up_is_no_noise() {
     is_nobodys(|seed| by_turns(seed, &|way, gone, _| -0.4 * way * libm::exp(-gone / 40.0)));
 }

@@ -55,6 +55,7 @@ fn air_is_fresh_and_swings_by_fifteen_hectopascals() {
 
 /// Rows with deviations of their own, and an experiment behind them that has none.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_stage_seen_by_its_fringes_is_diagnosed() {
     let folder = folder("real-stage-fringes");
     let scratch = scratch();

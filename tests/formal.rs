@@ -14,6 +14,7 @@ use helixlock_gen::Family;
 use tempfile::TempDir;
 
 use crate::support::command::{put, repository};
+use crate::support::seeds::all_boards_are_asked;
 
 fn sources() -> Sources {
     Sources::of(repository())
@@ -95,7 +96,7 @@ fn what_is_said_of_a_block_is_stale_with_its_sources() {
 /// The gates of the blocks that count, unbounded, and of an iCE40 those of the device on its board,
 /// which has the others in it; with `HELIXLOCK_BOARD=all` every block's of every family.
 fn gates_equal_the_verilog(family: Family) {
-    let all = std::env::var("HELIXLOCK_BOARD").is_ok_and(|words| words == "all");
+    let all = all_boards_are_asked();
     let counts = ["decade_counter", "programmable_divider", "phase_meter", "reset_counter"];
     let sources = sources();
     for card in synthesis::blocks() {
@@ -109,6 +110,7 @@ fn gates_equal_the_verilog(family: Family) {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn gates_of_ice40_equal_the_verilog() {
     gates_equal_the_verilog(Family::Ice40);
 }
@@ -148,6 +150,7 @@ fn gates_that_wrap_at_six_are_not_equal() {
 /// Every state with every input of the blocks that have few; the four million of divider and decoder
 /// each are left to `cargo xtask prove`.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn few_states_are_all_tried() {
     let sources = sources();
     let mut tried = 0;

@@ -23,6 +23,7 @@ fn number(value: &Value) -> (f64, f64) {
 /// A rack of 41 mm and ±0.4 µm is proposed as such; with the proposal in the machine file nothing
 /// is missing.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_rack_is_proposed_as_a_sawtooth() {
     let folder = scratch();
     let (_, new) = word(&folder, "new.toml");
@@ -109,6 +110,7 @@ fn a_formula_remembers() {
 /// Strokes of a sine, sampled every 10 ms: an axis that is 8 ms late, rounded to 20 µm. What its
 /// speed at each sample tells is proposed, and neither play nor waves.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_follower_is_late_by_the_speed_of_every_sample() {
     let folder = scratch();
     let machine = "title = 'axis'\n[spindle]\nspeed = '300 rpm'\n[lead_screw]\nlead = '5 mm'\n";

@@ -93,6 +93,7 @@ fn few_of_example(folder: &str) -> (Model, Table) {
 
 /// The same file in nanometres, with its passes in another order.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn neither_units_nor_the_order_of_passes_change_the_verdict() {
     let (machine, table) = few_of_example("hidden-gear");
     let rows = table.rows();

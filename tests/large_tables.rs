@@ -56,6 +56,7 @@ fn most_mb(command: &str, data: &str) -> f64 {
 
 /// Five million rows take five times as much; docs/performance.md states that.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_million_rows_are_held_in_a_third_of_a_gigabyte() {
     let folder = scratch();
     let (path, data) = word(&folder, "large.csv");
@@ -69,6 +70,7 @@ fn a_million_rows_are_held_in_a_third_of_a_gigabyte() {
 /// A motor that shakes a long log by a seventh of its noise, three rows a wave, is not in means of neighbours, and in
 /// one row of three not beyond chance.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_swift_wave_in_many_rows_gets_no_all_clear() {
     let mut noise = white(8, 0.5);
     let mut columns = [const { Vec::new() }; 3];

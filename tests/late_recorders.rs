@@ -91,6 +91,7 @@ fn is_near(one: &FittedEffect, value: f64) -> bool {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_lag_is_told_whether_or_not_the_recorder_followed_before_the_first_row() {
     for start in [Start::AtRest, Start::InMotion] {
         for seed in seeds(1, 3) {
@@ -109,6 +110,7 @@ fn a_lag_is_told_whether_or_not_the_recorder_followed_before_the_first_row() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_wave_beside_a_lag_keeps_its_size_in_a_log_that_begins_in_motion() {
     let hidden = (0.6, 3.0, 1.7);
     for seed in seeds(1, 3) {
@@ -134,6 +136,7 @@ fn one_speed_that_begins_in_motion_does_not_tell_a_lag_from_another_wave() {
 
 /// It dies away as what a recorder began with does, which alone speaks for no lag.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_film_that_gives_way_behind_each_start_is_no_lag() {
     for seed in seeds(1, 3) {
         let found = diagnose(&run(SCREW, seed, (&[1.0, 1.0 / 3.0], &[KNOWN]), Start::OnAFilm));
@@ -143,6 +146,7 @@ fn a_film_that_gives_way_behind_each_start_is_no_lag() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_file_with_the_lag_leaves_noise_however_the_log_begins() {
     let hidden = (0.6, 3.0, 1.7);
     for start in [Start::AtRest, Start::InMotion] {

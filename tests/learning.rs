@@ -33,6 +33,7 @@ fn ledger(folder: &Path) -> Value {
 
 /// What was made up for the data, and why a candidate was not taken, stands in the report.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_diagnosis_says_how_the_data_were_read_and_why_names_were_not_taken() {
     let folder = scratch();
     let (path, data) = word(&folder, "data.csv");
@@ -78,6 +79,7 @@ fn a_diagnosis_has_the_page_of_learn() {
 
 /// Two effects are found one after the other; each round can be gone back to.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn rounds_are_kept_and_can_be_taken_back() {
     let folder = scratch();
     let (out, out_word) = word(&folder, "learned");
@@ -118,6 +120,7 @@ fn rounds_are_kept_and_can_be_taken_back() {
 
 /// A run, a hand-made change, the same run and taking back: the change is in no danger.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_machine_file_edited_by_hand_is_kept_aside() {
     let folder = scratch();
     let (out, out_word) = word(&folder, "learned");
@@ -336,6 +339,7 @@ fn parquet_is_learned_from_like_text() {
 /// A trace of our own run, ×2 range and closed loop: the counter tells the error, and the learned
 /// machine, run clock by clock, does what was measured.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_closed_loop_trace_passes_the_final_check() {
     let folder = scratch();
     let (out, out_word) = word(&folder, "out");

@@ -61,6 +61,7 @@ fn compare(program: &Program, engine: &mut impl Engine, mut stimulus: Stimulus, 
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn verilator_agrees_with_the_compiled_engine_on_noise() {
     compare(device_program(), &mut stepped_device(), dense(device().netlist(), 1), clocks());
 }
@@ -78,6 +79,7 @@ fn verilator_agrees_with_the_leaping_engine() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn verilator_agrees_with_the_interpreter_on_the_board() {
     let design = whole_design();
     let netlist = Netlist::new(&design).unwrap();

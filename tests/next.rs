@@ -89,6 +89,7 @@ fn next(folder: &Path, line: &[String]) -> Option<String> {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn what_is_next_runs() {
     let folder = scratch();
     for example in ["hidden-gear", "outside-the-catalogue"] {

@@ -215,6 +215,7 @@ fn a_journal_that_cannot_be_finished_is_put_aside() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_makefile_of_the_user_stays() {
     let folder = workplace();
     let makefile = folder.path().join("Makefile");
@@ -365,6 +366,7 @@ fn killed_at_any_system_call_it_leaves_all_or_nothing() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn what_was_taken_back_survives_another_run() {
     let folder = scratch();
     let (task, task_word) = word(&folder, "task");

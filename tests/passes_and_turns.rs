@@ -70,6 +70,7 @@ fn a_detent_is_named_without_its_poles() {
 
 /// A pawl that falls in eight times a turn makes waves of eight, sixteen and twenty-four: no circle is divided so.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn what_falls_in_several_times_a_turn_is_no_division() {
     let pawl = |at: f64| 60.0 * libm::exp(3.0 * (libm::cos(TAU * 8.0 * at) - 1.0));
     let found = motor(4.0, pawl);
@@ -104,6 +105,7 @@ fn a_gear_needs_a_turn_of_its_own() {
 
 /// A gear that was lifted out and put in again half a radian on between the second and third pass.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn an_effect_that_passes_disagree_on_is_told() {
     let agreed = gear(|_| 0.0);
     assert_eq!((names(&agreed), agreed.verdict), (vec!["gear-error"], Verdict::Explained));
@@ -126,6 +128,7 @@ fn over_three_speeds(error_um: impl Fn(f64) -> f64) -> Diagnosis {
 
 /// A relay that was late between 120 and 240 s is no vibration, which has one phase throughout.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_vibration_keeps_time() {
     let late = |by_rad: f64| {
         over_three_speeds(|time_s| {
@@ -140,6 +143,7 @@ fn a_vibration_keeps_time() {
 
 /// A window that was opened, and whose step a slip of the grating would have had; but a slip does not come back.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_slip_stays() {
     let jumped = |within_s: f64| {
         over_three_speeds(|time_s| {
@@ -155,6 +159,7 @@ fn a_slip_stays() {
 
 /// A warming-up that is over after a tenth of the record shows in no row that may be held out.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_warming_up_at_the_start_is_named() {
     let [time, position, error] = columns([1, 1200], 1.0, |_, row| {
         let t = 8.0 * f64::from(row);
@@ -208,6 +213,7 @@ grating = { lines = 36000, diameter = "150 mm" }
 /// A wheel whose wave swells twice in a turn has lines at 20.5 and 24.5. In a log of one turn the whole orders
 /// about them draw them nearly as well, and the disc's divisions err at any of those.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_wheel_that_swells_with_the_table_is_no_division_of_its_disc() {
     let wheel = |swells: f64| {
         let [pass, angle, error] = columns([2, 350], 1.0, |pass, row| {

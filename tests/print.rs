@@ -92,6 +92,7 @@ fn share(points: &[u8], of: impl Fn(&[u8]) -> bool) -> f64 {
 /// From a browser in the dark, whose charts have other colours and are wider than a sheet; the story
 /// itself asks what would be cut.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn every_screen_of_the_workbench_is_whole_on_paper() {
     let bench = shortened(with_data("6"));
     let papers = scratch();
@@ -117,6 +118,7 @@ fn every_screen_of_the_workbench_is_whole_on_paper() {
 
 /// A telephone shows a part of what is wide, and that it goes on.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn nothing_is_cut_on_a_telephone_without_a_sign() {
     let folder = scratch();
     let (out, out_word) = word(&folder, "out");
@@ -130,6 +132,7 @@ fn nothing_is_cut_on_a_telephone_without_a_sign() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn no_heading_stands_last_on_a_sheet() {
     let mut printed = 0;
     for line in PRINTED {

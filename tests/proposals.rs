@@ -39,6 +39,7 @@ fn air(rows: u32) -> (Vec<f64>, Vec<f64>) {
 /// A grinder logs its error and its thread, and one of them alone shows the teeth of a rack: no motion of the
 /// table does, which either shows, but the laser, or the thread itself.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn what_one_of_two_sensors_shows_enters_there() {
     for shows in [[4.0, 0.0], [0.0, 4.0]] {
         let mut noise = white(3, 1.0);
@@ -56,6 +57,7 @@ fn what_one_of_two_sensors_shows_enters_there() {
 
 /// A camera's pixels and what was worked out of them, to three digits.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_reading_does_not_explain_itself() {
     for name in ["x_pixel", "where_mm", "air_temperature_c"] {
         let mut noise = white(1, 1.0);
@@ -108,6 +110,7 @@ fn of_laws_alike_the_one_of_fewest_numbers_is_told() {
 /// Poles whose waves swell within a turn, five times as loud from row to row as what is seven times as large: its
 /// names are in the model, and a sideband is no wheel of its own.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn what_is_named_under_a_ripple_stays_beside_a_formula() {
     for seed in seeds(1, 3) {
         let mut noise = white(seed, 6.0);
@@ -134,6 +137,7 @@ fn what_is_named_under_a_ripple_stays_beside_a_formula() {
 
 /// A meter that shows a part of what the air has changed by and it has not followed yet: no travel is in it.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn what_a_column_has_not_been_followed_in_is_a_law_of_its_own() {
     for (seed, follows) in [(1, 0.0), (2, 0.1)] {
         let (time_s, air_c) = air(900);
@@ -159,6 +163,7 @@ fn what_a_column_has_not_been_followed_in_is_a_law_of_its_own() {
 
 /// Ground that sinks ever more slowly, by the clock alone: nothing along a travel that was made of it.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_travel_made_of_the_clock_has_no_laws() {
     for seed in seeds(1, 4) {
         let mut noise = white(seed, 0.3);

@@ -14,6 +14,7 @@ use helixlock_sim::{
 
 use crate::settings_port::{Digits, WRITE, frame};
 use crate::support::command::repository;
+use crate::support::seeds::all_boards_are_asked;
 
 const MACHINES: [&str; 3] = ["sg7430-6mm", "sg7430-sixth-inch", "sg7430-half-pi-module"];
 
@@ -217,11 +218,12 @@ impl Pair<'_> {
 /// How many times as fast as it is a machine turns, and how many comparisons its pass has: with
 /// `HELIXLOCK_BOARD=all` a hundred at its own speed.
 fn extent() -> (f64, f64) {
-    let all = std::env::var("HELIXLOCK_BOARD").is_ok_and(|words| words == "all");
+    let all = all_boards_are_asked();
     if all { (1.0, 100.0) } else { (10.0, 4.0) }
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn one_netlist_runs_three_machines() {
     let (_, built) = machine(MACHINES[0]);
     let settable = circuit(&built, true);

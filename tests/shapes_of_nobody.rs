@@ -48,6 +48,7 @@ fn bell(deviations: f64) -> f64 {
 /// A chip under the slide in one pass of three, forty times the noise: no wear has it, for the
 /// other passes lack it, and no all-clear may be given over it.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_knock_in_one_pass_is_neither_wear_nor_noise() {
     is_nobodys(&|pass, mm| if pass == 1 { 2.0 * bell((mm - 230.0) / 12.0) } else { 0.0 });
 }
@@ -55,12 +56,14 @@ fn a_knock_in_one_pass_is_neither_wear_nor_noise() {
 /// Seven rows of one pass of three, lifted by sixty times the noise: the larger a spell is, the more it
 /// looks like noise with a memory of seven rows.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_short_spell_in_one_pass_is_no_noise() {
     is_nobodys(&|pass, mm| if pass == 1 && (230.0..247.0).contains(&mm) { 3.0 } else { 0.0 });
 }
 
 /// Three humps of one size: a bump takes one, and what is left takes it as well.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn one_hump_of_three_is_no_wear() {
     is_nobodys(&|_, mm| [150.0, 320.0, 500.0].map(|at| 0.4 * bell((mm - at) / 20.0)).iter().sum());
 }
@@ -68,6 +71,7 @@ fn one_hump_of_three_is_no_wear() {
 /// Humps of several widths, heights and signs: the bump that one of them is has the shape of a part of
 /// all, and is the smaller part.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn the_smaller_part_of_a_wavy_bed_is_no_wear() {
     let humps = [(150.0, 22.0, 0.13), (330.0, 40.0, -0.104), (560.0, 15.0, 0.169)];
     let bed = |_, mm| humps.iter().map(|(at, wide, um)| um * bell((mm - at) / wide)).sum();
@@ -78,12 +82,14 @@ fn the_smaller_part_of_a_wavy_bed_is_no_wear() {
 
 /// What warms up anew in every pass differs from the cubic that follows it by a fiftieth, and has fewer numbers.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_decay_of_each_pass_is_no_cubic() {
     is_nobodys(&|_, mm| 0.4 * libm::exp(-mm / 125.0));
 }
 
 /// The sun on one side of a bed: an arc that comes with the hours follows a screw of changing lead.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_bow_that_comes_in_time_is_nobodys() {
     is_nobodys(&|pass, mm| {
         let (x, hours) = (mm / 625.0, pass as f64 + mm / 1600.0);
@@ -93,6 +99,7 @@ fn a_bow_that_comes_in_time_is_nobodys() {
 
 /// Coolant comes on: a scale shrinks from then on over all of its length.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_slope_from_one_moment_on_is_nobodys() {
     is_nobodys(&|pass, mm| {
         let since_s = (400.0 * pass as f64 + mm / 4.0 - 470.0).max(0.0);
@@ -103,6 +110,7 @@ fn a_slope_from_one_moment_on_is_nobodys() {
 /// A spell of four fringes and a half, which are as far from whole lines, in fourteen rows: the whole
 /// numbers on either side are none.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn half_a_fringe_is_no_slip() {
     let spell = |pass, mm| {
         let lifted = pass == 1 && (230.0..265.0).contains(&mm);
@@ -148,6 +156,7 @@ fn a_wave_of_changing_length_is_seen() {
 /// it is loud. Of sixteen records of six tenths of a micrometre, which are two fringes, one may
 /// still get its name; of a few none.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn gusts_are_hardly_slips() {
     const PASSES: usize = 4;
     const ROWS: usize = 200;
@@ -176,6 +185,7 @@ fn gusts_are_hardly_slips() {
 
 /// A piece of a scale that lies higher: a bump follows it roughly.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_flat_top_with_edges_is_no_wear() {
     is_nobodys(&|_, mm| if (180.0..290.0).contains(&mm) { 0.15 } else { 0.0 });
 }
@@ -203,6 +213,7 @@ fn a_scratch_of_a_worm_is_told_by_its_turns() {
 /// Two passes there and back over eight targets, at each of which the axis rests for six readings and its servo
 /// settles: play that a vibration beside it makes fade, or a column pasted two rows too low, follow it.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn what_settles_after_each_stop_is_no_play_and_no_slipped_column() {
     let mut noise = white(1, 0.2);
     let mut columns = [const { Vec::new() }; 5];

@@ -93,6 +93,7 @@ fn on_a_table(seed: u64, shape: &dyn Fn(&Row) -> f64) -> Diagnosis {
 
 /// Dissipation grows with the square of the load.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn the_square_of_a_column_is_seen() {
     is_nobodys(|seed| on_a_slide(seed, &|row| 0.6 * row.load * row.load));
 }

@@ -44,6 +44,7 @@ fn from<'a>(text: &'a str, begin: &str) -> Vec<&'a str> {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_score_in_parts_is_the_score() {
     let words = ["challenge", "--score", "3", "--seed", "38"];
     parts_are_the_whole(&words, ".parquet", "one effect");

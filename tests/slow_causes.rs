@@ -61,6 +61,7 @@ fn two_places_of_opposite_signs_are_no_slow_noise() {
 /// A bed that is warmed from one side bends between its ends while six passes go over it: that is no lead of the
 /// screw.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_bow_that_comes_in_time_is_no_screw() {
     is_nobodys(|seed| {
         six_passes(seed, &|pass, mm| {
@@ -153,6 +154,7 @@ fn three_waves_of_one_turn_are_found_at_once() {
 
 /// One hump of a turn is a hump: three whole waves would only begin to draw it.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_hump_of_a_turn_is_not_its_harmonics() {
     const ENCODER: &str =
         "output.rotary = true\nspindle.speed = \"10 rpm\"\ngrating.lines = 1024\n";
@@ -178,6 +180,7 @@ fn tells(found: &Diagnosis, words: &str) -> bool {
 /// A chip that lies under the table from the fourth pass on: a bump of 25 standard errors in three of
 /// six passes, which noise of each pass's own would follow another way.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn what_half_of_the_passes_share_is_no_noise() {
     let bump = |mm: f64| libm::exp(-0.5 * ((mm - 250.0) / 25.0) * ((mm - 250.0) / 25.0));
     for seed in seeds(1, 4) {
@@ -237,6 +240,7 @@ fn humps_of_no_place_are_no_slow_noise() {
 /// Coolant that goes on and off as the operator likes, six deviations of noise apart: noise as slow as that
 /// comes to any value between.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn what_switches_between_two_levels_is_no_slow_noise() {
     // At no phase that a clock would give each pass.
     let is_on = |pass: usize, mm: f64| {
@@ -313,6 +317,7 @@ fn what_comes_back_each_day_is_no_slow_noise() {
 /// Samples that a scratch lifts by forty deviations, one in eleven: an outlier weighs little, but these
 /// all stand at one angle. As many at any angle are bad readings.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_scratch_of_the_grating_is_no_bad_reading() {
     let phase = |turns: f64| turns - libm::floor(turns);
     let places = |pass: usize, row: f64| 1.3 * row + OFF_MM[pass];
@@ -344,6 +349,7 @@ fn a_burst_of_swing_is_no_bad_reading() {
 
 /// A drift of eleven standard errors in one long pass: the noise is slow only without it.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_drift_is_no_slow_noise() {
     for seed in seeds(1, 4) {
         let mut noise = white(seed, 3.0);
@@ -362,6 +368,7 @@ fn a_drift_is_no_slow_noise() {
 /// A wheel that runs in and out, at both ends of a thread: a bow of the screw and the sag of a bed, each a
 /// hundred times as large, would leave nearly as much.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn effects_that_undo_each_other_are_not_named_together() {
     for seed in seeds(1, 4) {
         let mut noise = white(seed, 0.28);
@@ -384,6 +391,7 @@ fn effects_that_undo_each_other_are_not_named_together() {
 /// Play of twice the noise there and back, and a drift of twelve standard errors: noise so slow that a pass
 /// is worth two samples is as probable as a drift beside noise that is white.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_drift_beside_play_is_not_called_noise() {
     for seed in seeds(2, 6) {
         let mut noise = white(seed, 0.06);
@@ -418,6 +426,7 @@ enum Clock {
 /// A headstock that warms up through four passes a quarter of an hour apart: where no clock ran through them they seem
 /// to follow each other, or to begin at once.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn no_drift_runs_on_through_pauses_that_nobody_logged() {
     let clocks = [Clock::None, Clock::OfPasses, Clock::Through];
     for (seed, clock) in seeds(1, 5).flat_map(|seed| clocks.map(|clock| (seed, clock))) {

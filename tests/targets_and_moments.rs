@@ -191,6 +191,7 @@ fn a_step_among_nine_targets_is_a_formula() {
 /// Twelve waves in a turn at one speed, and angles that are stamped a hundredth of a turn unevenly: the clock draws
 /// them better than the angle.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_wave_of_the_spindles_mean_rate_is_told_to_turn_with_it() {
     let (mut noise, mut stamp) = (white(12, 1.0), white(13, 0.06));
     let rows = (0..1600_u16).map(|row| {
@@ -205,6 +206,7 @@ fn a_wave_of_the_spindles_mean_rate_is_told_to_turn_with_it() {
 /// A kink over a logged temperature beside noise as slow as the record: one of so many shapes follows a part of that,
 /// and of what is left nobody knows whether it is noise.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn beside_slow_noise_no_formula_explains() {
     let mut slow_ones = 0;
     for seed in seeds(3, 8) {
@@ -282,6 +284,7 @@ fn one_run(happens_um: impl Fn(f64) -> f64) -> Diagnosis {
 
 /// Thirty times and eight times the noise; slow noise would follow both.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_knock_and_a_spell_in_one_run_are_no_noise() {
     let knock = one_run(|t| 12.0 * libm::exp(-0.5 * ((t - 72.0) / 4.0).powi(2)));
     assert_eq!(knock.verdict, Verdict::Unexplained);
@@ -317,6 +320,7 @@ fn a_hop_between_two_passes_is_named() {
 
 /// An axis that goes and stands by turns, and an error that is late by 0.1 s.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_late_reading_of_an_axis_that_goes_and_stands_is_no_vibration() {
     let mut noise = white(8, 0.5);
     let (mut place, mut last) = (0.0, 0.0);
@@ -340,6 +344,7 @@ fn a_late_reading_of_an_axis_that_goes_and_stands_is_no_vibration() {
 /// Two fringes lost in noise of their size: the moment is known to a few samples, and its
 /// error says so.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_moment_is_as_uncertain_as_the_data_have_it() {
     let (mut square, mut told) = (0.0, 0.0);
     let asked = seeds(2, 8);

@@ -179,6 +179,7 @@ fn the_sheet_can_be_signed() {
 
 /// 940 mm of useful travel: the scale of the device moves e and nothing else.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_screw_has_an_uncertainty_and_its_grade_is_decided_by_it() {
     let words =
         ["screw", "examples/ball-screw-grade/screw.csv", "--lead", "2 mm", "--run-out", "30 mm"];

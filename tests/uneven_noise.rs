@@ -49,6 +49,7 @@ fn a_louder_stretch_is_no_wear() {
 
 /// Passes on a day with more and less traffic.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn passes_of_unequal_noise_hold_no_band() {
     for seed in seeds(2, 8) {
         let mut chance = ChaCha8Rng::seed_from_u64(seed);
@@ -76,6 +77,7 @@ fn passes_of_unequal_noise_hold_no_band() {
 /// What an instrument with a filter writes: means that overlap, twice over.
 /// One record in thirty still gets the name of wear beside `unexplained`: of a few none.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn filtered_noise_is_hardly_an_effect() {
     const OVER: usize = 7;
     let asked = seeds(2, 8);
@@ -94,6 +96,7 @@ fn filtered_noise_is_hardly_an_effect() {
 /// A display that goes on with the mean of its last twelve readings, in pauses too: a vibration of each record was
 /// named.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn running_means_have_no_name() {
     const OVER: usize = 12;
     for &seed in cases(1, &[1, 80, 127]) {

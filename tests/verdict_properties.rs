@@ -210,6 +210,7 @@ fn answer(machine: &Model, table: &Table) -> (Verdict, Vec<String>) {
 
 /// Bed pitch in steps of 0.2″, four times the noise: the steps are the instrument's, not the bed's.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_rounded_log_leaves_nothing_unexplained() {
     let abbe = "[[effect]]\nkind = \"abbe\"\noffset = \"400 mm\"\n";
     for seed in seeds(1, 3) {
@@ -251,6 +252,7 @@ proptest! {
     #![proptest_config(few(4, 8))]
 
     #[test]
+    #[ignore = "long: `cargo xtask campaign` runs it"]
     fn units_leave_verdict_and_names_alone(
         scene in scene(),
         chosen in prop::sample::subsequence(UNITS.to_vec(), 1..=5),
@@ -293,6 +295,7 @@ proptest! {
     }
 
     #[test]
+    #[ignore = "long: `cargo xtask campaign` runs it"]
     fn columns_of_noise_create_no_name(scene in scene(), kind in 0..3_u8, seed in any::<u64>()) {
         let mut chance = ChaCha8Rng::seed_from_u64(seed);
         let sensors = [(Sensor::Recorder, "error_um"), (Sensor::Thread, "lead_error_um")];

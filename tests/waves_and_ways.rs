@@ -46,6 +46,7 @@ fn a_square_wave_of_one_turn_is_no_waves_of_the_disc() {
 
 /// A shaft that nobody listed repeats each turn too, and so does all of it together.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_wave_keeps_its_name_beside_a_smaller_shape_of_each_turn() {
     const MOTOR: &str = "output.rotary = true\nspindle.speed = \"60 rpm\"\n\
                          gear = [{ name = \"pole pair\", order = 4 }]\n";
@@ -77,6 +78,7 @@ fn of_the_screw(seed: u64, error_um: &dyn Fn(f64) -> f64) -> Diagnosis {
 
 /// The second wave swelling with the turn, beside a first one, is the same three waves: it saves nothing.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn three_waves_of_a_screw_are_no_wave_that_swells() {
     for seed in seeds(1, 6) {
         let wave = |turn: f64, waves: f64, phase: f64| libm::sin(TAU * waves * turn + phase);
@@ -90,6 +92,7 @@ fn three_waves_of_a_screw_are_no_wave_that_swells() {
 
 /// A part that seats on one of two faces twice a turn has waves of the second and sixth order.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_square_wave_twice_a_turn_is_no_waves_of_the_screw() {
     for seed in seeds(1, 6) {
         let square = |turn: f64| if (2.0 * turn + 0.13).fract() < 0.5 { 0.8 } else { -0.8 };
@@ -102,6 +105,7 @@ fn a_square_wave_twice_a_turn_is_no_waves_of_the_screw() {
 /// The table's motion shows on the recorder and on the thread with opposite signs: the sum of both shows no
 /// vibration that either shows alone.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_vibration_is_heard_on_recorder_and_thread_together() {
     const TABLE_MOTION: [f64; 2] = [-1.0, 1.0];
     for seed in seeds(1, 8) {
@@ -129,6 +133,7 @@ fn a_vibration_is_heard_on_recorder_and_thread_together() {
 /// A screw that runs out of the meter's range three times; near the ends of the range it shows nothing. The width is
 /// looked for between the places of a grid as well, where the curve only steps from row to row.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_dead_zone_has_its_width() {
     const RANGE_UM: f64 = 150.0 * 0.632_820_365_309_938_1 / 2.0;
     let screw =
@@ -195,6 +200,7 @@ fn there_and_back(seed: u64, error_um: &dyn Fn(f64, f64, f64) -> f64) -> Diagnos
 
 /// Play that is taken up over 20 mm, and play that is taken up at once.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn play_has_the_way_that_takes_it_up() {
     for seed in seeds(1, 3) {
         let found = there_and_back(seed, &|_, way, since_mm| {
@@ -213,6 +219,7 @@ fn play_has_the_way_that_takes_it_up() {
 /// Force winds a drive up, and play is taken up evenly: alike but for the way back, of which a dozen rows a turn tell
 /// one from the other by some 17 of evidence.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn what_winds_up_is_no_play_that_is_nearly_as_good() {
     let asked = seeds(4, 12);
     let all = asked.end;
@@ -258,6 +265,7 @@ fn a_slope_and_play_are_no_line_of_each_way() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_way_beyond_all_that_was_gone_is_no_play() {
     for seed in seeds(1, 3) {
         let found = there_and_back(seed, &|_, way, since_mm| {
@@ -272,6 +280,7 @@ fn a_way_beyond_all_that_was_gone_is_no_play() {
 /// A wave of the travel that no shaft has, under a clock that goes on while the place is looked at every tenth
 /// reading: the clock draws it better than the places do, and is not what makes it.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_wave_of_the_travel_is_no_vibration_where_places_are_held() {
     for seed in seeds(1, 3) {
         let mut noise = white(seed, 0.3);
@@ -292,6 +301,7 @@ fn a_wave_of_the_travel_is_no_vibration_where_places_are_held() {
 
 /// At one speed an axis that turns back tells a frequency from an order, and one that does not tells none.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_vibration_is_told_where_the_axis_turns_back() {
     for seed in seeds(1, 3) {
         let shaken = |time_s: f64| 0.5 * libm::sin(TAU * 0.413 * time_s + 1.0);
@@ -348,6 +358,7 @@ fn to_and_fro(strokes_um: &[u32]) -> Diagnosis {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn play_that_half_of_the_strokes_do_not_take_up_gets_no_width() {
     let found = to_and_fro(&[60, 80, 48, 66, 90, 52, 70]);
     assert_eq!((found.verdict, names(&found)), (Verdict::Explained, vec!["backlash"]));
@@ -382,6 +393,7 @@ fn play_that_is_larger_in_the_middle_is_no_slow_noise() {
 /// A valve that is open for four seconds and shut for as long: waves in time at one, three and five times its
 /// frequency, each of which would be a vibration.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn what_switches_at_even_times_is_no_vibrations() {
     for seed in seeds(1, 4) {
         let mut noise = white(seed, 1.0);
@@ -406,6 +418,7 @@ fn what_switches_at_even_times_is_no_vibrations() {
 /// A thrust bearing moves the table once a turn, which recorder and thread show with opposite signs: the grating and
 /// the workpiece would have to do that between them.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn what_moves_the_table_is_no_two_waves_that_undo_each_other() {
     for seed in seeds(1, 6) {
         let mut noise = white(seed, 1.0);
@@ -430,6 +443,7 @@ fn what_moves_the_table_is_no_two_waves_that_undo_each_other() {
 /// A shaft that no file lists goes 0.4 times less into the travel than the screw's second harmonic: three quarters of
 /// it are that harmonic, and the rest would be a line beside it.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_shaft_beside_a_harmonic_of_the_screw_is_not_that_harmonic() {
     for seed in seeds(1, 6) {
         let mut noise = white(seed, 1.0);

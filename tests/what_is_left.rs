@@ -9,6 +9,7 @@ use crate::support::passes::{Passes, noise, white};
 use crate::support::seeds::seeds;
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn noise_at_two_speeds_and_in_two_directions_is_noise() {
     for (seed, length) in [(1, 0.1), (2, 5.0), (3, 50.0), (4, 0.1), (5, 10.0)] {
         let compared = compare(&Passes::new(&|_, _, _| 0.0, &mut noise(seed, length)).problem());
@@ -19,6 +20,7 @@ fn noise_at_two_speeds_and_in_two_directions_is_noise() {
 
 /// It turns its sign with the direction and fades: no two passes show the same.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_smooth_error_of_each_pass_s_own_is_not_noise() {
     let turning = |time_s: f64, position_mm: f64, direction: f64| {
         let wave = libm::cos(position_mm / 450.0 * TAU);
@@ -41,6 +43,7 @@ fn with_a_mistake(error_um: &dyn Fn(f64) -> f64, row: u16, mistake_um: f64) -> P
 /// A joint's error hardly changes within the pass, so that it is told from nothing. One wrong digit is
 /// fifty times as large, and no reason to call the rest noise.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn one_wrong_reading_is_no_all_clear() {
     let waves = [(0.9, 0.5, 1.9), (0.3, 1.6, 0.3), (0.5, 1.7, 3.8)];
     let of_a_joint = |u: f64| {
@@ -66,6 +69,7 @@ fn a_first_reading_apart_is_no_step() {
 /// A kink, and a step at one place of every pass: a cubic with a bump follows the one, a slip in
 /// each pass the other, both to within the noise.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn plain_shapes_are_not_named_after_effects_that_imitate_them() {
     let kink = |x: f64| 0.004 * (x - 410.0).max(0.0);
     let step = |x: f64| if x < 450.25 { 0.0 } else { 1.3 };
@@ -88,6 +92,7 @@ fn shows(diagnosis: &Diagnosis, along: &str, shape: &str) -> bool {
 /// A screw's first and third harmonics follow a square wave, a headstock that warms up a
 /// rise and fall, drifts of the phase and of the laser a parabola.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn shapes_of_turns_and_time_are_told_and_not_named() {
     type Shape<'a> = &'a dyn Fn(f64, f64) -> f64;
     type Record = fn(&dyn Fn(f64, f64, f64) -> f64, &mut dyn FnMut() -> f64) -> Passes;
@@ -108,6 +113,7 @@ fn shapes_of_turns_and_time_are_told_and_not_named() {
 
 /// What follows a logged column that no effect needs: through the travel, late, by a relay.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn relations_to_a_column_are_told_and_not_named() {
     type Shape<'a> = &'a dyn Fn(f64, f64) -> f64;
     let oil = |t: f64| 24.0 + libm::sin(t / 3000.0 * TAU);
@@ -128,6 +134,7 @@ fn relations_to_a_column_are_told_and_not_named() {
 
 /// A rack's joints, and a chipped tooth of a wheel that the file does not list.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn what_comes_back_at_a_distance_of_its_own_is_no_noise() {
     let joints = |x: f64| 0.3 * (x / 43.7).fract();
     let knocks = |x: f64| {
@@ -145,6 +152,7 @@ fn what_comes_back_at_a_distance_of_its_own_is_no_noise() {
 
 /// Two passes that turn back inside: where the reversal is smooth, it is one of play that is taken up over a way.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn play_that_is_taken_up_over_a_way_is_play() {
     let mut noise = noise(4, 1.0);
     let rows = (0..1200_u32).map(|row| {
@@ -179,6 +187,7 @@ fn at_one_speed(error_um: &dyn Fn(f64) -> f64) -> Passes {
 
 /// At one speed, a frequency in time is an order of the spindle too, until the axis turns back.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_wave_at_one_speed_is_told_and_not_named() {
     let shaken = |t: f64| 0.15 * libm::sin(0.0731 * TAU * t);
     let there_and_back = at_one_speed(&shaken);
@@ -252,6 +261,7 @@ fn two_levels_at_odd_moments_are_no_noise() {
 /// A wave in noise of five rows' length is known as well as it is told to be: noise that is fitted with
 /// the wave inside is larger just there, and its errors were told twice as large.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_line_under_slow_noise_is_as_sure_as_it_is_told() {
     let (order, size) = (1.7, 0.1);
     let asked = seeds(16, 40);

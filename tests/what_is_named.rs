@@ -28,6 +28,7 @@ fn heavy_noise(seed: u64, kept: f64) -> impl FnMut() -> f64 {
 /// A heavy sample of slow noise looks like a slip for a while; in Gaussian noise, what these
 /// records hold would be beyond doubt.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn heavy_tails_of_slow_noise_are_no_slips() {
     for seed in cases(1, &[4, 25, 37]) {
         let passes = Passes::new(&|_, _, _| 0.0, &mut heavy_noise(*seed, 0.98));
@@ -39,6 +40,7 @@ fn heavy_tails_of_slow_noise_are_no_slips() {
 /// One fringe lost between two samples, in noise that swings as far and forgets over 50 samples:
 /// a few samples beside its place, nothing of it is to be seen.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_slip_in_slow_noise_is_found_at_its_sample() {
     for &lost_at in cases(1, &[2601.0, 211.0]) {
         let slipped = |t: f64, _: f64, _: f64| if t < lost_at { 0.0 } else { FRINGE_UM };
@@ -61,6 +63,7 @@ fn a_slip_in_slow_noise_is_found_at_its_sample() {
 /// A step of no whole number of fringes or lines, once and for good: a slip and a hop of the
 /// laser make it together, but so would anything.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_step_of_any_size_is_no_slip() {
     for &(size_um, moment_s) in cases(1, &[(0.52, 700.0), (1.15, 4400.0)]) {
         let step = |t: f64, _: f64, _: f64| if t < moment_s { 0.0 } else { size_um };
@@ -72,6 +75,7 @@ fn a_step_of_any_size_is_no_slip() {
 /// A machine that stands twelve fringes off for the first five rows of a pass pulls in; for the first
 /// fifty it has lost them.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_pass_that_begins_elsewhere_has_lost_no_fringe() {
     for (rows, named) in [(5.0, &[][..]), (50.0, &["fringe-slip"][..])] {
         let late = |t: f64, _: f64, _: f64| if t < 2.5 * rows { 12.0 * FRINGE_UM } else { 0.0 };
@@ -83,6 +87,7 @@ fn a_pass_that_begins_elsewhere_has_lost_no_fringe() {
 
 /// Slow and large by itself, what no effect explains is no noise for the gear.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_gear_is_found_under_a_slow_error_ten_times_its_size() {
     let error = |t: f64, x: f64, direction: f64| {
         let slow = 4.0 * direction * (1.0 - t / 4000.0) * libm::cos(x / 450.0 * TAU);
@@ -134,6 +139,7 @@ fn two_effects_of_few_numbers_stand_before_one_that_bends() {
 
 /// Whole waves of a turn come in numbers: a resolver shows six of its own and more.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn five_waves_of_a_turn_are_five_names() {
     let waves =
         [(1.0, 1.0, 0.3), (3.0, 0.7, 2.0), (5.0, 0.5, -1.1), (7.0, 0.35, 0.9), (9.0, 0.25, 2.8)];
@@ -150,6 +156,7 @@ fn five_waves_of_a_turn_are_five_names() {
 
 /// A slope speaks through all samples a little, through none of them alone.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_slope_in_slow_noise_is_found() {
     let over_travel = |_: f64, x: f64, _: f64| 0.8 * x / 900.0;
     let over_time = |t: f64, _: f64, _: f64| 1.6 * t / 5000.0;
@@ -191,6 +198,7 @@ fn shaking_far_above_the_comparisons_is_unfolded_by_two_speeds() {
 /// The best that can be had of a wave of known length in N rows of σ is σ·√(2/N); the uncertain
 /// rows add next to nothing.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn what_the_file_tells_of_its_readings_weighs() {
     const SURE_UM: f64 = 0.02;
     const SIZE_UM: f64 = 0.1;
@@ -238,6 +246,7 @@ gear = [{ name = "resolver", order = 1, teeth = 4 }]
 /// A knock of a hundredth once a turn, or a size that grows by a hundredth: neither made the wave, though what
 /// knocks each turn can draw it, and a wave that grows is more probable than one that does not.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_large_wave_keeps_its_name_beside_what_hardly_differs() {
     let knock = |turns: f64| if turns.fract() < 0.06 { 0.3 } else { 0.0 };
     let grows = |turns: f64| 0.1 * (turns - 4.0) * libm::sin(TAU * 4.0 * turns + 0.3);

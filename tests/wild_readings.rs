@@ -158,6 +158,7 @@ fn with_a_wild_row(folder: &Path) -> String {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn reports_say_which_readings_weigh_little() {
     let folder = scratch();
     let data_word = with_a_wild_row(folder.path());

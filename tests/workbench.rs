@@ -246,6 +246,7 @@ fn what_is_wrong_with_a_draft_is_told_of_the_machine_file() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn an_effect_is_tried_taken_and_taken_back() {
     let (bench, elsewhere) = challenge("6");
     let data = std::fs::read_to_string(elsewhere.path().join("data.csv")).unwrap();
@@ -270,10 +271,11 @@ fn what_is_not_explained_changes_nothing() {
     assert_eq!(std::fs::read(bench.path().join("machine.toml")).unwrap(), before);
 }
 
-/// Every example with a machine file and data, every third of them in every check; those that are read
+/// Every example with a machine file and data, every third unless all are asked for; those that are read
 /// from an instrument's file first with the folder of the example, the machine file, the file and its
 /// recipe.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_screen_shows_what_the_command_prints() {
     let names = ["hidden-gear", "recorder-and-screw", "thermal-day", "encoder-1000-1024"];
     let names = names.into_iter().chain(["outside-the-catalogue"]);
@@ -307,7 +309,7 @@ fn imported([folder, machine, file, recipe]: [&str; 4]) -> TempDir {
     bench
 }
 
-/// Every example of the device, one of them in every check.
+/// Every example of the device, one of them unless all are asked for.
 #[test]
 fn the_device_shows_what_sim_prints() {
     let names = ["sg7430-6mm", "sg7430-sixth-inch", "sg7430-half-pi-module"];
@@ -415,6 +417,7 @@ fn changed(name: &str, rename: &[(&str, &str)], column: &str, change: fn(f64) ->
 /// Mistakes made in data of the examples: each is asked about before any verdict, and its one button leads to data
 /// that are not doubted, and to the effects that are there without it.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn one_click_mends_a_mistake() {
     let celsius = [("air_temperature_c", "workpiece_temperature_c")];
     let gear = |of: fn(f64) -> f64| ("hidden-gear", changed("hidden-gear", &[], "error_um", of));
@@ -490,6 +493,7 @@ fn the_second_of_two_tabs_is_told_and_loses_nothing() {
 /// On a telephone, in the dark and in Chinese as on a desk in the light: sizes, widths, contrast,
 /// and what axe-core finds.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn every_screen_can_be_read() {
     let bench = with_data("6");
     let server = Server::over(bench.path());
@@ -501,6 +505,7 @@ fn every_screen_can_be_read() {
 
 /// Every kind of file that `import` reads: its questions, notes and reasons.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_reading_is_told_in_chinese() {
     let samples = std::fs::read_dir(repository().join("import/tests/samples")).expect("a folder");
     let paths = samples.map(|entry| entry.expect("a file").path());
@@ -515,6 +520,7 @@ fn a_reading_is_told_in_chinese() {
 
 /// From a challenge to a machine file without noise left, and no mouse.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn the_keyboard_is_enough() {
     let bench = with_data("6");
     story("types", &Server::over(bench.path()), &[]);
@@ -524,6 +530,7 @@ fn the_keyboard_is_enough() {
 
 /// Challenges up to 50: a name at every peak that has one, and nowhere else.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn names_in_a_spectrum_stand_at_peaks_and_apart() {
     let bench = scratch();
     for seed in (1..=50).step_by(if all() { 1 } else { 7 }) {

@@ -288,6 +288,7 @@ fn short_pass(folder: &TempDir) -> String {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn sigrok_reads_what_the_pins_were() {
     let folder = scratch();
     let name = short_pass(&folder);
@@ -296,6 +297,7 @@ fn sigrok_reads_what_the_pins_were() {
 
 /// A tick too many from sample to sample.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn sigrok_does_not_read_that_of_a_broken_analyser() {
     let folder = scratch();
     let name = short_pass(&folder);

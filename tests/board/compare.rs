@@ -13,6 +13,7 @@ use serde_json::Value;
 use super::rig::{Board, Change, Gates, Levels, Mutant, grind};
 use super::{FRONT, PERIOD, machine};
 use crate::support::command::{Run, helixlock, scratch};
+use crate::support::seeds::all_boards_are_asked;
 
 const CLOCK_HZ: u64 = 12_000_000;
 
@@ -92,7 +93,7 @@ const END: u64 = 6 * PERIOD;
 /// How many faults have to be found, and which lines are lost: a few, or with `HELIXLOCK_BOARD=all`
 /// a hundred.
 fn faults() -> (usize, &'static [usize]) {
-    let all = std::env::var("HELIXLOCK_BOARD").is_ok_and(|words| words == "all");
+    let all = all_boards_are_asked();
     if all { (100, &[30, 71, 102]) } else { (3, &[71]) }
 }
 

@@ -13,7 +13,7 @@ use super::compare::write_log;
 use super::line::{Line, Speaker};
 use super::rig::{Board, Gates, grind};
 use crate::support::command::{helixlock, repository, scratch, word};
-use crate::support::seeds::cases;
+use crate::support::seeds::{all_boards_are_asked, cases};
 
 /// The bitstream's own, and two others.
 const MACHINES: [&str; 3] = [
@@ -28,7 +28,7 @@ const WORDS: [&str; 6] = ["--board", "icebreaker", "--pins", "rx", "--debounce",
 /// A machine, forty times as fast as it is, and how many comparisons its pass is to have: two, or
 /// with `HELIXLOCK_BOARD=all` twenty as fast as it is.
 fn fast(machine: &str) -> (Model, f64) {
-    let all = std::env::var("HELIXLOCK_BOARD").is_ok_and(|words| words == "all");
+    let all = all_boards_are_asked();
     let mut model = Model::read(&repository().join(machine)).expect("a sound machine");
     if !all {
         model.machine.spindle.speed_rpm *= 40.0;
@@ -71,6 +71,7 @@ fn periods(gates: &Gates<'_>, since: u64) -> Vec<u64> {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn one_bitstream_runs_several_machines() {
     let board = Board::of_bitstream(MACHINES[2], "icebreaker", &WORDS[2..]);
     let mut gates = board.start(0);

@@ -16,3 +16,8 @@ pub(crate) fn cases<T>(few: usize, all: &[T]) -> &[T] {
 pub(crate) fn all_are_asked() -> bool {
     std::env::var("HELIXLOCK_SEEDS").is_ok_and(|which| which == "all")
 }
+
+/// True when `HELIXLOCK_BOARD=all` asks for every board, block and fault.
+pub(crate) fn all_boards_are_asked() -> bool {
+    std::env::var("HELIXLOCK_BOARD").is_ok_and(|which| which == "all")
+}

@@ -12,6 +12,7 @@ use crate::support::command::{helixlock, put, word};
 /// The ledger keeps the reason, the machine file stays as it was, and `learn` in the same folder
 /// does not lose it.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_refusal_keeps_its_reason() {
     let bench = with_data("6");
     let reason = "the nut was measured: \"no play\" <b>, 已测量";
@@ -35,6 +36,7 @@ fn a_refusal_keeps_its_reason() {
 
 /// What the line at the foot of the page says does to the folder what the page does.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn the_command_that_is_shown_does_the_same() {
     for command in ["add&effect=backlash", "learn"] {
         let [taken, typed] = [with_data("6"), with_data("6")];
@@ -56,6 +58,7 @@ fn the_command_that_is_shown_does_the_same() {
 
 /// 8 mm of lead at 6 rpm.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_click_on_the_residual_shows_the_flip_flops_there() {
     let bench = example("hidden-gear");
     story("flips", &Server::over(bench.path()), &["0.8"]);
@@ -63,6 +66,7 @@ fn a_click_on_the_residual_shows_the_flip_flops_there() {
 
 /// The error is higher behind one place and lower behind another.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_jump_of_the_residual_leads_to_the_flip_flops_there() {
     let bench = shortened(example("hidden-gear"));
     let path = bench.path().join("data.csv");
@@ -85,6 +89,7 @@ fn a_jump_of_the_residual_leads_to_the_flip_flops_there() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn an_axis_that_is_pressed_has_the_residual_along_it() {
     story("follows", &Server::over(with_data("6").path()), &[]);
 }
@@ -96,6 +101,7 @@ fn cursors_are_linked_and_passes_can_be_left_out() {
 
 /// 750 samples over 1000 mm, the lead 8 mm: six a turn, and so three waves; the worm turns 7.2 times.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_spectrum_ends_where_the_samples_do() {
     story("resolves", &Server::over(many(750).path()), &["3", "worm"]);
 }

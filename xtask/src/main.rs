@@ -17,11 +17,19 @@ use xtask::setup::Tools;
     after_help = "Compiled when asked for, each with --help: prove, icarus, same-output, sbom"
 )]
 enum Task {
-    /// Format, lints, documentation, all tests and the Python package; what is missing of tools is installed meanwhile
+    /// Format, lints, documentation, tests and the Python package; what is missing of tools is installed meanwhile
     Check {
         /// Say what is missing and stop
         #[arg(long)]
         no_install: bool,
+    },
+    /// The tests that are too long for every check
+    Campaign {
+        /// All tests, with every record, board, screen and odd input that they know, not the few of a check: hours
+        #[arg(long)]
+        every_record: bool,
+        /// Only tests with one of these in their names
+        names: Vec<String>,
     },
     /// Of the crate `evidence`, which stands on most of the project.
     #[command(external_subcommand)]
@@ -45,6 +53,9 @@ fn run(task: Task, out: &mut impl Write) -> anyhow::Result<u8> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().context("the repository")?;
     match task {
         Task::Check { no_install } => Ok(u8::from(!check(root, no_install, out)?)),
+        Task::Campaign { every_record, names } => {
+            Ok(u8::from(!campaign(&Tools::of(root).path()?, every_record, &names)?))
+        }
         Task::Evidence(words) => evidence(root, &words),
     }
 }
@@ -55,7 +66,11 @@ const EVIDENCE: [&str; 4] = ["prove", "icarus", "same-output", "sbom"];
 /// Its exit status.
 fn evidence(root: &Path, words: &[String]) -> anyhow::Result<u8> {
     let word = words.first().map_or("", String::as_str);
-    ensure!(EVIDENCE.contains(&word), "found `{word}`, expected check, {}", EVIDENCE.join(", "));
+    ensure!(
+        EVIDENCE.contains(&word),
+        "found `{word}`, expected check, campaign, {}",
+        EVIDENCE.join(", ")
+    );
     let mut cargo = Command::new("cargo");
     cargo.args(["run", "--quiet", "--package", "helixlock-evidence", "--"]).args(words);
     let path = Tools::of(root).path()?;
@@ -72,6 +87,29 @@ const CHECKS: &[&[&str]] = &[
 const TESTS: &[&str] = &["test", "--workspace"];
 const DOCUMENTATION: &[&str] =
     &["doc", "--no-deps", "--workspace", "--config", "build.rustdocflags=['-D', 'warnings']"];
+
+/// What asks a test for every record that it knows.
+const EVERY_RECORD: [&str; 5] = [
+    "HELIXLOCK_BOARD",
+    "HELIXLOCK_HOSTILE",
+    "HELIXLOCK_ODD_MACHINES",
+    "HELIXLOCK_SEEDS",
+    "HELIXLOCK_WORKBENCH",
+];
+/// Tests that measure time: each is run alone, on a quiet machine.
+const TIMED: [&str; 2] = ["below_fifty_milliseconds_a_frame", "open_in_ten_seconds"];
+
+/// Whether the tests pass that a check leaves out; with every record, all tests.
+fn campaign(path: &OsStr, every_record: bool, names: &[String]) -> anyhow::Result<bool> {
+    let which = if every_record { "--include-ignored" } else { "--ignored" };
+    let mut cargo = Command::new("cargo");
+    cargo.args(["test", "--workspace", "--no-fail-fast", "--lib", "--tests", "--", which]);
+    cargo.args(TIMED.iter().flat_map(|test| ["--skip", test])).args(names).env("PATH", path);
+    if every_record {
+        cargo.envs(EVERY_RECORD.map(|variable| (variable, "all")));
+    }
+    Ok(cargo.status().context("`cargo` cannot be started")?.success())
+}
 
 /// Runs the checks up to the first that fails.
 fn check(root: &Path, no_install: bool, out: &mut impl Write) -> anyhow::Result<bool> {

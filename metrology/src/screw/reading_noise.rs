@@ -99,12 +99,14 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "long: `cargo xtask campaign` runs it"]
     fn waves_and_bows_are_told_from_noise() {
         is_taken_off_truly([Screw::Waves, Screw::Bowed, Screw::Smooth]);
     }
 
     /// A step is no bend, and a wave that grows no bend either.
     #[test]
+    #[ignore = "long: `cargo xtask campaign` runs it"]
     fn what_wanders_steps_or_grows_is_told_from_noise() {
         is_taken_off_truly([Screw::Wandering, Screw::Stepped, Screw::Growing]);
     }
@@ -126,6 +128,7 @@ mod tests {
     /// What wanders by chance is slow: of a wave that swells again and again V2π was held in 41 %, of one with a burst
     /// in 8 %, for they were taken for waves that go on evenly; and at little noise in 49 %, for it has no bell's shape.
     #[test]
+    #[ignore = "long: `cargo xtask campaign` runs it"]
     fn a_wave_of_a_turn_that_swells_is_told_from_noise() {
         for (screw, noise_um) in
             [(Screw::Swelling, 0.6), (Screw::Burst, 0.25), (Screw::Burst, 0.05)]
@@ -141,6 +144,7 @@ mod tests {
     /// The rise of the mean line, and all that JB/T 2886 evaluates without one: with the line taken off,
     /// e of a thread 60 µm too long was 0.005 µm.
     #[test]
+    #[ignore = "long: `cargo xtask campaign` runs it"]
     fn a_thread_that_is_too_long_is_so_without_noise_too() {
         for found in coverage(Screw::TooLong, 0.25, records(24, 40), 1) {
             assert!(found.left_um.abs() < 0.05, "{found:?}");

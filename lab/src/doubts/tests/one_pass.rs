@@ -22,6 +22,7 @@ fn second(table: Table, column: &str, change: impl Fn(f64) -> f64) -> Table {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_sign_and_a_unit_of_one_pass_are_told() {
     let known = machine(150, WAVES);
     let of = |factor: f64| {
