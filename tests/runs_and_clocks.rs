@@ -7,7 +7,7 @@ use helixlock_lab::{Diagnosis, Verdict};
 
 use crate::support::diagnosed::{diagnosed_on, names};
 use crate::support::passes::white;
-use crate::support::seeds::seeds;
+use crate::support::seeds::{cases, seeds};
 
 /// An axis without a laser.
 const AXIS: &str = "spindle.speed = \"60 rpm\"\nlead_screw.lead = \"5 mm\"\n";
@@ -169,6 +169,24 @@ fn a_slope_is_as_sure_as_what_was_left_out_beside_it_is_unlikely() {
         assert!(4.0 * stderr < linear.value, "{seed}: {} ± {stderr}", linear.value);
     }
     assert!(0 < alone);
+}
+
+/// A slope of 12 of its own standard errors. A square and a cube that undo each other at the end stand for it nearly as
+/// well, and what is left of all three sizes without the slope needs both of them.
+#[test]
+fn a_slope_is_no_square_and_cube_that_undo_each_other() {
+    for &seed in cases(2, &[3, 4, 18, 25, 29, 32, 36]) {
+        let mut noise = white(seed, 0.5);
+        let rows = (0..300_u32).map(|row| {
+            let mm = 12.0 * f64::from((row % 100).min(99 - row % 100));
+            [2.4 * f64::from(row), mm, -2.0 * mm / 1000.0 + noise()]
+        });
+        let found = diagnosed_on(AXIS, columns(["time_s", "position_mm", "error_um"], rows));
+        let last = found.rounds.last().expect("there is always a round 0");
+        let keys: Vec<_> =
+            last.effects.iter().flat_map(|one| &one.parameters).map(|one| &one.key).collect();
+        assert!(keys.iter().all(|key| *key == "linear_um_per_m"), "{seed}: {keys:?}");
+    }
 }
 
 /// Thirteen waves round a circle that is seen at its 24 faces are eleven as well; at 50 places they are thirteen.

@@ -167,6 +167,7 @@ pub(crate) fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> V
     all.extend(local_shapes(problem, fit));
     all.extend(waves::lines(problem, model, fit));
     all.extend(waves::bands(problem, fit));
+    all.extend(waves::of_each_pass(problem, model, fit));
     all.extend(waves::combs(problem, model, fit));
     all.extend(chirps(problem, model, fit));
     all.extend(bursts(problem, model, fit));

@@ -289,30 +289,38 @@ fn step_of(value: f64, step: f64) -> f64 {
     if value == 0.0 { step } else { step.min(value.abs()) }
 }
 
-/// Leaves out columns that do not pay by the Bayesian information criterion, weakest first.
+/// With the sizes that pay by the Bayesian information criterion: those of all that are left when the weakest have gone,
+/// or the best with those that have joined it, whichever is worth more.
+///
+/// From all alone, a square and a cube that undo each other would stand for a slope, which goes first; from
+/// one alone, two would not be found that are worth something together.
 #[must_use]
-pub(crate) fn reduced(stage: &Stage<'_>, component: Component) -> Component {
-    let mut best = component;
-    let atoms = best.atoms();
-    if atoms.len() < 2 {
-        return best;
+pub(crate) fn reduced(stage: &Stage<'_>, all: Component) -> Component {
+    if all.atoms().len() < 2 {
+        return all;
     }
+    let none = Component { kept: vec![false; all.kept.len()], ..all.clone() };
+    let [fewer, more] =
+        [(all, true), (none, false)].map(|(start, goes)| stepped(stage, start, goes));
+    if fewer.0 < more.0 { more.1 } else { fewer.1 }
+}
+
+/// An effect, and what it is worth, whose sizes go, or join, one by one while that pays.
+fn stepped(stage: &Stage<'_>, start: Component, goes: bool) -> (f64, Component) {
     let price = stage.problem.price_of_a_number();
-    let score = |component: &Component| {
-        gain_at(stage, component)
-            .map_or(f64::NEG_INFINITY, |gain| gain.gain - price * count(component.width()))
+    let valued = |component: Component| {
+        let gain = gain_at(stage, &component).map_or(f64::NEG_INFINITY, |gain| gain.gain);
+        (gain - price * count(component.width()), component)
     };
-    let mut now = score(&best);
+    let atoms = start.atoms();
+    let nothing = (f64::NEG_INFINITY, start.clone());
+    let mut best = if goes { valued(start) } else { nothing };
     loop {
-        let smaller = atoms
-            .iter()
-            .filter(|atom| best.kept[atom[0]])
-            .map(|atom| without(&best, atom))
-            .filter(|component| 0 < component.width())
-            .map(|component| (score(&component), component))
-            .max_by(|a, b| a.0.total_cmp(&b.0));
-        match smaller {
-            Some((score, component)) if now < score => (now, best) = (score, component),
+        let others = atoms.iter().filter(|atom| best.1.kept[atom[0]] == goes);
+        let others = others.map(|atom| with(&best.1, atom, !goes));
+        let next = others.filter(|other| 0 < other.width()).map(valued);
+        match next.max_by(|a, b| a.0.total_cmp(&b.0)) {
+            Some(next) if best.0 < next.0 => best = next,
             _ => return best,
         }
     }
@@ -356,12 +364,13 @@ fn placed(
     if placed_wins { (component, Some(looks)) } else { (placeless, Some(one_place)) }
 }
 
-fn without(component: &Component, atom: &[usize]) -> Component {
-    let mut smaller = component.clone();
+/// An effect that uses a size, or does not.
+fn with(component: &Component, atom: &[usize], used: bool) -> Component {
+    let mut other = component.clone();
     for &column in atom {
-        smaller.kept[column] = false;
+        other.kept[column] = used;
     }
-    smaller
+    other
 }
 
 #[cfg(test)]

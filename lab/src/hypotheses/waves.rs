@@ -4,9 +4,9 @@ use super::probes::{Structure, asked, matters, of_all, probes};
 use helixlock_plant::Column;
 
 use crate::model::{Columns, Fit, Problem, settle};
-use crate::numerics::{spread, usual_rate};
+use crate::numerics::{count, spread, usual_rate};
 use crate::policy::chance::SIGNIFICANCE;
-use crate::policy::extent::LISTED_LINES;
+use crate::policy::extent::{COLUMNS_OF_PASSES, LISTED_LINES, ROWS_A_COLUMN};
 use crate::spectrum::{Line, LineSearch, wave};
 
 /// Lines over the spindle angle and over time, sensor by sensor.
@@ -74,6 +74,39 @@ pub(super) fn bands(problem: &Problem, fit: &Fit) -> Vec<Structure> {
     found
 }
 
+/// Waves of one frequency over the spindle angle and over time, with a size and a phase of their own in each pass, sensor
+/// by sensor: what shakes at its own time, or by a clock that begins anew. The noise, which has followed them, is fitted
+/// anew.
+pub(super) fn of_each_pass(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
+    let passes = problem.record.passes();
+    let few = problem.samples.len() < ROWS_A_COLUMN * 2 * passes.len();
+    if passes.len() < 2 || COLUMNS_OF_PASSES < 2 * passes.len() || few {
+        return Vec::new();
+    }
+    let of = |sensor: usize, axis: &Cyclic| {
+        let Cyclic { frequency: along, values, highest, .. } = axis;
+        let search = LineSearch { problem, fit, sensor, coordinate: values, highest: *highest };
+        let (frequency, looks) = search.strongest_in_each_pass()?;
+        let waves = wave(problem, sensor, values, frequency).raw;
+        let own = problem.layout.blocks.iter().flat_map(|block| {
+            let of_block = |wave: &Column| {
+                let mut own = vec![0.0; wave.len()];
+                own[block.rows.clone()].copy_from_slice(&wave[block.rows.clone()]);
+                Column::from(own)
+            };
+            waves.iter().map(of_block).collect::<Vec<_>>()
+        });
+        let looks = (probes(problem) * looks, SIGNIFICANCE);
+        let (rms_um, p_value) = asked(problem, (model, fit), &own.collect::<Vec<_>>(), looks);
+        let shape = "waves of one length, in a size and a phase of each pass's own";
+        let told = Structure::without_place(along, shape, rms_um, p_value);
+        Some(Structure { at: Some(frequency), ..told })
+    };
+    let axes: Vec<Cyclic> = cyclic(problem).into_iter().chain(rows(problem)).collect();
+    let sensors = 0..problem.sensors.len();
+    sensors.flat_map(|sensor| axes.iter().filter_map(move |axis| of(sensor, axis))).collect()
+}
+
 /// Combs of frequencies over the spindle angle, over time and over the way, sensor by sensor: what all harmonics show
 /// beside the strongest, the noise fitted anew.
 pub(super) fn combs(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
@@ -137,6 +170,13 @@ fn way(problem: &Problem) -> Option<Cyclic> {
     let highest = 0.5 * usual_rate(&values);
     let frequency = "order of the way";
     Some(Cyclic { along: "way", frequency, values: values.into(), highest })
+}
+
+/// The rows, which come evenly in time or not, where no clock says when.
+fn rows(problem: &Problem) -> Option<Cyclic> {
+    let values = (0..problem.record.len()).map(count).collect();
+    let along = Cyclic { along: "rows", frequency: "waves a row", values, highest: 0.5 };
+    (!problem.measurement.timed).then_some(along)
 }
 
 /// The time that has gone since the record began, where a clock begins anew in each pass.

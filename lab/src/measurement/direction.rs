@@ -7,8 +7,8 @@ use helixlock_traces::Table;
 use super::coordinates::Coordinates;
 use crate::numerics::{deviation, median, spread, turns_of_the_way, weighted_median};
 use crate::policy::reading::{
-    AT_REST, BEYOND_TREMBLING, DIRECTION_REACH, JITTER_OF_TRAVEL, JITTER_REV, REVERSAL_REACH,
-    ROWS_OF_A_STAND, SHORT_STROKES, SLOWED_BY, TREMBLES, TURNS_AT_ROWS,
+    AS_LONG_AS_A_MOVE, AT_REST, BEYOND_TREMBLING, DIRECTION_REACH, JITTER_OF_TRAVEL, JITTER_REV,
+    REVERSAL_REACH, ROWS_OF_A_STAND, SHORT_STROKES, SLOWED_BY, TREMBLES, TURNS_AT_ROWS,
 };
 
 /// That of each row of a pass: as told, or as the axis moves.
@@ -22,12 +22,12 @@ pub(super) fn of_rows(table: &Table, coordinates: &Coordinates, members: &[usize
         return kept(all, rows.map(|row| told(row).unwrap_or_else(|| around(&angles, row))));
     }
     let (rest, jitter) = (rest(&angles), jitter(&angles));
+    let time = |row: usize| coordinates.time_s[members[row]];
     if let Some(least) = least_step(&angles, rest, jitter) {
-        return from_the_row_before(&angles, least);
+        return from_the_row_before(&angles, time, least);
     }
     let rests = at_rest(&angles, rest.min(jitter));
     let mut signs = kept(all, rows.map(|row| if rests[row] { 0.0 } else { around(&angles, row) }));
-    let time = |row: usize| coordinates.time_s[members[row]];
     turn_at_extremes(&mut signs, &rests, |row| angles[row], time);
     signs
 }
@@ -60,16 +60,31 @@ fn at_rest(angles: &[f64], least: f64) -> Vec<bool> {
         let behind = from + 1;
         let to =
             angles[behind..].iter().position(leaves).map_or(angles.len(), |rows| behind + rows);
-        let rows = without_slow_ends(angles, from..to);
-        if trembles(&angles[rows.clone()]) {
-            rests[rows.clone()].fill(true);
-            from = rows.end;
+        if let Some(stand) = stand(angles, from..to) {
+            rests[stand.clone()].fill(true);
+            from = stand.end;
         } else {
             // Half of what is no stand, so that a long one costs no square of its rows.
             from += (to - from).div_ceil(2);
         }
     }
     rests
+}
+
+/// The rows of a stand among rows at which an axis goes nowhere: all that it passes, however it trembles there, or those
+/// from which it goes back without their slow ends.
+fn stand(angles: &[f64], rows: Range<usize>) -> Option<Range<usize>> {
+    if is_passed(angles, &rows) {
+        return (1 <= turns_of(&angles[rows.clone()])).then_some(rows);
+    }
+    let middle = without_slow_ends(angles, rows);
+    trembles(&angles[middle.clone()]).then_some(middle)
+}
+
+/// True where an axis comes to rows and leaves them the same way.
+fn is_passed(angles: &[f64], rows: &Range<usize>) -> bool {
+    let step = |to: usize| Some(angles.get(to)? - angles.get(to.checked_sub(1)?)?);
+    step(rows.start).zip(step(rows.end)).is_some_and(|(comes, leaves)| 0.0 < comes * leaves)
 }
 
 /// Rows of what may be a stand, without those at its ends at which the axis slowly comes or goes: they are farther off
@@ -88,9 +103,14 @@ fn without_slow_ends(angles: &[f64], rows: Range<usize>) -> Range<usize> {
 /// a turn.
 fn trembles(angles: &[f64]) -> bool {
     let gone: f64 = steps(angles).map(f64::abs).sum();
+    2 <= turns_of(angles) && (angles[angles.len() - 1] - angles[0]).abs() < TREMBLES * gone
+}
+
+/// How often an axis turns among such rows.
+fn turns_of(angles: &[f64]) -> usize {
     let mut places = angles.to_vec();
     places.dedup();
-    2 <= turns_of_the_way(&places) && (angles[angles.len() - 1] - angles[0]).abs() < TREMBLES * gone
+    turns_of_the_way(&places)
 }
 
 /// Steps up to which an axis that makes such steps may rest.
@@ -134,10 +154,39 @@ fn makes_short_strokes(angles: &[f64], least: f64) -> bool {
 }
 
 /// The way that the axis came to each row; to the first as it goes on.
-fn from_the_row_before(angles: &[f64], least: f64) -> Vec<f64> {
+fn from_the_row_before(angles: &[f64], time: impl Fn(usize) -> f64, least: f64) -> Vec<f64> {
     let first = steps(angles).find(|step| least <= step.abs()).unwrap_or(1.0).signum();
     let ways = steps(angles).map(|step| if least <= step.abs() { step } else { 0.0 });
-    kept(first, std::iter::once(first).chain(ways))
+    let ways: Vec<f64> = std::iter::once(first).chain(ways).collect();
+    let mut signs = kept(first, ways.iter().copied());
+    for rows in come_back_to(&ways, &signs, time) {
+        let other = -signs[rows.start];
+        signs[rows].fill(other);
+    }
+    signs
+}
+
+/// Rows of the place of a turn to which the axis has come back from beyond: between two rows there as much time has gone
+/// as a move takes, and not between others.
+fn come_back_to(ways: &[f64], signs: &[f64], time: impl Fn(usize) -> f64) -> Vec<Range<usize>> {
+    let rows: Vec<usize> = (0..ways.len()).collect();
+    let lasts = |row: usize| time(row) - time(row - 1);
+    let usual = |moves: bool| {
+        let all = rows[1..].iter().filter(|row| (ways[**row] != 0.0) == moves);
+        median(&mut all.map(|row| lasts(*row)).collect::<Vec<f64>>())
+    };
+    let as_long = AS_LONG_AS_A_MOVE * usual(true);
+    if as_long <= usual(false) {
+        return Vec::new();
+    }
+    let back = |place: &[usize]| {
+        let behind = place[place.len() - 1] + 1;
+        let turns = signs.get(behind).is_some_and(|sign| sign * signs[place[0]] < 0.0);
+        let mut away = place[1..].iter().filter(|row| as_long <= lasts(**row));
+        let back = away.next().filter(|_| turns && away.next().is_none())?;
+        Some(*back..behind)
+    };
+    rows.chunk_by(|_, row| ways[*row] == 0.0).filter_map(back).collect()
 }
 
 /// Moves every change of sign to where the travel is farthest; a wide window told it only roughly. From where it stood,

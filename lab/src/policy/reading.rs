@@ -123,6 +123,13 @@ pub(crate) const DIRECTION_REACH: usize = 2;
 /// the time stands there.
 pub(crate) const AT_REST: f64 = 0.05;
 
+/// Part of the time that a move from place to place usually takes in which an axis may have gone beyond a turn and come
+/// back.
+///
+/// Chosen: to go beyond the last target and back is a short move. Doubled: only what takes as long as two moves is one,
+/// and readings from both sides of the last target are told to have come from one.
+pub(crate) const AS_LONG_AS_A_MOVE: f64 = 0.5;
+
 /// Part of the sum of its steps that an axis has gone at most where it stands and trembles.
 ///
 /// Derived: over five rows that tremble alone a quarter is to be expected, and all where an axis creeps. Doubled: it

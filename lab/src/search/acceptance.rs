@@ -232,7 +232,8 @@ fn at_an_end(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal>
         if what.of_way && what.may_be_none() {
             high = high.min(gone_by_most(problem));
         }
-        let inside = low < value && value < high;
+        // What is taken up within less than the shortest way is taken up at once.
+        let inside = (what.of_way || low < value) && value < high;
         let next = match what.search {
             Search::Logarithmic if value <= low => 2.0 * low,
             Search::Logarithmic => 0.5 * high,

@@ -86,6 +86,12 @@ impl LineSearch<'_> {
         })
     }
 
+    /// The strongest frequency of a wave of each pass's own size and phase, and how many such were looked at.
+    #[must_use]
+    pub(crate) fn strongest_in_each_pass(&self) -> Option<(f64, f64)> {
+        self.with_scan(|scan, white| scan.strongest_in_each_block(white))
+    }
+
     /// The clearest band of frequencies that is no line.
     #[must_use]
     pub(crate) fn band(&self) -> Option<Band> {

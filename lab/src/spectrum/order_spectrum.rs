@@ -4,10 +4,12 @@
 //! log likelihood ratio. A scan by Fourier sums finds the peaks, a fit settles each, and the
 //! strongest is taken out before the next is looked for (CLEAN with exact fits).
 
+use std::ops::Range;
+
 use crate::noise::{Layout, Noise, SlowPart, Whitener};
 use crate::numerics::least_squares::dot;
 use crate::numerics::{count, fourier, golden_maximum, least_squares, spread, usual_rate};
-use crate::policy::extent::{ALIKE_WINDOW, WINDOW_FROM};
+use crate::policy::extent::{ALIKE_WINDOW, SLOWEST_WAVES, WINDOW_FROM};
 
 /// Coordinate, noise and whitened residual of a search for lines.
 #[derive(Debug, Clone)]
@@ -106,6 +108,33 @@ impl Scan<'_> {
             spectrum.push(Point { frequency, amplitude, gain: power });
         }
         spectrum
+    }
+
+    /// The strongest frequency of a wave that has a size and a phase of its own in each block, and how many such were
+    /// looked at; `None` where fewer than two blocks are long enough for one.
+    #[must_use]
+    pub(crate) fn strongest_in_each_block(&self, white: &[f64]) -> Option<(f64, f64)> {
+        let weighted = times(self.unit, self.whitener.unwhiten(white));
+        let blocks = self.stretches();
+        let longest = blocks.iter().map(|block| block.turns).fold(0.0, f64::max);
+        let lowest = SLOWEST_WAVES / longest.max(f64::MIN_POSITIVE);
+        if blocks.len() < 2 || self.highest <= lowest {
+            return None;
+        }
+        let step = 1.0 / (longest * POINTS_A_CELL);
+        let points = self.points(step);
+        let mut gains = vec![0.0; points];
+        for block in &blocks {
+            let rows = block.rows.clone();
+            let sizes = fourier::sizes(&self.turns[rows.clone()], &weighted[rows], step, points);
+            for (index, (gain, size)) in gains.iter_mut().zip(sizes).enumerate() {
+                *gain += size * size / block.information(step * count(index));
+            }
+        }
+        let told = gains.iter().enumerate().map(|(index, gain)| (step * count(index), gain));
+        let (frequency, _) =
+            told.filter(|(frequency, _)| lowest <= *frequency).max_by(|a, b| a.1.total_cmp(b.1))?;
+        Some((frequency, (2.0 * (self.highest - lowest) * longest).max(1.0)))
     }
 
     /// Lines stronger than chance, strongest first, at most `most`.
@@ -324,8 +353,10 @@ impl Scan<'_> {
                     turns / (clock[clock.len() - 1] - clock[0]).max(f64::MIN_POSITIVE);
                 let gap = usual_least_gap(clock);
                 Stretch {
+                    rows: block.rows.clone(),
+                    turns,
                     density: Density::of(&self.noises[block.sensor], gap),
-                    rows: dot(&self.unit[block.rows.clone()], &self.unit[block.rows.clone()]),
+                    square: dot(&self.unit[block.rows.clone()], &self.unit[block.rows.clone()]),
                     cycles_a_gap: cycles_an_interval * gap,
                 }
             })
@@ -350,15 +381,19 @@ fn times(factors: &[f64], values: Vec<f64>) -> Vec<f64> {
 
 /// A block as the spectrum sees it: so many samples that show it under noise of known colour.
 struct Stretch {
+    rows: Range<usize>,
+    /// How far they reach.
+    turns: f64,
     density: Density,
-    rows: f64,
+    /// What a wave shows at them, squared.
+    square: f64,
     cycles_a_gap: f64,
 }
 
 impl Stretch {
     /// Information a sinusoid of frequency `f` gets here: half the samples over the noise density.
     fn information(&self, frequency: f64) -> f64 {
-        0.5 * self.rows / self.density.at(frequency * self.cycles_a_gap)
+        0.5 * self.square / self.density.at(frequency * self.cycles_a_gap)
     }
 }
 
