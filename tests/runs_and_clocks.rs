@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use helixlock_lab::{Diagnosis, Verdict};
+use helixlock_lab::{Diagnosis, Structure, Verdict};
 
 use crate::support::diagnosed::{diagnosed_on, names};
 use crate::support::passes::white;
@@ -19,6 +19,17 @@ fn columns<const N: usize>(
     let mut columns = titles.map(|title| (title, Vec::new()));
     rows.for_each(|row| columns.iter_mut().zip(row).for_each(|((_, all), one)| all.push(one)));
     columns.into()
+}
+
+/// Noise of a deviation that five rows share.
+fn of_five_rows(seed: u64, deviation: f64) -> impl FnMut() -> f64 {
+    let kept = libm::exp(-0.2);
+    let mut fresh = white(seed, deviation * (1.0 - kept * kept).sqrt());
+    let mut last = 0.0;
+    move || {
+        last = kept * last + fresh();
+        last
+    }
 }
 
 /// Nonlinear values of the effects that were found.
@@ -186,6 +197,114 @@ fn a_slope_is_no_square_and_cube_that_undo_each_other() {
         let keys: Vec<_> =
             last.effects.iter().flat_map(|one| &one.parameters).map(|one| &one.key).collect();
         assert!(keys.iter().all(|key| *key == "linear_um_per_m"), "{seed}: {keys:?}");
+    }
+}
+
+/// An axis that stands for six rows in the middle of each stroke and trembles there, over noise that five rows share: its
+/// way is that of the stroke.
+#[test]
+fn an_axis_that_trembles_where_it_stands_goes_on() {
+    for seed in seeds(2, 8) {
+        let (mut noise, mut tremble) = (of_five_rows(seed, 0.5), white(seed + 100, 0.002));
+        let rows = (0..240_u32).map(|row| {
+            let (stroke, at) = (row / 40, row % 40);
+            let (gone, stands) = (at.min(15) + at.max(21) - 21, (15..=21).contains(&at));
+            let is_there = stroke % 2 == 0;
+            let mm = 10.0 * f64::from(if is_there { gone } else { 33 - gone });
+            let play = if is_there { 1.2 } else { -1.2 };
+            let off = if stands { tremble() } else { 0.0 };
+            [0.5 * f64::from(row), mm + off, play + noise()]
+        });
+        let found = diagnosed_on(AXIS, columns(["time_s", "position_mm", "error_um"], rows));
+        assert_eq!(names(&found), ["backlash"], "{seed}: {:?}", found.verdict);
+        assert_eq!(found.verdict, Verdict::Explained, "{seed}");
+    }
+}
+
+/// Ten targets of three readings each, the last read from either side: the axis has gone on and come back meanwhile, which
+/// took as long as a move.
+#[test]
+fn readings_of_the_last_target_come_from_either_side() {
+    for seed in seeds(2, 8) {
+        let mut noise = of_five_rows(seed, 0.5);
+        let rows = (0..240_u32).map(|row| {
+            let (visit, reading) = (row / 3, f64::from(row % 3));
+            let (run, at) = (visit / 10, visit % 10);
+            let is_there = run % 2 == 0;
+            let mm = 23.0 * f64::from(if is_there { at } else { 9 - at });
+            let play = if is_there { 1.2 } else { -1.2 };
+            [5.0 * f64::from(visit) + 0.5 * reading, mm, play + noise()]
+        });
+        let found = diagnosed_on(AXIS, columns(["time_s", "position_mm", "error_um"], rows));
+        assert_eq!(names(&found), ["backlash"], "{seed}: {:?}", found.verdict);
+    }
+}
+
+/// Two waves and a half in each of six passes, each with a phase of its own: by a clock that begins anew they have no
+/// common one, and the noise, as slow as they are, must not swallow them.
+#[test]
+fn waves_with_a_phase_of_each_passs_own_are_no_slow_noise() {
+    for seed in seeds(2, 8) {
+        let (mut noise, mut phase) = (white(seed, 1.0), white(seed + 100, 2.0));
+        let rows = (0..6_u32).flat_map(|pass| {
+            let phase = phase();
+            let rows = (0..60_u32).map(|row| {
+                let s = f64::from(row);
+                [
+                    f64::from(pass),
+                    s,
+                    5.0 * s,
+                    1.1 * libm::sin(TAU * 2.5 * s / 60.0 + phase) + noise(),
+                ]
+            });
+            rows.collect::<Vec<_>>()
+        });
+        let titles = ["pass", "time_s", "position_mm", "error_um"];
+        let found = diagnosed_on(AXIS, columns(titles, rows));
+        assert_eq!(found.verdict, Verdict::Unexplained, "{seed}: {:?}", names(&found));
+        let phases = |one: &Structure| one.shape.contains("a phase of each pass's own");
+        assert!(found.residual.iter().any(phases), "{seed}");
+    }
+}
+
+/// A force that comes and goes turns a drive about at once, with direction told: no way is so short that the row behind a
+/// turn has any left.
+#[test]
+fn what_winds_up_at_once_winds_up() {
+    for seed in seeds(2, 8) {
+        let mut noise = white(seed, 0.4);
+        let rows = (0..300_u32).map(|row| {
+            let (stroke, at) = (row / 50, row % 50);
+            let way = if stroke % 2 == 0 { 1.0 } else { -1.0 };
+            let mm = 10.0 * f64::from(if stroke % 2 == 0 { at } else { 49 - at });
+            let newton = 100.0 + 60.0 * libm::sin(f64::from(row) / 23.0);
+            [0.5 * f64::from(row), mm, way, newton, -0.008 * way * newton + noise()]
+        });
+        let titles = ["time_s", "position_mm", "direction", "force_n", "error_um"];
+        let found = diagnosed_on(AXIS, columns(titles, rows));
+        assert_eq!(names(&found), ["wind-up"], "{seed}: {:?}", found.verdict);
+    }
+}
+
+/// A step of a hundred fringes in noise of twice as many as are told apart: the count is as sure as the step is.
+#[test]
+fn a_count_that_nothing_tells_has_an_error() {
+    const LASER: &str = "spindle.speed = \"60 rpm\"\nlead_screw.lead = \"5 mm\"\n\
+                         laser.wavelength = \"0.6329908 um\"\n";
+    for (deviation, is_sure) in [(0.05, true), (4.0, false)] {
+        let mut noise = white(1, deviation);
+        let rows = (0..300_u32).map(|row| {
+            let slipped = if row < 140 { 0.0 } else { 100.0 * 0.5 * 0.632_990_8 };
+            [0.5 * f64::from(row), 2.0 * f64::from(row), slipped + noise()]
+        });
+        let found = diagnosed_on(LASER, columns(["time_s", "position_mm", "error_um"], rows));
+        let last = found.rounds.last().expect("there is always a round 0");
+        let counts = last.effects.iter().flat_map(|one| &one.parameters);
+        let counts: Vec<_> = counts.filter(|one| one.key == "count").collect();
+        let [count] = counts[..] else { panic!("{deviation}: {:?}", names(&found)) };
+        assert_eq!(count.stderr.is_none(), is_sure, "{count:?}");
+        let stderr = count.stderr.unwrap_or(0.01);
+        assert!((count.value.abs() - 100.0).abs() < 3.0 * stderr, "{count:?}");
     }
 }
 

@@ -21,8 +21,8 @@ use crate::numerics::least_squares::covariance_rows;
 use crate::policy::chance::{AT_AN_END, STANDARD_ERRORS};
 use crate::policy::extent::{COARSER, COMPARED_ROWS, FEWEST_COARSE, SEARCHED_ROWS, STEPPED_ROWS};
 use crate::search::{
-    Dropped, Refusal, Rivals, Step, at_flanks, come_again, hear, nobodys, not_told, one_cause,
-    one_comb, pruned, rivals, suspected, tried_beside, unlisted_order, untold,
+    Dropped, Refusal, Rivals, Step, at_flanks, come_again, errors_of_counts, hear, nobodys,
+    not_told, one_cause, one_comb, pruned, rivals, suspected, tried_beside, unlisted_order, untold,
 };
 
 /// What can be said about a model and a measurement.
@@ -501,15 +501,17 @@ const WIDENED: f64 = 1.2;
 #[must_use]
 pub(crate) fn effects(problem: &Problem, state: &State) -> Vec<FittedEffect> {
     let both = told_covariances(problem, state);
-    (0..state.components.len()).map(|index| fitted(problem, state, &both, index)).collect()
+    let of_counts = errors_of_counts(problem, state).into_iter().enumerate();
+    of_counts.map(|(index, of_count)| fitted(problem, state, &both, (index, of_count))).collect()
 }
 
-/// A component with its values; their covariance with its other values at 0, and with what those may be.
+/// A component with its values; their covariance with its other values at 0, and with what those may be, and the
+/// standard error of its count where it may be any.
 fn fitted(
     problem: &Problem,
     state: &State,
     [of_used, of_all]: &[JointCovariance; 2],
-    index: usize,
+    (index, of_count): (usize, Option<f64>),
 ) -> FittedEffect {
     let component = &state.components[index];
     let (used, from) = state.coefficients(index);
@@ -524,8 +526,8 @@ fn fitted(
         let what = &component.term.parameters[estimate.parameter];
         if component.is_counted(estimate.parameter) {
             let (key, value) = (what.key(), estimate.value.round());
-            let file_says = file_says(estimate.parameter);
-            parameters.push(FittedParameter { key, value, stderr: None, warning: None, file_says });
+            let (stderr, file_says) = (of_count, file_says(estimate.parameter));
+            parameters.push(FittedParameter { key, value, stderr, warning: None, file_says });
             continue;
         }
         let of_nature = component.term.nature().uncertainty * estimate.value;

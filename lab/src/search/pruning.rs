@@ -158,6 +158,15 @@ impl Count {
     }
 }
 
+/// Per effect the standard error of its count where any number would pass for it.
+pub(crate) fn errors_of_counts(problem: &Problem, state: &State) -> Vec<Option<f64>> {
+    let mut errors = vec![None; state.components.len()];
+    for one in counts(problem, state).iter().filter(|one| one.is_of_any_size()) {
+        errors[one.index] = Some(one.stderr);
+    }
+    errors
+}
+
 /// The counts of a model.
 pub(super) fn counts(problem: &Problem, state: &State) -> Vec<Count> {
     let is_counted = |one: &Component| one.whole.iter().any(Option::is_some);
