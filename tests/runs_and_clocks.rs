@@ -271,14 +271,17 @@ fn waves_with_a_phase_of_each_passs_own_are_no_slow_noise() {
 /// turn has any left.
 #[test]
 fn what_winds_up_at_once_winds_up() {
-    for seed in seeds(2, 8) {
-        let mut noise = white(seed, 0.4);
-        let rows = (0..300_u32).map(|row| {
-            let (stroke, at) = (row / 50, row % 50);
-            let way = if stroke % 2 == 0 { 1.0 } else { -1.0 };
-            let mm = 10.0 * f64::from(if stroke % 2 == 0 { at } else { 49 - at });
-            let newton = 100.0 + 60.0 * libm::sin(f64::from(row) / 23.0);
-            [0.5 * f64::from(row), mm, way, newton, -0.008 * way * newton + noise()]
+    for &seed in cases(2, &[13, 20, 27]) {
+        let (mut noise, mut place) = (of_five_rows(seed, 0.1), white(seed + 100, 0.2));
+        let mut force = of_five_rows(seed + 200, 20.0);
+        let rows = (0..600_u32).map(|row| {
+            let (stroke, at) = (row / 100, row % 100);
+            let there = stroke % 2 == 0;
+            let way = if there { 1.0 } else { -1.0 };
+            let mm = 15.0 * (f64::from(if there { at } else { 99 - at }) + place());
+            let newton = 110.0 + force();
+            let s = f64::from(row) + 4.0 * f64::from(stroke);
+            [s, mm, way, newton, -0.0016 * way * newton + noise()]
         });
         let titles = ["time_s", "position_mm", "direction", "force_n", "error_um"];
         let found = diagnosed_on(AXIS, columns(titles, rows));
