@@ -85,6 +85,7 @@ fn play_is_the_same_at_every_reversal() {
 /// A logger whose clock is off by up to a sixth of its interval: a vibration above half of its rate and the alias
 /// below it are not alike.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn an_uneven_clock_tells_a_vibration_from_its_alias() {
     let rows = strokes(4, 105).zip(1_u32..).map(|([time_s, mm, way], row)| {
         let off = f64::from(row * row % 97) / 96.0 - 0.5;

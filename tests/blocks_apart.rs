@@ -37,6 +37,7 @@ fn verilator_has_nothing_to_say() {
 
 /// The smallest of our FPGAs has 1280 logic cells.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn each_fits_half_a_small_fpga() {
     for card in APART {
         let script = format!(

@@ -14,6 +14,7 @@ const PASSES: u32 = 3;
 
 /// Noise of a fifth of the last digit, and of a third.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn digits_that_stand_still_are_no_structure() {
     for (step_um, noise_um) in [(0.25, 0.05), (0.25, 0.08)] {
         for seed in seeds(1, 4) {

@@ -31,6 +31,7 @@ fn by_turns(seed: u64, error_um: &dyn Fn(f64, f64, f64) -> f64) -> Diagnosis {
 
 /// The loop of a flexure: noise of a pass's length follows it, but not the same way every time.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_lens_between_there_and_back_is_no_noise() {
     is_nobodys(|seed| {
         by_turns(seed, &|way, _, mm| {

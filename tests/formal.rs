@@ -116,6 +116,7 @@ fn gates_of_ice40_equal_the_verilog() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn gates_of_ecp5_equal_the_verilog() {
     gates_equal_the_verilog(Family::Ecp5);
 }

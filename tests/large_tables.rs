@@ -87,6 +87,7 @@ fn a_swift_wave_in_many_rows_gets_no_all_clear() {
 
 /// Means of neighbours, which are searched, scatter less than the samples of which a user reads.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn what_was_tried_is_told_with_the_scatter_of_the_samples() {
     let folder = scratch();
     let (path, data) = word(&folder, "waves.csv");

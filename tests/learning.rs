@@ -62,6 +62,7 @@ fn a_diagnosis_says_how_the_data_were_read_and_why_names_were_not_taken() {
 
 /// `diagnose` shows what `learn` shows, and writes nothing else.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_diagnosis_has_the_page_of_learn() {
     let folder = scratch();
     let [diagnosed, learned] = ["diagnosed", "learned"].map(|name| word(&folder, name));
@@ -145,6 +146,7 @@ fn a_machine_file_edited_by_hand_is_kept_aside() {
 
 /// The learned file is the old one, to the byte, with tables behind it.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn the_new_machine_file_keeps_comments_and_order() {
     let folder = scratch();
     let (out, out_word) = word(&folder, "learned");
@@ -184,6 +186,7 @@ fn the_new_machine_file_keeps_comments_and_order() {
 
 /// An effect nobody foresaw is unexplained, then added as the user's own, and explains.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn an_effect_of_the_users_own_is_learned() {
     let folder = scratch();
     let data = few_samples(folder.path(), "outside-the-catalogue", 4);

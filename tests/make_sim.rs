@@ -62,6 +62,7 @@ fn simulate(project: &Path, bench: &str) -> Output {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn eight_mistakes_are_noticed() {
     let folder = tempfile::tempdir().expect("a scratch folder");
     let project = folder.path().join("out");

@@ -68,6 +68,7 @@ fn a_shift_beside_an_effect_is_doubted() {
 
 /// A position that counts the other way, from the same zero and from its far end.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_position_that_counts_the_other_way_is_doubted() {
     let says = doubted(&mistaken(|_| 0.0, "position_mm", |mm| -mm));
     assert!(says.contains("`position_mm` has the opposite sign"), "{says}");
@@ -85,6 +86,7 @@ fn a_logged_column_of_the_other_sign_is_doubted() {
 /// A wave of twice the order of the file's, larger than that one and of its phase, is not the file's on places of
 /// half the length: that one is there as well.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_larger_second_harmonic_of_the_screw_is_no_unit_of_the_position() {
     let machine = "spindle.speed = '60 rpm'\nlead_screw.lead = '6 mm'\n\
                    effect = [{ kind = 'screw-periodic', amplitude = '2 um', phase = '-36 deg' }]\n";

@@ -123,6 +123,7 @@ fn half_a_fringe_is_no_slip() {
 
 /// A dent with the metal beside it: a bump follows one half.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_dent_with_its_rim_is_no_wear() {
     is_nobodys(&|_, mm| {
         let off = (mm - 410.0) / 5.0;
@@ -133,6 +134,7 @@ fn a_dent_with_its_rim_is_no_wear() {
 /// A dent whose rim stands up on both sides, twelve standard errors: a bump follows the middle, and
 /// explains nothing alone.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_dent_between_two_rims_is_no_wear() {
     let dent = |_, mm| {
         let off = (mm - 410.0) / 30.0;

@@ -100,6 +100,7 @@ fn the_square_of_a_column_is_seen() {
 
 /// Neither column says anything alone.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn the_product_of_two_columns_is_seen() {
     is_nobodys(|seed| on_a_slide(seed, &|row| 0.8 * row.load * row.coolant));
 }
@@ -118,12 +119,14 @@ fn a_kink_along_an_angle_is_seen() {
 
 /// The room warms until a door is opened.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_drift_that_turns_is_seen() {
     is_nobodys(|seed| on_a_slide(seed, &|row| -0.02 * (row.time_s - 290.0).abs()));
 }
 
 /// A wave of the screw on the way forward, and none on the way back.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_wave_of_one_way_is_no_wave_of_the_screw() {
     for seed in seeds(1, 6) {
         let wave = |row: &Row| {

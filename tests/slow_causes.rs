@@ -74,6 +74,7 @@ fn a_bow_that_comes_in_time_is_no_screw() {
 
 /// A spindle that warms up and a fringe lost in one pass: slow noise takes up either while the other is missing.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn two_effects_are_found_at_once() {
     let both = |seed: &u64| {
         let mut noise = white(*seed, 0.12);
@@ -256,6 +257,7 @@ fn what_switches_between_two_levels_is_no_slow_noise() {
 
 /// A pump that speeds up in every pass, from another angle each time: no line, and no narrow band.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn what_swings_at_no_one_frequency_is_no_noise() {
     for seed in seeds(1, 4) {
         let found = six_passes(seed, &|pass, mm| {
@@ -335,6 +337,7 @@ fn a_scratch_of_the_grating_is_no_bad_reading() {
 
 /// A burst of swing in every pass, of forty deviations from sample to sample and nothing on the mean.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_burst_of_swing_is_no_bad_reading() {
     let places = |pass: usize, row: f64| 3.0 * row + OFF_MM[pass];
     for seed in seeds(1, 4) {

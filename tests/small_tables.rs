@@ -19,6 +19,7 @@ fn runs(count: u32, targets: u32, mut error_um: impl FnMut(f64) -> f64) -> Diagn
 
 /// White noise draws slow noise of three samples a run one time in three; hardly any of it is beyond chance.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn white_noise_of_few_targets_is_no_slow_noise() {
     let is_clear = |seed: &u64| {
         let mut noise = white(*seed, 0.1);

@@ -183,6 +183,7 @@ fn a_formula_of_as_many_numbers_as_targets_explains_none() {
 
 /// A formula of far fewer numbers than there are targets is none by chance.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_step_among_nine_targets_is_a_formula() {
     let found = formulas(9, 9, |target| if 4 < target { 8.0 } else { 0.0 });
     assert_eq!(found, Found::Formula);
@@ -387,6 +388,7 @@ fn a_moment_among_thousands_of_rows_is_as_uncertain() {
 /// Two turns of a table, each from its own start, with a wave that only a clock would tell from an
 /// order: what the disc does is nobody's rival for it.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_wave_without_a_name_confuses_no_effect_beside_it() {
     let machine = "output.rotary = true\nspindle.speed = \"2 rpm\"\n\
                    grating = { lines = 36000, diameter = \"150 mm\" }\n";

@@ -31,6 +31,7 @@ fn a_tooth_is_no_wear() {
 
 /// A wild reading on the flank of a worn place leaves it its name.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn wear_with_a_wild_reading_is_wear() {
     for seed in seeds(2, 12) {
         let worn = |mm: f64| {

@@ -34,6 +34,7 @@ fn wave(row: usize) -> f64 {
 
 /// Forty readings beside a motor that runs.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_louder_stretch_is_no_wear() {
     for seed in seeds(2, 8) {
         let mut chance = ChaCha8Rng::seed_from_u64(seed);

@@ -243,6 +243,7 @@ fn what_winds_up_is_no_play_that_is_nearly_as_good() {
 /// A play that the whole way back would not take up is no play that was seen: a slope of the way back does as much.
 /// A line of each way contains both, for one number more that nobody needs.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_slope_and_play_are_no_line_of_each_way() {
     for seed in seeds(1, 6) {
         let mut noise = white(seed, 0.2);
@@ -315,6 +316,7 @@ fn a_vibration_is_told_where_the_axis_turns_back() {
 
 /// The square of a screw grew; its slope, too small for this noise to tell, is what the file says, and not gone.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_changed_value_leaves_the_others_to_the_file() {
     let machine = format!(
         "{MACHINE}[[effect]]\nkind = \"screw-progressive\"\nlinear = \"0.9 um/m\"\nquadratic = \"20 um/m^2\"\n"

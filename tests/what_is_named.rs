@@ -170,6 +170,7 @@ fn a_slope_in_slow_noise_is_found() {
 /// A motor of 31.7 Hz, seen at some of the comparisons of 6 and of 8.22 turns a minute: each speed
 /// alone shows one of its aliases.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn shaking_far_above_the_comparisons_is_unfolded_by_two_speeds() {
     let mut noise = noise(3, 1.0);
     // Comparisons a second: 13906 lines over a = 110, at 6 rpm.

@@ -329,6 +329,7 @@ fn the_device_shows_what_sim_prints() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn the_device_follows_its_form() {
     let bench = example("hidden-gear");
     let path = bench.path().join("machine.toml");
@@ -339,6 +340,7 @@ fn the_device_follows_its_form() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn two_tabs_lose_nothing_of_each_other() {
     let bench = example("hidden-gear");
     story("tabs", &Server::over(bench.path()), &[]);

@@ -95,6 +95,7 @@ fn an_axis_that_is_pressed_has_the_residual_along_it() {
 }
 
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn cursors_are_linked_and_passes_can_be_left_out() {
     story("passes", &Server::over(with_data("6").path()), &[]);
 }
