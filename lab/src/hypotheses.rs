@@ -35,6 +35,7 @@ mod trial;
 mod uneven_slowness;
 mod unfolding;
 mod waves;
+mod waves_of_passes;
 
 pub(crate) use agreement::{Disagreement, disagreements};
 pub(crate) use calibration::chance as chance_in_noise;

@@ -24,6 +24,7 @@ use super::tails::chance_with_tails;
 use super::time_reversal::one_way;
 use super::uneven_slowness::uneven_slowness;
 use super::waves;
+use super::waves_of_passes::waves_of_passes;
 use helixlock_plant::Column;
 
 use crate::model::{Columns, Fit, Problem, Shaft, Stage, settle};
@@ -167,7 +168,7 @@ pub(crate) fn all_structures(problem: &Problem, model: &Columns, fit: &Fit) -> V
     all.extend(local_shapes(problem, fit));
     all.extend(waves::lines(problem, model, fit));
     all.extend(waves::bands(problem, fit));
-    all.extend(waves::of_each_pass(problem, model, fit));
+    all.extend(waves_of_passes(problem, model, fit));
     all.extend(waves::combs(problem, model, fit));
     all.extend(chirps(problem, model, fit));
     all.extend(bursts(problem, model, fit));

@@ -4,15 +4,10 @@ use super::probes::{Structure, asked, matters, of_all, probes};
 use helixlock_plant::Column;
 
 use crate::model::{Columns, Fit, Problem, settle};
-use crate::noise::Whitener;
-use crate::numerics::least_squares::{self, dot};
-use crate::numerics::{chi_squared_tail, count, spread, usual_rate};
+use crate::numerics::{spread, usual_rate};
 use crate::policy::chance::SIGNIFICANCE;
-use crate::policy::extent::{COLUMNS_OF_PASSES, LISTED_LINES, ROWS_A_COLUMN};
+use crate::policy::extent::LISTED_LINES;
 use crate::spectrum::{Line, LineSearch, wave};
-
-/// Degrees of freedom of a block that its zero, a sine and a cosine take.
-const LOST_IN_A_BLOCK: f64 = 3.0;
 
 /// Lines over the spindle angle and over time, sensor by sensor.
 pub(super) fn lines(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
@@ -79,76 +74,6 @@ pub(super) fn bands(problem: &Problem, fit: &Fit) -> Vec<Structure> {
     found
 }
 
-/// Waves of one frequency over the spindle angle and over time, with a size and a phase of their own in each pass, sensor
-/// by sensor: what shakes at its own time, or by a clock that begins anew. The noise, which has followed them, is fitted
-/// anew.
-pub(super) fn of_each_pass(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
-    let passes = problem.record.passes();
-    let few = problem.samples.len() < ROWS_A_COLUMN * 2 * passes.len();
-    if passes.len() < 2 || COLUMNS_OF_PASSES < 2 * passes.len() || few {
-        return Vec::new();
-    }
-    let of = |sensor: usize, axis: &Cyclic| {
-        let Cyclic { frequency: along, values, highest, .. } = axis;
-        let search = LineSearch { problem, fit, sensor, coordinate: values, highest: *highest };
-        let (frequency, looks) = search.strongest_in_each_pass()?;
-        let own = in_each_block(problem, &wave(problem, sensor, values, frequency).raw);
-        let looks = probes(problem) * looks;
-        let (rms_um, p_value) = asked(problem, (model, fit), &own, (looks, SIGNIFICANCE));
-        let p_value = if p_value < SIGNIFICANCE {
-            p_value.max((looks * chance_in_passes(problem, (model, fit), sensor, &own)).min(1.0))
-        } else {
-            p_value
-        };
-        let shape = "waves of one length, in a size and a phase of each pass's own";
-        let told = Structure::without_place(along, shape, rms_um, p_value);
-        Some(Structure { at: Some(frequency), ..told })
-    };
-    let axes: Vec<Cyclic> = cyclic(problem).into_iter().chain(rows(problem)).collect();
-    let sensors = 0..problem.sensors.len();
-    sensors.flat_map(|sensor| axes.iter().filter_map(move |axis| of(sensor, axis))).collect()
-}
-
-/// Columns that show each of some others in one block alone, block by block.
-fn in_each_block(problem: &Problem, columns: &[Column]) -> Vec<Column> {
-    let blocks = problem.layout.blocks.iter();
-    let own = blocks.flat_map(|block| {
-        columns.iter().map(|column| {
-            let mut own = vec![0.0; column.len()];
-            own[block.rows.clone()].copy_from_slice(&column[block.rows.clone()]);
-            Column::from(own)
-        })
-    });
-    own.collect()
-}
-
-/// Chance of what a sine and a cosine of each block take away there, each block by the noise that it has itself: one may
-/// be louder than another.
-///
-/// Twice the logarithm of the chance by Fisher's F(2, m), `m·ln(1 + taken/left)`, is χ² with two degrees of freedom,
-/// and so is the sum with two a block (Fisher 1925).
-fn chance_in_passes(
-    problem: &Problem,
-    (model, fit): (&Columns, &Fit),
-    sensor: usize,
-    own: &[Column],
-) -> f64 {
-    let wider = settle(problem, &model.and(&Columns::free(own.to_vec())), &fit.noises);
-    let whitener = Whitener::new(&problem.layout, &wider.noises);
-    let left = whitener.whiten(fit.left.clone());
-    let blocks = problem.layout.blocks.iter().zip(own.chunks_exact(2));
-    let evidence = blocks.filter(|(block, _)| block.sensor == sensor).map(|(block, waves)| {
-        let rows = block.rows.clone();
-        let waves = whitener.whiten_all(&[&waves[0], &waves[1]]);
-        let left = &left[rows.clone()];
-        let fit = least_squares::fit(&[&waves[0][rows.clone()], &waves[1][rows]], left);
-        let freedom = (count(left.len()) - LOST_IN_A_BLOCK).max(0.0);
-        freedom * libm::log(dot(left, left) / fit.residual_square.max(f64::MIN_POSITIVE))
-    });
-    let evidence: Vec<f64> = evidence.filter(|one| one.is_finite()).collect();
-    chi_squared_tail(evidence.iter().sum(), 2.0 * count(evidence.len()))
-}
-
 /// Combs of frequencies over the spindle angle, over time and over the way, sensor by sensor: what all harmonics show
 /// beside the strongest, the noise fitted anew.
 pub(super) fn combs(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
@@ -212,13 +137,6 @@ fn way(problem: &Problem) -> Option<Cyclic> {
     let highest = 0.5 * usual_rate(&values);
     let frequency = "order of the way";
     Some(Cyclic { along: "way", frequency, values: values.into(), highest })
-}
-
-/// The rows, which come evenly in time or not, where no clock says when.
-fn rows(problem: &Problem) -> Option<Cyclic> {
-    let values = (0..problem.record.len()).map(count).collect();
-    let along = Cyclic { along: "rows", frequency: "waves a row", values, highest: 0.5 };
-    (!problem.measurement.timed).then_some(along)
 }
 
 /// The time that has gone since the record began, where a clock begins anew in each pass.
