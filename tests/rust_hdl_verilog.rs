@@ -1,5 +1,4 @@
-//! Our Verilog computes what rust-hdl's own Verilog computes: yosys proves it of every fifth block in a
-//! check, and of all with `HELIXLOCK_BOARD=all`.
+//! Our Verilog computes what rust-hdl's own Verilog computes: yosys proves it for every block.
 //!
 //! From power-up on, where all flip-flops are zero, both answer alike to every input, for ever.
 
@@ -11,7 +10,6 @@ use helixlock_rtl::{APART, BLOCKS, BlockCard};
 use rust_hdl::core::module_defines::ModuleDefines;
 
 use crate::golden_verilog::design_of;
-use crate::support::seeds::all_boards_are_asked;
 
 /// rust-hdl's Verilog of a block.
 fn theirs(card: &BlockCard) -> String {
@@ -39,9 +37,8 @@ fn put(folder: &Path, name: &str, text: &str) {
     std::fs::write(folder.join(name), text).expect("the scratch folder is writable");
 }
 
-#[test]
-fn blocks_are_proven_equal() {
-    let one_in = if all_boards_are_asked() { 1 } else { 5 };
+/// Proves one block in so many equal.
+fn are_proven_equal(one_in: usize) {
     let apart = |card: &BlockCard| {
         let library = Library::new().with(card.name, card.summary, (card.build)());
         elaborate(card.name, &*(card.build)(), &library).expect("the design is sound")
@@ -53,6 +50,17 @@ fn blocks_are_proven_equal() {
         let (likeness, said) = compared(card.name, &ours, &theirs(card));
         assert_eq!(likeness, Likeness::Alike, "{}: {said}", card.name);
     }
+}
+
+#[test]
+fn every_fifth_block_is_proven_equal() {
+    are_proven_equal(5);
+}
+
+#[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
+fn every_block_is_proven_equal() {
+    are_proven_equal(1);
 }
 
 #[test]

@@ -17,7 +17,7 @@ pub(crate) fn all_are_asked() -> bool {
     std::env::var("HELIXLOCK_SEEDS").is_ok_and(|which| which == "all")
 }
 
-/// True when `HELIXLOCK_BOARD=all` asks for every board, block and fault.
+/// True when `HELIXLOCK_BOARD=all` asks for every block's gates and every fault.
 pub(crate) fn all_boards_are_asked() -> bool {
     std::env::var("HELIXLOCK_BOARD").is_ok_and(|which| which == "all")
 }

@@ -21,20 +21,21 @@ const LOST_IN_A_BLOCK: f64 = 3.0;
 
 /// Those over the spindle angle, over time and, where nothing was timed, over the rows, sensor by sensor.
 pub(super) fn waves_of_passes(problem: &Problem, model: &Columns, fit: &Fit) -> Vec<Structure> {
-    let passes = problem.record.passes();
-    let few = problem.samples.len() < ROWS_A_COLUMN * 2 * passes.len();
-    if passes.len() < 2 || COLUMNS_OF_PASSES < 2 * passes.len() || few {
+    let passes = problem.record.passes().len();
+    let few = problem.samples.len() < ROWS_A_COLUMN * 2 * passes;
+    if passes < 2 || COLUMNS_OF_PASSES < 2 * passes || few {
         return Vec::new();
     }
     let of = |sensor: usize, axis: &Cyclic| {
         let Cyclic { frequency: along, values, highest, .. } = axis;
         let search = LineSearch { problem, fit, sensor, coordinate: values, highest: *highest };
         let (frequency, looks) = search.strongest_in_each_pass()?;
-        let own = in_each_block(problem, &wave(problem, sensor, values, frequency).raw);
+        let waves = wave(problem, sensor, values, frequency);
+        let own = in_each_block(problem, &waves.raw);
         let looks = probes(problem) * looks;
         let (rms_um, p_value) = asked(problem, (model, fit), &own, (looks, SIGNIFICANCE));
         let of_passes = (p_value < SIGNIFICANCE)
-            .then(|| looks * chance_in_passes(problem, (model, fit), sensor, &own));
+            .then(|| looks * chance_in_passes(problem, (model, fit), sensor, (&waves, own)));
         let p_value = of_passes.map_or(p_value, |chance| chance.clamp(p_value, 1.0));
         let shape = "waves of one length, in a size and a phase of each pass's own";
         let told = Structure::without_place(along, shape, rms_um, p_value);
@@ -74,17 +75,17 @@ fn chance_in_passes(
     problem: &Problem,
     (model, fit): (&Columns, &Fit),
     sensor: usize,
-    own: &[Column],
+    (waves, own): (&Columns, Vec<Column>),
 ) -> f64 {
-    let wider = settle(problem, &model.and(&Columns::free(own.to_vec())), &fit.noises);
+    let wider = settle(problem, &model.and(&Columns::free(own)), &fit.noises);
     let whitener = Whitener::new(&problem.layout, &wider.noises);
     let left = whitener.whiten(fit.left.clone());
-    let blocks = problem.layout.blocks.iter().zip(own.chunks_exact(2));
-    let evidence = blocks.filter(|(block, _)| block.sensor == sensor).map(|(block, waves)| {
-        let rows = block.rows.clone();
-        let waves = whitener.whiten_all(&[&waves[0], &waves[1]]);
-        let left = &left[rows.clone()];
-        let fit = least_squares::fit(&[&waves[0][rows.clone()], &waves[1][rows]], left);
+    let waves = whitener.whiten_all(&waves.views());
+    let blocks = problem.layout.blocks.iter().filter(|block| block.sensor == sensor);
+    let evidence = blocks.map(|block| {
+        let waves: Vec<&[f64]> = waves.iter().map(|wave| &wave[block.rows.clone()]).collect();
+        let left = &left[block.rows.clone()];
+        let fit = least_squares::fit(&waves, left);
         let freedom = (count(left.len()) - LOST_IN_A_BLOCK).max(0.0);
         freedom * libm::log(dot(left, left) / fit.residual_square.max(f64::MIN_POSITIVE))
     });
