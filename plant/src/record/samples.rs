@@ -102,13 +102,15 @@ impl Record {
             pass: samples.pass.clone(),
             travelled_mm: Column::default(),
             since_reversal_mm: Column::default(),
+            since_turn_mm: Column::default(),
             since_stop_s: Column::default(),
             velocity_rpm: Column::default(),
             error_um: vec![0.0; samples.len()].into(),
             columns,
             covariates,
         };
-        (record.travelled_mm, record.since_reversal_mm) = ways(&record, machine);
+        [record.travelled_mm, record.since_reversal_mm, record.since_turn_mm] =
+            ways(&record, machine);
         record.since_stop_s = record.since_stops_s();
         record.velocity_rpm = record.velocities_rpm();
         record
@@ -120,6 +122,19 @@ struct Places {
     of_row: Column,
     /// Way of one turn of the spindle.
     of_turn: f64,
+}
+
+/// What an axis has gone from one row to the next, and how far it is behind the turn between them, if there is one.
+struct Gone {
+    way: f64,
+    behind_turn: Option<f64>,
+}
+
+impl Gone {
+    /// The way since the last turn, from what it was before.
+    fn since(&self, before: f64) -> f64 {
+        self.behind_turn.unwrap_or(before + self.way)
+    }
 }
 
 impl Places {
@@ -144,6 +159,21 @@ impl Places {
         [of(ways.len().saturating_sub(1)), of(ways.len() / 2)]
     }
 
+    /// What was gone to a row from the one before.
+    ///
+    /// A reversal is where the direction changes, so that what turns with the direction and what winds
+    /// up anew turn together. The turning point lies between two samples, as far beyond them as the
+    /// table had time for, or as samples are apart where it rested.
+    fn gone(&self, record: &Record, row: usize, ways: [f64; 2]) -> Gone {
+        let step = self.move_to(row);
+        if !record.turned(row) {
+            return Gone { way: step.abs(), behind_turn: None };
+        }
+        let way = self.over_a_turn(record, row, ways);
+        // Out and back are the way between; what one is longer than the other, the move.
+        Gone { way, behind_turn: Some(0.5 * (way + record.direction[row] * step)) }
+    }
+
     /// The way from one row over the turning point to the next: what the table had time for. If it had
     /// time for more than it ever goes, it rested, and has gone as far as between others; none where it
     /// stands at one place before and after.
@@ -163,36 +193,38 @@ impl Places {
 /// that goes on is at one place with the row behind the turn by chance.
 const ONE_PLACE: f64 = 0.01;
 
-/// Way since the start of the pass and since the last reversal in it, mm, or degrees on a rotary chain.
-///
-/// A reversal is where the direction changes, so that what turns with the direction and what winds
-/// up anew turn together. The turning point lies between two samples, as far beyond them as the
-/// table had time for, or as samples are apart where it rested.
-fn ways(record: &Record, machine: &Machine) -> (Column, Column) {
+/// Way since the start of the pass, since the last reversal in it, and since that of passes which go on, mm, or degrees
+/// on a rotary chain.
+fn ways(record: &Record, machine: &Machine) -> [Column; 3] {
     let places = Places::of(record, machine);
     let mut travelled = Vec::with_capacity(record.len());
     let mut since_reversal = Vec::with_capacity(record.len());
+    let mut since_turn = Vec::with_capacity(record.len());
     for rows in record.passes() {
         let ways = places.ways(record, rows.clone());
-        let (mut way, mut since) = (way_before(machine, places.of_row[rows.start]), f64::INFINITY);
+        let mut way = way_before(machine, places.of_row[rows.start]);
+        let (mut of_pass, mut of_all) = (f64::INFINITY, f64::INFINITY);
+        if let Some(before) = since_turn.last()
+            && places.move_to(rows.start).abs() <= ways[0]
+        {
+            of_all = places.gone(record, rows.start, ways).since(*before);
+        }
         for row in rows.clone() {
             if rows.start < row {
-                let step = places.move_to(row);
-                if record.turned(row) {
-                    let between = places.over_a_turn(record, row, ways);
-                    way += between;
-                    // Out and back are the way between; what one is longer than the other, the move.
-                    since = 0.5 * (between + record.direction[row] * step);
-                } else {
-                    way += step.abs();
-                    since += step.abs();
-                }
+                let gone = places.gone(record, row, ways);
+                way += gone.way;
+                of_pass = gone.since(of_pass);
+                of_all = gone.since(of_all);
             }
             travelled.push(way);
-            since_reversal.push(since);
+            since_reversal.push(of_pass);
+            since_turn.push(of_all);
         }
     }
-    (travelled.into(), since_reversal.into())
+    let goes_on = since_turn != since_reversal;
+    let since_reversal = Column::from(since_reversal);
+    let since_turn = if goes_on { since_turn.into() } else { since_reversal.clone() };
+    [travelled.into(), since_reversal, since_turn]
 }
 
 /// Way of a pass before its first sample, mm; none on a rotary chain, which has no such device.

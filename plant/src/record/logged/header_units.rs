@@ -53,8 +53,13 @@ pub(super) const TURNS_A_MINUTE: &[HeaderUnit] = &[
     ("1/s", 60.0, 0.0),
     ("rad/s", 30.0 / std::f64::consts::PI, 0.0),
 ];
-pub(super) const CELSIUS: &[HeaderUnit] =
-    &[("c", 1.0, 0.0), ("degc", 1.0, 0.0), ("k", 1.0, -273.15), ("degf", 5.0 / 9.0, -160.0 / 9.0)];
+pub(super) const CELSIUS: &[HeaderUnit] = &[
+    ("c", 1.0, 0.0),
+    ("degc", 1.0, 0.0),
+    ("k", 1.0, -273.15),
+    ("f", 5.0 / 9.0, -160.0 / 9.0),
+    ("degf", 5.0 / 9.0, -160.0 / 9.0),
+];
 pub(super) const HECTOPASCALS: &[HeaderUnit] = &[
     ("hpa", 1.0, 0.0),
     ("mbar", 1.0, 0.0),
