@@ -59,7 +59,7 @@ fn an_axis_that_ends_slowly_turns_as_it_leaves() {
         });
         let found = diagnosed_on(AXIS, columns(["time_s", "position_mm", "error_um"], rows));
         let told = (names(&found), shapes(&found));
-        assert_eq!(told, (vec!["backlash"], vec![vec![0.0]]), "{seed}, {stand}");
+        assert_eq!(told, (vec!["backlash"], vec![vec![0.0, 0.0]]), "{seed}, {stand}");
     }
 }
 

@@ -28,9 +28,16 @@ pub(crate) fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / count(values.len().max(1))
 }
 
-/// Median, that of turned signs with its sign turned: the mean of the middle two of an even number; 0 of none.
+/// Median of sizes; the lower one of an even number, 0 of none.
 #[must_use]
-pub(crate) fn median(values: &mut [f64]) -> f64 {
+pub(crate) fn median(sizes: &mut [f64]) -> f64 {
+    one_in(sizes, 2)
+}
+
+/// Median of values of either sign, that of turned signs with its sign turned: the mean of the middle two of an even
+/// number; 0 of none.
+#[must_use]
+pub(crate) fn middle(values: &mut [f64]) -> f64 {
     if values.is_empty() {
         return 0.0;
     }
@@ -91,14 +98,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_median_turns_its_sign_with_its_values() {
+    fn a_middle_turns_its_sign_with_its_values() {
         for values in [&[3.0, -1.0, 7.0][..], &[3.0, -1.0, 7.0, 4.0], &[]] {
             let mut turned: Vec<f64> = values.iter().map(|value| -value).collect();
             assert_eq!(
-                median(&mut values.to_vec()).to_bits(),
-                (0.0 - median(&mut turned)).to_bits()
+                middle(&mut values.to_vec()).to_bits(),
+                (0.0 - middle(&mut turned)).to_bits()
             );
         }
-        assert_eq!(median(&mut [4.0, 1.0, 9.0, 2.0]).to_bits(), 3.0_f64.to_bits());
+        assert_eq!(middle(&mut [4.0, 1.0, 9.0, 2.0]).to_bits(), 3.0_f64.to_bits());
     }
 }
