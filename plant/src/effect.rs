@@ -291,6 +291,12 @@ impl Parameter {
         matches!(self.search, Search::Whole | Search::GearOrder | Search::Switch | Search::Fixed)
     }
 
+    /// True when it takes whole numbers only.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        matches!(self.search, Search::Whole | Search::Switch)
+    }
+
     /// True for what a pass began with.
     #[must_use]
     pub fn is_start(&self) -> bool {

@@ -53,10 +53,12 @@ pub(super) const PASS_START: Parameter = Parameter::nonlinear(
 /// Way behind the last turn, mm; infinite before any. A pass that begins where the one before ended may go on
 /// from there, and any may begin where the axis has come to from the other side.
 pub(super) fn behind_turn_mm(now: &Instant<'_>, pass_start: f64) -> f64 {
-    match pass_start {
-        start if start <= 0.0 => now.since_reversal_mm,
-        start if 1.0 < start && now.since_turn_mm.is_infinite() => now.travelled_mm,
-        _ => now.since_turn_mm,
+    if pass_start < 1.0 {
+        now.since_reversal_mm
+    } else if 1.0 < pass_start && now.since_turn_mm.is_infinite() {
+        now.travelled_mm
+    } else {
+        now.since_turn_mm
     }
 }
 

@@ -60,7 +60,7 @@ pub(super) fn delta_um(kind: &str, values: &[f64], now: &Instant<'_>) -> f64 {
 fn inside(parameter: &Parameter) -> f64 {
     let (low, high) = (*parameter.range.start(), *parameter.range.end());
     let value = if 0.0 < low { (low * high).sqrt() } else { low + (high - low) * 0.625 };
-    if parameter.search == crate::Search::Whole { libm::round(value) } else { value }
+    if parameter.is_whole() { libm::round(value) } else { value }
 }
 
 #[test]
