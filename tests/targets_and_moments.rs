@@ -342,7 +342,7 @@ fn a_late_reading_of_an_axis_that_goes_and_stands_is_no_vibration() {
     assert_eq!(found.proposals[0].shape, "late by a time");
 }
 
-/// Three fringes lost in noise of two: the moment is known to a few samples, and its
+/// Two fringes lost in noise of their size: the moment is known to a few samples, and its
 /// error says so.
 #[test]
 #[ignore = "long: `cargo xtask campaign` runs it"]
@@ -351,7 +351,7 @@ fn a_moment_is_as_uncertain_as_the_data_have_it() {
     let asked = seeds(2, 8);
     let half = 0.5 * f64::from(u8::try_from(asked.end).expect("few"));
     for seed in asked {
-        let slip = |t: f64, _: f64, _: f64| if t < 701.0 { 0.0 } else { 3.0 * 0.316_410_182_7 };
+        let slip = |t: f64, _: f64, _: f64| if t < 701.0 { 0.0 } else { 2.0 * 0.316_410_182_7 };
         let found = diagnose(&Passes::new(&slip, &mut white(seed, 0.7)).problem());
         for effect in &found.rounds[found.rounds.len() - 1].effects {
             let Some(time) = effect.parameters.iter().find(|one| one.key == "time_s") else {

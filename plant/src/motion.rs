@@ -157,8 +157,7 @@ impl Motion {
         let elapsed_s = time_s - stretch.start_s;
         let position_mm = stretch.start_mm + stretch.velocity_mm_s * elapsed_s;
         let travelled_mm = stretch.travelled_mm + stretch.velocity_mm_s.abs() * elapsed_s;
-        let since_mm =
-            if stretch.reversed { travelled_mm - stretch.reversal_mm } else { f64::INFINITY };
+        let since_mm = travelled_mm - stretch.reversal_mm;
         Instant {
             time_s,
             position_mm,
@@ -168,8 +167,7 @@ impl Motion {
             velocity_rpm: stretch.speed_rpm * stretch.velocity_mm_s.signum(),
             pass: self.number,
             travelled_mm,
-            since_reversal_mm: since_mm,
-            since_turn_mm: since_mm,
+            since_reversal_mm: if stretch.reversed { since_mm } else { f64::INFINITY },
             // A pass of the device goes on from start to end.
             since_stop_s: f64::INFINITY,
             error_um: 0.0,

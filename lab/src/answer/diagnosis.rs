@@ -551,8 +551,7 @@ fn fitted(
         let what = &component.term.parameters[parameter];
         let value = component.term.values[parameter];
         // A setting that is as it should be, and a way that takes nothing up.
-        let is_set = matches!(what.search, Search::Switch | Search::Fixed);
-        let unused = is_set && what.default == Some(0.0) && value == 0.0;
+        let unused = what.search == Search::Fixed && what.default == Some(0.0) && value == 0.0;
         if unused || !component.depends_on(problem, used, place) {
             continue;
         }

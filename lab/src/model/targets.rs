@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::columns::Columns;
 use super::problem::Problem;
-use crate::numerics::{middle, spread};
+use crate::numerics::{median, spread};
 use crate::policy::evidence::{FEW_TARGETS, PASSING, VISITS, VISITS_OF_FEW};
 use crate::policy::extent::ROWS_A_COLUMN;
 use crate::policy::reading::ONE_PLACE;
@@ -120,7 +120,7 @@ impl Problem {
         let of = self.visited(&targets);
         let mut visits = BTreeMap::<_, Vec<usize>>::new();
         for block in &self.layout.blocks {
-            let level = middle(&mut left[block.rows.clone()].to_vec());
+            let level = median(&mut left[block.rows.clone()].to_vec());
             for row in block.rows.clone() {
                 rest[row] -= level;
                 let sample = self.samples[row];
@@ -129,7 +129,7 @@ impl Problem {
             }
         }
         for rows in visits.values().filter(|rows| VISITS_OF_FEW <= rows.len()) {
-            let usual = middle(&mut rows.iter().map(|&row| rest[row]).collect::<Vec<_>>());
+            let usual = median(&mut rows.iter().map(|&row| rest[row]).collect::<Vec<_>>());
             for &row in rows {
                 rest[row] -= usual;
                 telling[row] = VISITS_OF_FEW < rows.len() || rest[row].abs() > 0.0;
