@@ -57,8 +57,8 @@ pub(super) const CELSIUS: &[HeaderUnit] = &[
     ("c", 1.0, 0.0),
     ("degc", 1.0, 0.0),
     ("k", 1.0, -273.15),
-    ("f", 5.0 / 9.0, -160.0 / 9.0),
     ("degf", 5.0 / 9.0, -160.0 / 9.0),
+    ("f", 5.0 / 9.0, -160.0 / 9.0),
 ];
 pub(super) const HECTOPASCALS: &[HeaderUnit] = &[
     ("hpa", 1.0, 0.0),
