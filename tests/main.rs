@@ -90,6 +90,7 @@ mod simulation;
 mod slow_causes;
 mod small_tables;
 mod standard_wave;
+mod starts_of_passes;
 mod step_clock;
 mod step_driver;
 mod step_selector;

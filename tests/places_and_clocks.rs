@@ -63,7 +63,7 @@ fn play_at_once_takes_no_way_where_rows_are_at_the_turns() {
         let found = visited(seed, &places.collect::<Vec<f64>>());
         let last = found.rounds.last().expect("there is always a round 0");
         let ways: Vec<Vec<f64>> = last.effects.iter().map(|one| one.term.nonlinear()).collect();
-        assert_eq!((names(&found), ways), (vec!["backlash"], vec![vec![0.0]]), "{seed}");
+        assert_eq!((names(&found), ways), (vec!["backlash"], vec![vec![0.0, 0.0]]), "{seed}");
     }
 }
 

@@ -407,6 +407,7 @@ mod tests {
         pass: 0,
         travelled_mm: 0.0,
         since_reversal_mm: f64::INFINITY,
+        since_turn_mm: f64::INFINITY,
         since_stop_s: f64::INFINITY,
         error_um: 0.0,
         covariates: &[],

@@ -107,6 +107,8 @@ pub enum Search {
     Time,
     /// Orders of the gears in the machine file, of shafts and of meshes, turns per spindle turn.
     GearOrder,
+    /// Each whole number in the range that the record may tell, as a look of its own; mostly the default stands.
+    Switch,
     /// It is not searched for: the default stands.
     Fixed,
 }
@@ -286,7 +288,13 @@ impl Parameter {
     /// True when it takes listed values only.
     #[must_use]
     pub fn is_listed(&self) -> bool {
-        matches!(self.search, Search::Whole | Search::GearOrder | Search::Fixed)
+        matches!(self.search, Search::Whole | Search::GearOrder | Search::Switch | Search::Fixed)
+    }
+
+    /// True when it takes whole numbers only.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        matches!(self.search, Search::Whole | Search::Switch)
     }
 
     /// True for what a pass began with.

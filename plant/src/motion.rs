@@ -157,7 +157,8 @@ impl Motion {
         let elapsed_s = time_s - stretch.start_s;
         let position_mm = stretch.start_mm + stretch.velocity_mm_s * elapsed_s;
         let travelled_mm = stretch.travelled_mm + stretch.velocity_mm_s.abs() * elapsed_s;
-        let since_mm = travelled_mm - stretch.reversal_mm;
+        let since_mm =
+            if stretch.reversed { travelled_mm - stretch.reversal_mm } else { f64::INFINITY };
         Instant {
             time_s,
             position_mm,
@@ -167,7 +168,8 @@ impl Motion {
             velocity_rpm: stretch.speed_rpm * stretch.velocity_mm_s.signum(),
             pass: self.number,
             travelled_mm,
-            since_reversal_mm: if stretch.reversed { since_mm } else { f64::INFINITY },
+            since_reversal_mm: since_mm,
+            since_turn_mm: since_mm,
             // A pass of the device goes on from start to end.
             since_stop_s: f64::INFINITY,
             error_um: 0.0,

@@ -121,6 +121,8 @@ pub struct Instant<'a> {
     pub travelled_mm: f64,
     /// Way since the last reversal inside this pass, mm; infinite before the first; degrees on a rotary chain.
     pub since_reversal_mm: f64,
+    /// The same, where a pass goes on from where the one before ended: of that too.
+    pub since_turn_mm: f64,
     /// Time since the axis came to stand, s; infinite while it moves.
     pub since_stop_s: f64,
     /// What the meter would show without the effects that depend on it, µm, laser lag positive.
@@ -165,6 +167,8 @@ pub struct Record {
     pub travelled_mm: Column,
     /// Way since the last reversal inside the pass, mm; infinite before the first.
     pub since_reversal_mm: Column,
+    /// The same, where a pass goes on from where the one before ended: of that too.
+    pub since_turn_mm: Column,
     /// Time since the axis came to stand, s, infinite while it moves; empty where it never stands.
     pub since_stop_s: Column,
     /// Turns over time from the sample before to the one behind, rpm; see [`Self::velocities_rpm`].
@@ -207,6 +211,7 @@ impl Record {
             pass: self.pass[index],
             travelled_mm: self.travelled_mm[index],
             since_reversal_mm: self.since_reversal_mm[index],
+            since_turn_mm: self.since_turn_mm[index],
             since_stop_s: self.since_stop_s(index),
             error_um: self.error_um[index],
             covariates: self.logged(index),
@@ -222,6 +227,7 @@ impl Record {
         let (direction, pass) = (&self.direction[..rows], &self.pass[..rows]);
         let (travelled_mm, velocity_rpm) = (&self.travelled_mm[..rows], &self.velocity_rpm[..rows]);
         let since_reversal_mm = &self.since_reversal_mm[..rows];
+        let since_turn_mm = &self.since_turn_mm[..rows];
         let error_um = &self.error_um[..rows];
         (0..rows).map(move |row| Instant {
             time_s: time_s[row],
@@ -233,6 +239,7 @@ impl Record {
             pass: pass[row],
             travelled_mm: travelled_mm[row],
             since_reversal_mm: since_reversal_mm[row],
+            since_turn_mm: since_turn_mm[row],
             since_stop_s: self.since_stop_s(row),
             error_um: error_um[row],
             covariates: self.logged(row),

@@ -41,6 +41,16 @@ pub(crate) fn problem_of(machine: &str, columns: Vec<(&str, Vec<f64>)>) -> Probl
     problem(&machine, &Table::new(columns.into_iter().map(column).collect()))
 }
 
+/// Rows under their titles.
+pub(crate) fn columns<const N: usize>(
+    titles: [&'static str; N],
+    rows: impl Iterator<Item = [f64; N]>,
+) -> Vec<(&'static str, Vec<f64>)> {
+    let mut columns = titles.map(|title| (title, Vec::new()));
+    rows.for_each(|row| columns.iter_mut().zip(row).for_each(|((_, all), one)| all.push(one)));
+    columns.into()
+}
+
 /// Names of the effects of the final model.
 pub(crate) fn names(diagnosis: &Diagnosis) -> Vec<&str> {
     let last = diagnosis.rounds.last().expect("there is always a round 0");

@@ -551,7 +551,8 @@ fn fitted(
         let what = &component.term.parameters[parameter];
         let value = component.term.values[parameter];
         // A setting that is as it should be, and a way that takes nothing up.
-        let unused = what.search == Search::Fixed && what.default == Some(0.0) && value == 0.0;
+        let is_set = matches!(what.search, Search::Switch | Search::Fixed);
+        let unused = is_set && what.default == Some(0.0) && value == 0.0;
         if unused || !component.depends_on(problem, used, place) {
             continue;
         }

@@ -90,7 +90,7 @@ pub(super) fn term(
         let what = &term.parameters[index];
         let share: f64 = chance.random_range(0.0..1.0);
         term.values[index] = match (what.role, what.search) {
-            (Role::Known { .. }, _) | (_, Search::Fixed)
+            (Role::Known { .. }, _) | (_, Search::Switch | Search::Fixed)
                 if what.default.is_some() && what.role != Role::Phase =>
             {
                 what.default.unwrap_or(1.0)

@@ -1,6 +1,7 @@
 //! Which effects can be tried on a measurement, and where their nonlinear parameters may lie.
 
 use std::cell::LazyCell;
+use std::ops::Range;
 
 use helixlock_plant::{CATALOGUE, Card, Entry, Formula, Parameter, Role, Search, Term};
 
@@ -105,7 +106,8 @@ fn candidates_of(
                 in_motion(stage, &candidate),
                 within_the_rate(stage, &candidate),
             ];
-            others.into_iter().chain([Some(candidate)])
+            let begun = begun_otherwise(stage.problem, &candidate).into_iter().map(Some);
+            others.into_iter().chain(begun).chain([Some(candidate)])
         })
         .flatten()
         .collect()
@@ -172,6 +174,30 @@ fn at_once(stage: &Stage<'_>, candidate: &Candidate) -> Option<Candidate> {
     let nonlinear = term.parameters.iter().filter(|what| what.is_nonlinear());
     let axes = nonlinear.map(|what| axis(stage, term.entry, what)).collect();
     on_axes(stage, term, axes)
+}
+
+/// An effect whose passes begin as the one before ended, where they begin there, or as behind a turn: where an axis
+/// turns, how it came to its start may show.
+///
+/// It must beat play that is taken up by the margin that names an effect: what a shape without a name follows better is
+/// no more that play for it.
+fn begun_otherwise(problem: &Problem, candidate: &Candidate) -> Vec<Candidate> {
+    let mut nonlinear = candidate.term.parameters.iter().filter(|what| what.is_nonlinear());
+    let Some(place) = nonlinear.position(|what| what.search == Search::Switch) else {
+        return Vec::new();
+    };
+    let since_turn = &problem.record.since_turn_mm;
+    let goes_on = |rows: Range<usize>| since_turn[rows.start].is_finite();
+    let goes_on = problem.record.passes().into_iter().any(goes_on);
+    let turns = since_turn.iter().any(|way| way.is_finite());
+    let told = [goes_on.then_some(1.0), turns.then_some(2.0)];
+    let with = |value: f64| {
+        let looks = candidate.looks.clone().times(libm::exp(0.5 * MARGIN));
+        let mut begun = Candidate { looks, ..candidate.clone() };
+        begun.grid.iter_mut().for_each(|values| values[place] = value);
+        begun
+    };
+    told.into_iter().flatten().map(with).collect()
 }
 
 /// A wave in time of those that rows resolve at their usual rate, where uneven ones resolve more: chance
@@ -270,7 +296,7 @@ fn continuous(stage: &Stage<'_>, term: &Term, axes: &[Vec<f64>]) -> Vec<(usize, 
         _ if what.is_frequency() => None,
         Search::Time => Some((axis, between_samples(&stage.problem.record.time_s))),
         Search::Linear | Search::Logarithmic | Search::Position => Some((axis, axes[axis].clone())),
-        Search::Whole | Search::GearOrder | Search::Fixed => None,
+        Search::Whole | Search::GearOrder | Search::Switch | Search::Fixed => None,
     };
     nonlinear.enumerate().filter_map(varying).collect()
 }
@@ -285,7 +311,9 @@ fn looks(stage: &Stage<'_>, term: &Term, axes: &[Vec<f64>]) -> Looks {
             looks.along(arc(&times, heard(stage.problem, &times, [0.0, *what.range.end()])))
         }
         Search::Time | Search::Linear | Search::Logarithmic | Search::Position => looks,
-        Search::Whole | Search::GearOrder | Search::Fixed => looks.times(count(axis.len())),
+        Search::Whole | Search::GearOrder | Search::Switch | Search::Fixed => {
+            looks.times(count(axis.len()))
+        }
     })
 }
 
@@ -357,7 +385,7 @@ pub(super) fn axis(stage: &Stage<'_>, entry: Entry, parameter: &Parameter) -> Ve
         Search::Position => inside(&record.position_mm, PLACES),
         Search::Time => evenly_among(&between_samples(&record.time_s), INSTANTS),
         Search::GearOrder => gear_orders(&stage.problem.model),
-        Search::Fixed => vec![parameter.default.unwrap_or(low)],
+        Search::Switch | Search::Fixed => vec![parameter.default.unwrap_or(low)],
     }
 }
 
@@ -373,7 +401,7 @@ fn logarithmic(problem: &Problem, parameter: &Parameter) -> Vec<f64> {
             Some((travel_mm / NARROWEST, travel_mm))
         }
         "deg" => {
-            let longest = longest(&problem.record.since_reversal_mm);
+            let longest = longest(&problem.record.since_turn_mm);
             Some((longest / NARROWEST, longest))
         }
         _ => None,
@@ -490,7 +518,7 @@ pub(crate) fn turn_scan<'a>(stage: &'a Stage<'_>, turns: &'a [f64], unit: &'a [f
 
 fn step(parameter: &Parameter, axis: &[f64]) -> f64 {
     match parameter.search {
-        Search::Whole | Search::GearOrder | Search::Fixed | Search::Time => 0.0,
+        Search::Whole | Search::GearOrder | Search::Switch | Search::Fixed | Search::Time => 0.0,
         _ if axis.len() < 2 => 0.0,
         Search::Logarithmic => 0.3 * (axis[1] / axis[0] - 1.0),
         _ => (axis[1] - axis[0]).abs(),

@@ -19,7 +19,7 @@ use crate::policy::chance::{
     FEW_SAMPLES, NAMED, NAMED_IN_OTHER_NOISE, NO_ALL_CLEAR, STANDARD_ERRORS,
 };
 use crate::policy::evidence::{LARGEST_RIVAL, MOST_OF_A_NAME, MOST_WHOLE_WAVES};
-use crate::policy::extent::STROKES_A_SHORT_ONE;
+use crate::policy::extent::{STROKES_A_SHORT_ONE, TAKEN_UP_OF_A_STROKE};
 use crate::policy::size::{SHARE_OF_NOISE, TRUE_TO};
 
 /// Step from the end of a range to a value inside, against the range.
@@ -230,7 +230,8 @@ fn at_an_end(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal>
         let low = *what.range.start();
         let mut high = *what.range.end();
         if what.of_way && what.may_be_none() {
-            high = high.min(gone_by_most(problem));
+            let part = if begins_otherwise(term) { TAKEN_UP_OF_A_STROKE } else { 1.0 };
+            high = high.min(part * gone_by_most(problem));
         }
         // What is taken up within less than the shortest way is taken up at once.
         let inside = (what.of_way || low < value) && value < high;
@@ -246,9 +247,15 @@ fn at_an_end(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal>
     })
 }
 
+/// True of an effect whose passes do not begin as they mostly do.
+fn begins_otherwise(term: &Term) -> bool {
+    let mut values = term.parameters.iter().zip(&term.values);
+    values.any(|(what, value)| what.search == Search::Switch && what.default != Some(*value))
+}
+
 /// The way that three in four strokes between two reversals go, mm; where none is, the longest behind a reversal.
 fn gone_by_most(problem: &Problem) -> f64 {
-    let gone = &problem.record.since_reversal_mm;
+    let gone = &problem.record.since_turn_mm;
     let of_pass = |rows: Range<usize>| {
         let ends = gone[rows].windows(2).filter(|two| two[1] < two[0] && two[0].is_finite());
         ends.map(|two| two[0]).collect::<Vec<_>>()

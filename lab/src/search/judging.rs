@@ -64,8 +64,8 @@ fn trials(stage: &Stage<'_>, now: &State) -> (Vec<Trial>, usize) {
     strongest(stage, &candidates(stage, &now.components), setting_trials(stage))
 }
 
-/// The strongest trials of candidates and of a setting, and all that come near them, largest gain first, and how
-/// many there were.
+/// The strongest trials of candidates and of a setting, and all that come near them, largest gain first, and of how
+/// many effects there were any: one that is looked for in several ways pays for them by itself.
 fn strongest(
     stage: &Stage<'_>,
     all: &[Candidate],
@@ -76,13 +76,14 @@ fn strongest(
         in_parallel(all, of).into_iter().flatten().collect();
     trials.extend(of_setting.map(|trial| (None, trial)));
     trials.sort_by(|a, b| b.1.gain.total_cmp(&a.1.gain));
-    let tried = trials.len();
+    let name = |trial: &Trial| trial.component.term.name.clone();
+    let tried = trials.iter().map(|(_, trial)| name(trial)).collect::<BTreeSet<_>>().len();
     let best = trials.first().map_or(0.0, |(_, trial)| trial.gain);
     // One effect that is looked for in several ways takes the place of no other.
     let mut names = BTreeSet::new();
     let mut is_near = |trial: &Trial| {
         let before = names.len();
-        names.insert(trial.component.term.name.clone());
+        names.insert(name(trial));
         before < SHORTLIST || NEAR_THE_BEST * best < trial.gain
     };
     trials.retain(|(_, trial)| is_near(trial));

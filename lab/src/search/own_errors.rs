@@ -4,10 +4,12 @@
 //! targets such errors are followed by a curve or a wave more often than noise is; so they stand
 //! before the same judge as one hypothesis with one free number, their common size.
 
+use std::slice;
+
 use super::analysis::Step;
 use super::court::{Price, groups};
 use crate::hypotheses::{Structure, at_targets};
-use crate::model::{Columns, Problem, Stage, State, settle};
+use crate::model::{Columns, Component, Problem, Stage, State, settle};
 use crate::noise::Noise;
 use crate::numerics::least_squares::dot;
 use crate::numerics::{count, drawn_sizes_gain};
@@ -18,7 +20,7 @@ use crate::policy::evidence::MARGIN;
 #[must_use]
 pub(crate) fn own_errors(problem: &Problem, steps: &[Step]) -> Option<Structure> {
     let state = &steps[steps.len() - 1].state;
-    in_place_of(problem, state, |index| paid(problem, state, steps, index))
+    in_place_of(problem, state, |index| paid_at_targets(problem, state, steps, index))
 }
 
 /// The same, of components that have paid so much each.
@@ -45,8 +47,25 @@ pub(crate) fn in_place_of(
         .min_by(|a, b| a.p_value.total_cmp(&b.p_value))
 }
 
+/// What an effect of a model pays against errors of targets: its sizes are of one law, as theirs are, and a place or a
+/// width that fits them has been chosen among as many as a size.
+fn paid_at_targets(problem: &Problem, state: &State, steps: &[Step], index: usize) -> f64 {
+    let component = &state.components[index];
+    let looks = looks(steps, component);
+    let whole = Price::of(problem, component, looks).whole();
+    let others = Columns::of_model(problem, &state.without(&[index]));
+    let own = Columns::of_model(problem, slice::from_ref(component));
+    let (Ok(others), Ok(own)) = (others, own) else { return whole };
+    let sizes = paid_for_sizes(problem, &others, &state.fit.noises, &own);
+    let turning =
+        component.term.parameters.iter().filter(|what| what.is_nonlinear() && !what.is_listed());
+    let chosen = sizes * count(turning.count()) / count(own.raw.len().max(1));
+    let sizes = sizes + problem.price_of_a_number();
+    whole.max(sizes + chosen.max(2.0 * libm::log(looks)))
+}
+
 /// What a formula that was looked for at so many places pays against errors of targets: its sizes, as theirs, are of
-/// one law. A few targets let a formula of nearly as many numbers follow anything, and noise is no measure of that.
+/// one law.
 #[must_use]
 pub(crate) fn paid_by_formula(
     problem: &Problem,
@@ -54,20 +73,31 @@ pub(crate) fn paid_by_formula(
     noises: &[Noise],
     (own, looks): (&Columns, f64),
 ) -> f64 {
+    let sizes = paid_for_sizes(problem, others, noises, own);
+    sizes + problem.price_of_a_number() + 2.0 * libm::log(looks)
+}
+
+/// What some columns pay for sizes of one law: how much less they explain than with any. A few targets let nearly as
+/// many numbers follow anything, and noise is no measure of that.
+fn paid_for_sizes(problem: &Problem, others: &Columns, noises: &[Noise], own: &Columns) -> f64 {
     let stage = Stage::new(problem, others, noises);
     // Of one length, for a law of theirs has one size.
     let span = stage.span(own);
     let best: f64 = span.iter().map(|one| dot(one, &stage.target).powi(2)).sum();
-    let sizes = best - drawn_sizes_gain(&span, &stage.target);
-    sizes + problem.price_of_a_number() + 2.0 * libm::log(looks)
+    best - drawn_sizes_gain(&span, &stage.target)
 }
 
 /// What an effect of a model pays.
 pub(crate) fn paid(problem: &Problem, state: &State, steps: &[Step], index: usize) -> f64 {
     let component = &state.components[index];
+    Price::of(problem, component, looks(steps, component)).whole()
+}
+
+/// Places among which an effect was found.
+fn looks(steps: &[Step], component: &Component) -> f64 {
     let tried = steps.iter().flat_map(|step| &step.tried);
     let own = tried.filter(|judged| judged.component.term.name == component.term.name);
-    Price::of(problem, component, own.map(|judged| judged.looks).fold(1.0, f64::max)).whole()
+    own.map(|judged| judged.looks).fold(1.0, f64::max)
 }
 
 /// Log likelihood of a model beside which every target has an error of its own, all of one size.

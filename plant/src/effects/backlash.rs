@@ -10,9 +10,10 @@
 //! On a rotary chain δ is in seconds of arc, and s and s₀ are in degrees of the output.
 //!
 //! A pass in one direction hides it in its zero; a reversal inside the pass shows all of b. Rigid parts
-//! take it up over b itself, so that a drive of little play jumps, and a joint of degrees does not.
+//! take it up over b itself, so that a drive of little play jumps, and a joint of degrees does not. How a
+//! pass begins is in no log: with the play taken up, as the one before left it, or as behind a turn.
 
-use super::shape::banded;
+use super::shape::{PASS_START, banded, behind_turn_mm};
 use crate::units::{MM, UM};
 use crate::{Basis, Card, Entry, Nature, Parameter, Search, Smoothness};
 
@@ -28,6 +29,7 @@ pub(super) const CARD: Card = Card {
             .within(0.0..=1000.0)
             .or(0.0)
             .of_way(),
+        PASS_START,
     ],
     parts: &[],
     needs: &[],
@@ -39,10 +41,10 @@ pub(super) const CARD: Card = Card {
     candidate: true,
     nature: Nature { at_reversal: true, ..Nature::PLAIN },
     basis: |_, nonlinear| {
-        let way_mm = nonlinear[0];
+        let (way_mm, pass_start) = (nonlinear[0], nonlinear[1]);
         let taken_up = banded(
             move |now| {
-                let gone_mm = now.since_reversal_mm;
+                let gone_mm = behind_turn_mm(now, pass_start);
                 let share = if gone_mm < way_mm { gone_mm / way_mm } else { 1.0 };
                 now.direction * (share - 0.5)
             },

@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use crate::{Effect, Instant, Smoothness};
+use crate::units::NUMBER;
+use crate::{Effect, Instant, Parameter, Search, Smoothness};
 
 /// A formula as a closure.
 pub(super) struct Shape<F, S> {
@@ -37,6 +38,28 @@ pub(super) fn feedback(delta: impl Fn(&Instant<'_>) -> f64 + Send + Sync) -> imp
 /// 0 before `time_s`, 1 from then on.
 pub(super) fn since(time_s: f64, now: &Instant<'_>) -> f64 {
     if now.time_s < time_s { 0.0 } else { 1.0 }
+}
+
+/// How what winds up behind a turn is at the start of a pass, which no log tells.
+pub(super) const PASS_START: Parameter = Parameter::nonlinear(
+    "pass_start",
+    NUMBER,
+    Search::Switch,
+    "how a pass begins: 0 taken up, 1 as the one before left it, 2 as behind a turn",
+)
+.within(0.0..=2.0)
+.or(0.0);
+
+/// Way behind the last turn, mm; infinite before any. A pass that begins where the one before ended may go on
+/// from there, and any may begin where the axis has come to from the other side.
+pub(super) fn behind_turn_mm(now: &Instant<'_>, pass_start: f64) -> f64 {
+    if pass_start < 1.0 {
+        now.since_reversal_mm
+    } else if 1.0 < pass_start && now.since_turn_mm.is_infinite() {
+        now.travelled_mm
+    } else {
+        now.since_turn_mm
+    }
 }
 
 impl<F, S> fmt::Debug for Shape<F, S> {

@@ -39,6 +39,7 @@ pub(super) fn now() -> Instant<'static> {
         pass: 0,
         travelled_mm: 500.0,
         since_reversal_mm: 3.0,
+        since_turn_mm: 3.0,
         since_stop_s: f64::INFINITY,
         error_um: 0.3,
         covariates: &LOGS,
@@ -59,7 +60,7 @@ pub(super) fn delta_um(kind: &str, values: &[f64], now: &Instant<'_>) -> f64 {
 fn inside(parameter: &Parameter) -> f64 {
     let (low, high) = (*parameter.range.start(), *parameter.range.end());
     let value = if 0.0 < low { (low * high).sqrt() } else { low + (high - low) * 0.625 };
-    if parameter.search == crate::Search::Whole { libm::round(value) } else { value }
+    if parameter.is_whole() { libm::round(value) } else { value }
 }
 
 #[test]
@@ -140,6 +141,7 @@ fn effects_change_no_faster_than_they_promise() {
                 spindle_rad: now().spindle_rad + speed_rad_s * seconds,
                 travelled_mm: 500.0 + travel_mm_s * seconds,
                 since_reversal_mm: 3.0 + travel_mm_s * seconds,
+                since_turn_mm: 3.0 + travel_mm_s * seconds,
                 since_stop_s: f64::INFINITY,
                 ..now()
             })

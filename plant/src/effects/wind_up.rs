@@ -11,7 +11,7 @@
 //!
 //! 0.01 µm/N under 100 N is 1 µm, and 2 µm from one direction to the other.
 
-use super::shape::banded;
+use super::shape::{PASS_START, banded, behind_turn_mm};
 use crate::units::{MM, UM_PER_N};
 use crate::{Basis, Card, Covariate, Entry, Nature, Parameter, Search, Smoothness};
 
@@ -27,6 +27,7 @@ pub(super) const CARD: Card = Card {
             .within(0.01..=50.0)
             .or(1.0)
             .of_way(),
+        PASS_START,
     ],
     parts: &[],
     needs: &["force_n"],
@@ -38,10 +39,10 @@ pub(super) const CARD: Card = Card {
     candidate: true,
     nature: Nature::PLAIN,
     basis: |_, nonlinear| {
-        let sliding_mm = nonlinear[0];
+        let (sliding_mm, pass_start) = (nonlinear[0], nonlinear[1]);
         let wound = banded(
             move |now| {
-                let left = libm::exp(-now.since_reversal_mm / sliding_mm);
+                let left = libm::exp(-behind_turn_mm(now, pass_start) / sliding_mm);
                 now.direction * now.covariate(Covariate::Force) * (1.0 - 2.0 * left)
             },
             // The force is part of the amplitude; 1e5 N is the most a file may say.

@@ -145,7 +145,7 @@ fn value_of(section: &Section<'_>, parameter: &Parameter) -> Option<f64> {
     // Plausible ranges bound a search; what a user states is only held to be a finite number, and a width,
     // a frequency or a time above 0, as there is none below.
     let finite = -1e12..=1e12;
-    let whole = parameter.search == Search::Whole;
+    let whole = parameter.is_whole();
     let found = match parameter.unit.dimension {
         Dimension::Number if whole => section.number(name, parameter.range.clone()),
         Dimension::Number => section.number(name, finite),

@@ -283,7 +283,7 @@ mod properties {
     fn inside(parameter: &Parameter, part: f64) -> f64 {
         let (low, high) = (*parameter.range.start(), *parameter.range.end());
         let value = low + (high - low) * part;
-        if parameter.search == crate::Search::Whole { libm::round(value) } else { value }
+        if parameter.is_whole() { libm::round(value) } else { value }
     }
 
     proptest! {

@@ -52,6 +52,7 @@ impl Record {
             pass: places.iter().map(|&(row, _)| self.pass[row]).collect(),
             travelled_mm: straight(&self.travelled_mm),
             since_reversal_mm: straight(&self.since_reversal_mm),
+            since_turn_mm: straight(&self.since_turn_mm),
             since_stop_s: Column::default(),
             velocity_rpm: Column::default(),
             error_um: straight(&self.error_um),

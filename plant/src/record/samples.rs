@@ -102,13 +102,15 @@ impl Record {
             pass: samples.pass.clone(),
             travelled_mm: Column::default(),
             since_reversal_mm: Column::default(),
+            since_turn_mm: Column::default(),
             since_stop_s: Column::default(),
             velocity_rpm: Column::default(),
             error_um: vec![0.0; samples.len()].into(),
             columns,
             covariates,
         };
-        (record.travelled_mm, record.since_reversal_mm) = ways(&record, machine);
+        [record.travelled_mm, record.since_reversal_mm, record.since_turn_mm] =
+            ways(&record, machine);
         record.since_stop_s = record.since_stops_s();
         record.velocity_rpm = record.velocities_rpm();
         record
@@ -120,6 +122,29 @@ struct Places {
     of_row: Column,
     /// Way of one turn of the spindle.
     of_turn: f64,
+}
+
+/// How an axis goes from row to row of a pass.
+struct Pace {
+    /// The longest way between neighbours of one direction.
+    longest: f64,
+    /// The middle one.
+    usual: f64,
+    /// False where it stops on its way, so that time tells no way.
+    is_steady: bool,
+}
+
+/// What an axis has gone from one row to the next, and how far it is behind the turn between them, if there is one.
+struct Gone {
+    way: f64,
+    behind_turn: Option<f64>,
+}
+
+impl Gone {
+    /// The way since the last turn, from what it was before.
+    fn since(&self, before: f64) -> f64 {
+        self.behind_turn.unwrap_or(before + self.way)
+    }
 }
 
 impl Places {
@@ -135,26 +160,59 @@ impl Places {
         self.of_row[row] - self.of_row[row - 1]
     }
 
-    /// The longest way between neighbours of one direction, and the middle one.
-    fn ways(&self, record: &Record, rows: Range<usize>) -> [f64; 2] {
+    fn pace(&self, record: &Record, rows: Range<usize>) -> Pace {
         let moves = (rows.start + 1..rows.end).filter(|&row| !record.turned(row));
-        let mut ways: Vec<f64> = moves.map(|row| self.move_to(row).abs()).collect();
-        ways.sort_unstable_by(f64::total_cmp);
-        let of = |place: usize| ways.get(place).copied().unwrap_or(0.0);
-        [of(ways.len().saturating_sub(1)), of(ways.len() / 2)]
+        let way = |row: usize| self.move_to(row).abs();
+        let elapsed_s = |row: usize| record.time_s[row] - record.time_s[row - 1];
+        let mut ways: Vec<f64> = moves.clone().map(way).collect();
+        let timed = moves.filter(|&row| 0.0 < elapsed_s(row));
+        let mut speeds: Vec<f64> = timed.map(|row| way(row) / elapsed_s(row)).collect();
+        let ([longest, usual], [_, speed]) =
+            (longest_and_middle(&mut ways), longest_and_middle(&mut speeds));
+        let unlike = speeds.iter().filter(|one| UNSTEADY * speed < (*one - speed).abs()).count();
+        Pace { longest, usual, is_steady: 2 * unlike <= speeds.len() }
+    }
+
+    /// What was gone to a row from the one before.
+    ///
+    /// A reversal is where the direction changes, so that what turns with the direction and what winds
+    /// up anew turn together. The turning point lies between two samples, as far beyond them as the
+    /// table had time for, or as samples are apart where it rested.
+    fn gone(&self, record: &Record, row: usize, pace: &Pace) -> Gone {
+        let step = self.move_to(row);
+        if !record.turned(row) {
+            return Gone { way: step.abs(), behind_turn: None };
+        }
+        let way = self.over_a_turn(record, row, pace);
+        // Out and back are the way between; what one is longer than the other, the move.
+        Gone { way, behind_turn: Some(0.5 * (way + record.direction[row] * step)) }
     }
 
     /// The way from one row over the turning point to the next: what the table had time for. If it had
     /// time for more than it ever goes, it rested, and has gone as far as between others; none where it
     /// stands at one place before and after.
-    fn over_a_turn(&self, record: &Record, row: usize, [longest, usual]: [f64; 2]) -> f64 {
+    fn over_a_turn(&self, record: &Record, row: usize, pace: &Pace) -> f64 {
         let elapsed_s = record.time_s[row] - record.time_s[row - 1];
         let most = self.of_turn * record.speed_rpm[row] / 60.0 * elapsed_s;
         let step = self.move_to(row).abs();
-        let unseen = if step < ONE_PLACE * usual { 0.0 } else { usual };
-        if most <= (1.0 + ONE_PLACE) * longest { most } else { unseen }.max(step)
+        let unseen = if step < ONE_PLACE * pace.usual { 0.0 } else { pace.usual };
+        let goes_on = pace.is_steady && most <= (1.0 + ONE_PLACE) * pace.longest;
+        if goes_on { most } else { unseen }.max(step)
     }
 }
+
+/// The largest of some values, and the middle one; 0 of none. They are sorted.
+fn longest_and_middle(values: &mut [f64]) -> [f64; 2] {
+    values.sort_unstable_by(f64::total_cmp);
+    let of = |place: usize| values.get(place).copied().unwrap_or(0.0);
+    [of(values.len().saturating_sub(1)), of(values.len() / 2)]
+}
+
+/// Part of the usual speed by which half of the others differ where an axis stops at its rows.
+///
+/// Chosen: a drive holds its speed to a few per cent, and dwells are as long at short steps as at long ones. Doubled:
+/// tables whose steps differ by a tenth pass for strokes.
+const UNSTEADY: f64 = 0.05;
 
 /// Part of the way between neighbours that two rows at one place are apart at the most, and by which a time that
 /// is read is off.
@@ -163,36 +221,38 @@ impl Places {
 /// that goes on is at one place with the row behind the turn by chance.
 const ONE_PLACE: f64 = 0.01;
 
-/// Way since the start of the pass and since the last reversal in it, mm, or degrees on a rotary chain.
-///
-/// A reversal is where the direction changes, so that what turns with the direction and what winds
-/// up anew turn together. The turning point lies between two samples, as far beyond them as the
-/// table had time for, or as samples are apart where it rested.
-fn ways(record: &Record, machine: &Machine) -> (Column, Column) {
+/// Way since the start of the pass, since the last reversal in it, and since that of passes which go on, mm, or degrees
+/// on a rotary chain.
+fn ways(record: &Record, machine: &Machine) -> [Column; 3] {
     let places = Places::of(record, machine);
     let mut travelled = Vec::with_capacity(record.len());
     let mut since_reversal = Vec::with_capacity(record.len());
+    let mut since_turn = Vec::with_capacity(record.len());
     for rows in record.passes() {
-        let ways = places.ways(record, rows.clone());
-        let (mut way, mut since) = (way_before(machine, places.of_row[rows.start]), f64::INFINITY);
+        let pace = places.pace(record, rows.clone());
+        let mut way = way_before(machine, places.of_row[rows.start]);
+        let (mut of_pass, mut of_all) = (f64::INFINITY, f64::INFINITY);
+        if let Some(before) = since_turn.last()
+            && places.move_to(rows.start).abs() <= pace.longest
+        {
+            of_all = places.gone(record, rows.start, &pace).since(*before);
+        }
         for row in rows.clone() {
             if rows.start < row {
-                let step = places.move_to(row);
-                if record.turned(row) {
-                    let between = places.over_a_turn(record, row, ways);
-                    way += between;
-                    // Out and back are the way between; what one is longer than the other, the move.
-                    since = 0.5 * (between + record.direction[row] * step);
-                } else {
-                    way += step.abs();
-                    since += step.abs();
-                }
+                let gone = places.gone(record, row, &pace);
+                way += gone.way;
+                of_pass = gone.since(of_pass);
+                of_all = gone.since(of_all);
             }
             travelled.push(way);
-            since_reversal.push(since);
+            since_reversal.push(of_pass);
+            since_turn.push(of_all);
         }
     }
-    (travelled.into(), since_reversal.into())
+    let goes_on = since_turn != since_reversal;
+    let since_reversal = Column::from(since_reversal);
+    let since_turn = if goes_on { since_turn.into() } else { since_reversal.clone() };
+    [travelled.into(), since_reversal, since_turn]
 }
 
 /// Way of a pass before its first sample, mm; none on a rotary chain, which has no such device.
@@ -292,6 +352,26 @@ drive = { step = "0.0125 um", frequency = "160 Hz" }
         let record = Record::new(&machine, &samples);
         // 0.6 mm from row to row over the turn, 0.2 mm of them the move.
         assert!((record.since_reversal_mm[5] - 0.4).abs() < 1e-12);
+    }
+
+    /// Targets at uneven distances, each reached by a move and a dwell: the time at the turn is no way.
+    #[test]
+    fn time_tells_no_way_where_an_axis_stops() {
+        let machine = Model::parse(MACHINE, Path::new("machine.toml")).unwrap();
+        let places_mm = [0.0, 1.0, 5.0, 6.5, 9.5, 9.5, 6.5, 5.0, 1.0, 0.0];
+        let dwells_s = [0.0, 3.0, 1.0, 2.0, 4.0, 2.0, 1.0, 3.0, 2.0, 1.0];
+        let mut time_s = vec![0.0];
+        for row in 1..places_mm.len() {
+            let way_mm = f64::abs(places_mm[row] - places_mm[row - 1]);
+            time_s.push(time_s[row - 1] + way_mm / 0.6 + dwells_s[row]);
+        }
+        let samples = Samples {
+            time_s: time_s.into(),
+            direction: (0..10).map(|row| if row < 5 { 1.0 } else { -1.0 }).collect(),
+            ..Samples::forward(&machine, places_mm.into())
+        };
+        let record = Record::new(&machine, &samples);
+        assert!(record.since_reversal_mm[5].abs() < 1e-12);
     }
 
     /// A table that turns 40° there and back, at a degree a row.
