@@ -15,6 +15,8 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
 use crate::properties::few;
+use crate::support::diagnosed::{columns, diagnosed_on};
+use crate::support::passes::white;
 use crate::support::seeds::seeds;
 
 /// Standard deviation of every scene's noise, µm.
@@ -227,6 +229,32 @@ fn a_rounded_log_leaves_nothing_unexplained() {
             }
             assert_eq!(answer(&scene.known(), &table), expected, "seed {seed}");
         }
+    }
+}
+
+/// An axis without a prediction of its own, one pass of which is louder, and a wave of its screw: no sign is special.
+#[test]
+fn the_sign_of_all_errors_leaves_every_figure_alone() {
+    for seed in seeds(2, 24) {
+        let (mut noise, mut slow) = (white(seed, 0.3), white(600 + seed, 0.2));
+        let mut level = 0.0;
+        let rows = (0..200_u32).map(|row| {
+            let (pass, mm) = (row / 40, 1.7 * f64::from(row % 40));
+            level = 0.9 * level + slow();
+            let loudness = if pass == 2 { 3.0 } else { 1.0 };
+            let wave = 0.3 * libm::sin(std::f64::consts::TAU * mm / 5.0);
+            [f64::from(pass), 0.5 * f64::from(row), mm, wave + level + loudness * noise()]
+        });
+        let table = columns(["pass", "time_s", "position_mm", "error_um"], rows);
+        let mut turned = table.clone();
+        turned[3].1.iter_mut().for_each(|error| *error = -*error);
+        let told = |table| {
+            let found =
+                diagnosed_on("spindle.speed = \"60 rpm\"\nlead_screw.lead = \"5 mm\"\n", table);
+            let rms: Vec<u64> = found.rounds.iter().map(|round| round.rms_um.to_bits()).collect();
+            (found.verdict, rms, found.samples_a_pass.to_bits())
+        };
+        assert_eq!(told(turned), told(table), "{seed}");
     }
 }
 

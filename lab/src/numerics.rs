@@ -26,5 +26,6 @@ pub(crate) use sampling::{
     highest_frequency, may_resolve, nearly_even_rate, resolves, turns_of_the_way, usual_rate,
 };
 pub(crate) use summary::{
-    count, deviation, longest, mean, median, one_in, rms_about_means, spread, weighted_median,
+    count, deviation, longest, mean, median, middle, middle_nearest_zero, one_in, rms_about_means,
+    spread, weighted_median,
 };

@@ -13,7 +13,7 @@ use statrs::distribution::{Continuous, StudentsT};
 use super::drawn::surest_share_of;
 use crate::model::{Fit, Problem};
 use crate::noise::{departures, rms};
-use crate::numerics::{chi_squared_tail, deviation, median};
+use crate::numerics::{chi_squared_tail, deviation, middle};
 use crate::policy::chance::SIGNIFICANCE;
 use crate::policy::reading::{BEYOND_NOISE, SIGNS_LOST};
 
@@ -87,10 +87,10 @@ impl Row {
 
 /// The readings of a pass.
 fn rows_of(left: &[f64], observed: &[f64]) -> Vec<Row> {
-    let zero = median(&mut left.to_vec());
+    let zero = middle(&mut left.to_vec());
     let expected: Vec<f64> =
         observed.iter().zip(left).map(|(read, left)| read - (left - zero)).collect();
-    let middle = median(&mut expected.clone());
+    let middle = middle(&mut expected.clone());
     let off = departures(left).into_iter();
     off.zip(expected).map(|(off, expected)| Row { off, expected, middle }).collect()
 }

@@ -16,7 +16,7 @@ use super::excursions::{are_readings, loudness};
 use crate::model::{Fit, Problem};
 use crate::noise::without_outliers;
 use crate::numerics::least_squares;
-use crate::numerics::{count, deviation, mean, median};
+use crate::numerics::{count, deviation, mean, median, middle};
 use crate::policy::extent::{JUST_BEFORE, LOUDNESS_ROWS, PREDICTED_BY, ROWS_A_LAG};
 use crate::policy::reading::{CLEARLY_LOUDER, FAR_OUT, MOST_DEVIATIONS};
 
@@ -90,7 +90,7 @@ fn columns<'a>(all: impl IntoIterator<Item = &'a Vec<f64>>) -> Vec<&'a [f64]> {
 
 /// About the median of a pass, in its own deviations, and no farther out than a few of them.
 fn scaled(pass: &[f64]) -> Vec<f64> {
-    let middle = median(&mut pass.to_vec());
+    let middle = middle(&mut pass.to_vec());
     let mut sizes: Vec<f64> = pass.iter().map(|value| (value - middle).abs()).collect();
     let size = deviation(&mut sizes).max(f64::MIN_POSITIVE);
     let limited = |value: &f64| ((value - middle) / size).clamp(-MOST_DEVIATIONS, MOST_DEVIATIONS);

@@ -14,7 +14,7 @@ use super::drawn::surest;
 use super::excursions::are_readings;
 use crate::model::{Fit, Problem};
 use crate::noise::{departures, is_far};
-use crate::numerics::{chi_squared_tail, count, deviation, fourier, median, spread};
+use crate::numerics::{chi_squared_tail, count, deviation, fourier, median, middle, spread};
 use crate::policy::chance::{FEWEST_OUTLIERS, SIGNIFICANCE};
 use crate::policy::extent::IN_COMPANY;
 use crate::policy::reading::{FAR_IN_TAILS, FAR_OUT};
@@ -124,7 +124,7 @@ impl Pass {
 /// from the middle of their pass as others are not, for readings that are smoothed lie near each other.
 fn so_many(passes: &[Pass], left: &[f64]) -> f64 {
     let off = |pass: &Pass| {
-        let middle = median(&mut left[pass.rows.clone()].to_vec());
+        let middle = middle(&mut left[pass.rows.clone()].to_vec());
         pass.rows.clone().map(|row| (left[row] - middle).abs()).collect::<Vec<f64>>()
     };
     let off: Vec<Vec<f64>> = passes.iter().map(off).collect();

@@ -12,7 +12,7 @@ use super::designs::Designs;
 use super::finer::{Finer, interval_s};
 use crate::measurement::{Measurement, spacing};
 use crate::noise::{Block, Layout, outlier_inflation};
-use crate::numerics::{count, highest_frequency, median};
+use crate::numerics::{count, highest_frequency, median, middle};
 use crate::policy::extent::{MOST_BETWEEN, SEARCHED_ROWS};
 use crate::policy::reading::{FAR_OUT, MOST_TOLD, OUTLIER_DEVIATIONS, WRITTEN_INTERVAL};
 use crate::policy::size::{FINEST_SENSOR_UM, ONE_SPEED, SAMPLES_OFF, SWINGS};
@@ -590,7 +590,7 @@ impl Problem {
         let from_zero_um = meter_um(&self.model, &self.record, &self.effects_on(&self.record)?);
         let above = |block: &Block| {
             let above = |row: usize| self.observed[row] - from_zero_um[self.samples[row]];
-            median(&mut block.rows.clone().map(above).collect::<Vec<f64>>())
+            middle(&mut block.rows.clone().map(above).collect::<Vec<f64>>())
         };
         let above_um: Vec<f64> = passes.iter().map(|block| above(block)).collect();
         let from_first = above_um.iter().map(|above| above - above_um[0]);

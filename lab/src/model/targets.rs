@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::columns::Columns;
 use super::problem::Problem;
-use crate::numerics::{median, spread};
+use crate::numerics::{middle, middle_nearest_zero, spread};
 use crate::policy::evidence::{FEW_TARGETS, PASSING, VISITS, VISITS_OF_FEW};
 use crate::policy::extent::ROWS_A_COLUMN;
 use crate::policy::reading::ONE_PLACE;
@@ -113,14 +113,15 @@ impl Problem {
 
     /// What a model leaves without what each target shows at most of its visits one way: a target that is off
     /// at every visit is no bad reading. And which rows tell how far noise takes one: of three visits the middle one,
-    /// which all are held against, does not; of more it hardly counts.
+    /// which all are held against, does not; of more it hardly counts. Where two of four are off, nothing tells which
+    /// two but that most targets are where the model has them.
     pub(super) fn without_own_errors(&self, left: &[f64]) -> (Vec<f64>, Vec<bool>) {
         let (mut rest, mut telling) = (left.to_vec(), vec![true; left.len()]);
         let Some(targets) = self.targets() else { return (rest, telling) };
         let of = self.visited(&targets);
         let mut visits = BTreeMap::<_, Vec<usize>>::new();
         for block in &self.layout.blocks {
-            let level = median(&mut left[block.rows.clone()].to_vec());
+            let level = middle(&mut left[block.rows.clone()].to_vec());
             for row in block.rows.clone() {
                 rest[row] -= level;
                 let sample = self.samples[row];
@@ -129,7 +130,8 @@ impl Problem {
             }
         }
         for rows in visits.values().filter(|rows| VISITS_OF_FEW <= rows.len()) {
-            let usual = median(&mut rows.iter().map(|&row| rest[row]).collect::<Vec<_>>());
+            let usual =
+                middle_nearest_zero(&mut rows.iter().map(|&row| rest[row]).collect::<Vec<_>>());
             for &row in rows {
                 rest[row] -= usual;
                 telling[row] = VISITS_OF_FEW < rows.len() || rest[row].abs() > 0.0;

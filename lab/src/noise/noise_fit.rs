@@ -9,7 +9,7 @@ use super::kernel::{Noise, SlowPart};
 use super::layout::{Block, Layout};
 use super::sweep::squares_and_log_determinants;
 use crate::numerics::quasi_newton::{Descent, minimise};
-use crate::numerics::{count, deviation, in_parallel, median, one_in};
+use crate::numerics::{count, deviation, in_parallel, middle, one_in};
 use crate::policy::extent::{IN_COMPANY, LOUDNESS_ROWS};
 use crate::policy::reading::{
     BEYOND_ARE_OUTLIERS, BEYOND_DEVIATIONS, FAR_OUT, MOST_LOUD, NO_LAW, OUTLIER_DEVIATIONS,
@@ -307,7 +307,7 @@ pub(crate) fn departures(values: &[f64]) -> Vec<f64> {
         let to = (row + OUTLIER_NEIGHBOURS + 1).min(values.len());
         near.clear();
         near.extend_from_slice(&values[row.saturating_sub(OUTLIER_NEIGHBOURS)..to]);
-        value - median(&mut near)
+        value - middle(&mut near)
     };
     values.iter().enumerate().map(of).collect()
 }

@@ -28,10 +28,36 @@ pub(crate) fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / count(values.len().max(1))
 }
 
-/// Median; the lower one of an even number, 0 of none.
+/// Median of sizes; the lower one of an even number, 0 of none.
 #[must_use]
-pub(crate) fn median(values: &mut [f64]) -> f64 {
-    one_in(values, 2)
+pub(crate) fn median(sizes: &mut [f64]) -> f64 {
+    one_in(sizes, 2)
+}
+
+/// Median of values of either sign, that of turned signs with its sign turned: the mean of the middle two of an even
+/// number; 0 of none.
+#[must_use]
+pub(crate) fn middle(values: &mut [f64]) -> f64 {
+    let [lower, upper] = middle_two(values);
+    lower.midpoint(upper)
+}
+
+/// What is nearest to zero of all that has half of the values on either side.
+#[must_use]
+pub(crate) fn middle_nearest_zero(values: &mut [f64]) -> f64 {
+    let [lower, upper] = middle_two(values);
+    0.0_f64.clamp(lower, upper)
+}
+
+/// The two values that have as many below as above; one and the same of an odd number, 0 of none.
+fn middle_two(values: &mut [f64]) -> [f64; 2] {
+    if values.is_empty() {
+        return [0.0; 2];
+    }
+    let is_odd = !values.len().is_multiple_of(2);
+    let (below, upper, _) = values.select_nth_unstable_by(values.len() / 2, f64::total_cmp);
+    let lower = below.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    [if is_odd { *upper } else { lower }, *upper]
 }
 
 /// Median size of a normal variable whose deviation is 1, inverted.
@@ -78,4 +104,25 @@ pub(crate) fn rms_about_means(
         square += part.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>();
     }
     (square / count(values.len().max(1))).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_middle_turns_its_sign_with_its_values() {
+        for values in [&[3.0, -1.0, 7.0][..], &[3.0, -1.0, 7.0, 4.0], &[]] {
+            let mut turned: Vec<f64> = values.iter().map(|value| -value).collect();
+            assert_eq!(
+                middle(&mut values.to_vec()).to_bits(),
+                (0.0 - middle(&mut turned)).to_bits()
+            );
+        }
+        assert_eq!(middle(&mut [4.0, 1.0, 9.0, 2.0]).to_bits(), 3.0_f64.to_bits());
+        assert_eq!(
+            middle_nearest_zero(&mut [-4.0, -1.0, -9.0, -2.0]).to_bits(),
+            (-2.0_f64).to_bits()
+        );
+    }
 }

@@ -13,7 +13,7 @@ use super::rivals::Rivals;
 use super::span::shown;
 use crate::formulas::nameless;
 use crate::model::{Problem, State};
-use crate::numerics::{count, median};
+use crate::numerics::{count, middle};
 use crate::policy::evidence::MARGIN;
 use crate::policy::reading::WITHIN_REACH;
 
@@ -50,7 +50,7 @@ pub(crate) fn at_flanks(problem: &Problem, state: &State, found: &[Rivals]) -> O
 /// Rows in which an effect shows anything.
 fn reach(problem: &Problem, state: &State, index: usize) -> Vec<usize> {
     let Some(shown) = shown(problem, state, index) else { return Vec::new() };
-    let middle = median(&mut shown.clone());
+    let middle = middle(&mut shown.clone());
     let off = |row: &usize| (shown[*row] - middle).abs();
     let most = (0..shown.len()).map(|row| off(&row)).fold(0.0, f64::max);
     (0..shown.len()).filter(|row| WITHIN_REACH * most < off(row)).collect()

@@ -9,7 +9,7 @@ use helixlock_plant::{CATALOGUE, Entry, Role, Search, Term};
 use crate::model::{Component, Problem, State, pattern};
 use crate::noise::{Block, Whitener, about_means};
 use crate::numerics::least_squares::dot;
-use crate::numerics::{count, least_squares, mean, median, resolves, spread};
+use crate::numerics::{count, least_squares, mean, middle, resolves, spread};
 use crate::policy::evidence::{
     HIGH_HARMONIC_PRICE, OF_THE_FILE_PRICE, OTHER_TARGETS, SHAPE, WAVE, WAVES_IN_TIME,
 };
@@ -296,7 +296,7 @@ pub(crate) fn at_one_target(problem: &Problem, component: &Component, used: &[f6
     let about = |part: &[f64], level: f64| -> f64 {
         part.iter().map(|value| (value - level) * (value - level)).sum()
     };
-    let usual = median(&mut shown.clone());
+    let usual = middle(&mut shown.clone());
     let far = |at: &usize| (mean(&of_targets[*at]) - usual).abs();
     let Some(at) = (0..of_targets.len()).max_by(|a, b| far(a).total_cmp(&far(b))) else {
         return false;
