@@ -232,6 +232,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "long: `cargo xtask campaign` runs it"]
     fn noise_has_none() {
         is_calibrated("white", 1.0, |random, _| normal(random));
         is_calibrated("skewed", 1.0, |random, _| Exp1.sample(random));
