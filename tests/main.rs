@@ -101,6 +101,7 @@ mod sweep;
 mod synchronisers;
 mod tables;
 mod targets_and_moments;
+mod targets_each_way;
 mod teeth;
 mod telemetry;
 mod templates;

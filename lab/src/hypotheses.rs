@@ -47,7 +47,8 @@ pub(crate) use flaws::{above_flaws, above_hunting, least_above_hunting};
 pub(crate) use likelihood::Likelihood;
 pub use probes::Structure;
 pub(crate) use probes::{
-    all_structures, at_targets, is_left, matters, no_larger_than, structures, waves_left,
+    all_structures, at_targets, between_ways, is_left, matters, no_larger_than, structures,
+    waves_left,
 };
 pub(crate) use setting_trial::setting_trials;
 pub(crate) use slow_noise::{

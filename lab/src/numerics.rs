@@ -21,7 +21,7 @@ pub(crate) use chi_squared::chi_squared_tail;
 pub(crate) use golden_section::golden_maximum;
 pub(crate) use looks::Looks;
 pub(crate) use parallel::in_parallel;
-pub(crate) use random_effects::drawn_sizes_gain;
+pub(crate) use random_effects::{drawn_sizes_gain, drawn_sizes_gain_with};
 pub(crate) use sampling::{
     highest_frequency, may_resolve, nearly_even_rate, resolves, turns_of_the_way, usual_rate,
 };

@@ -36,7 +36,7 @@ pub(crate) use court::{Claim, claims, hear, nobodys};
 pub(crate) use flanks::at_flanks;
 pub(crate) use one_cause::one_cause;
 pub(crate) use one_comb::one_comb;
-pub(crate) use own_errors::{in_place_of, own_errors, paid, paid_by_formula};
+pub(crate) use own_errors::{in_place_of, left_at_targets, own_errors, paid, paid_by_formula};
 pub(crate) use polish::polished;
 pub(crate) use pruning::{Dropped, errors_of_counts, pruned, pruned_in_doubt};
 pub(crate) use refusal::Refusal;

@@ -1,10 +1,10 @@
 //! A search on few rows, and what it has found on all.
 
-use crate::hypotheses::{Structure, at_targets, is_left};
+use crate::hypotheses::{Structure, at_targets, between_ways};
 use crate::model::{Problem, State};
 use crate::numerics::in_parallel;
 use crate::search::{
-    Dropped, Step, own_errors, polished, pruned_in_doubt, search, take_for_a_shape,
+    Dropped, Step, left_at_targets, own_errors, polished, pruned_in_doubt, search, take_for_a_shape,
 };
 
 /// What a search has found, on few rows and on all.
@@ -13,7 +13,7 @@ pub(super) struct Searched {
     pub(super) problem: Problem,
     pub(super) steps: Vec<Step>,
     pub(super) states: Vec<State>,
-    /// What targets show at every visit and no effect explains.
+    /// What targets show at every visit, or each way, and no effect explains.
     pub(super) of_targets: Option<Structure>,
 }
 
@@ -21,11 +21,17 @@ pub(super) struct Searched {
 pub(super) fn search_on_all_rows(problem: &Problem, rows: usize) -> Searched {
     let mut small = problem.thinned(rows).unwrap_or_else(|| problem.clone());
     let mut steps = search(&mut small);
-    let of_targets =
-        left_at_targets(problem, &small, &steps).or_else(|| own_errors(&small, &steps));
+    let last = |steps: &[Step]| steps[steps.len() - 1].state.clone();
+    let left = left_at_targets(problem, &small, &last(&steps), at_targets);
+    let mut of_targets = left.or_else(|| own_errors(&small, &steps));
     if of_targets.is_some() {
         small = small.with_targets_free();
         steps = search(&mut small);
+    }
+    if let Some(each_way) = left_at_targets(problem, &small, &last(&steps), between_ways) {
+        small = small.with_ways_free();
+        steps = search(&mut small);
+        of_targets = Some(each_way);
     }
     take_for_a_shape(&mut small, &mut steps);
     let (problem, mut states) = on_all_rows(problem, &small, &steps);
@@ -39,15 +45,6 @@ pub(super) fn search_on_all_rows(problem: &Problem, rows: usize) -> Searched {
         states.push(state);
     }
     Searched { small, problem, steps, states, of_targets }
-}
-
-/// What targets show at every visit and no effect explains; of means, none.
-fn left_at_targets(problem: &Problem, small: &Problem, steps: &[Step]) -> Option<Structure> {
-    if !small.has_rows_of(problem) {
-        return None;
-    }
-    let State { columns, fit, .. } = &steps[steps.len() - 1].state;
-    at_targets(small, columns, fit).filter(|structure| is_left(small, fit, structure))
 }
 
 /// Every state of a search fitted to all rows, outliers marked as the last one leaves them.

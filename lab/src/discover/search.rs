@@ -12,8 +12,8 @@ use crate::answer::{
 use crate::doubts::{Doubt, doubts_and_suspects};
 use crate::formulas::{Delta, Shape, formulas};
 use crate::hypotheses::{
-    Likelihood, Structure, at_targets, disagreements, is_left, no_all_clear, samples_a_pass,
-    slow_cause, slow_or_smooth, structures,
+    Likelihood, Structure, at_targets, between_ways, disagreements, is_left, no_all_clear,
+    samples_a_pass, slow_cause, slow_or_smooth, structures,
 };
 use crate::model::{Columns, Component, Fit, Problem, State, helps_unseen, holdout_rms};
 use crate::noise::{rms, weighed_rms};
@@ -22,8 +22,8 @@ use crate::policy::chance::SIGNIFICANCE;
 use crate::policy::evidence::MARGIN;
 use crate::policy::extent::{MOST_FORMULAS, SEARCHED_ROWS};
 use crate::search::{
-    Claim, Rivals, Step, claims, hear, in_place_of, nobodys, paid, paid_by_formula, polished,
-    pruned, rivals, search, suspected, tried_beside,
+    Claim, Rivals, Step, claims, hear, in_place_of, left_at_targets, nobodys, paid,
+    paid_by_formula, polished, pruned, rivals, search, suspected, tried_beside,
 };
 
 /// Runners-up that experiments are to tell from a proposal.
@@ -100,12 +100,15 @@ pub fn discover(problem: &Problem) -> Discovery {
     }
     let shapes = formulas(&small);
     let mut now = named.with_formulas(&small, &shapes);
-    let of_targets = now.of_targets(problem, &small, &steps);
+    let mut of_targets = now.of_targets(problem, &small, &steps);
     if of_targets.is_some() {
         small = small.with_targets_free();
-        let (named, beside_targets) = Now::named(&mut small);
-        now = named.with_formulas(&small, &shapes);
-        steps = beside_targets;
+        (now, steps) = Now::again(&mut small, &shapes);
+    }
+    if let Some(each_way) = left_at_targets(problem, &small, &now.state, between_ways) {
+        small = small.with_ways_free();
+        (now, steps) = Now::again(&mut small, &shapes);
+        of_targets = Some(each_way);
     }
     let mut answer = now.told(problem, &small, &steps);
     if let Some(own_errors) = of_targets {
@@ -160,6 +163,12 @@ impl Now {
         (Self { state, found, granted: Vec::new(), names_stay: false }, steps)
     }
 
+    /// The same with formulas, of a problem in which more is left free.
+    fn again(problem: &mut Problem, shapes: &[Shape]) -> (Self, Vec<Step>) {
+        let (named, steps) = Self::named(problem);
+        (named.with_formulas(problem, shapes), steps)
+    }
+
     /// It with as many formulas as may join; one that is lost beside a later one leaves its place to another.
     fn with_formulas(self, problem: &Problem, shapes: &[Shape]) -> Self {
         let mut now = self;
@@ -188,7 +197,7 @@ impl Now {
 
     /// What targets show at every visit, where no formula explains it, or none better than errors of their own do.
     fn of_targets(&self, problem: &Problem, small: &Problem, steps: &[Step]) -> Option<Structure> {
-        let State { columns, fit, components } = &self.state;
+        let State { fit, components, .. } = &self.state;
         let named = components.len() - self.granted.len();
         let paid = |index: usize| {
             if index < named {
@@ -200,8 +209,7 @@ impl Now {
                 |others| paid_by_formula(small, others, &fit.noises, (&one.columns, one.looks));
             others.as_ref().map_or(0.0, of)
         };
-        let left = at_targets(small, columns, fit).filter(|told| is_left(small, fit, told));
-        let left = left.filter(|_| small.has_rows_of(problem));
+        let left = left_at_targets(problem, small, &self.state, at_targets);
         left.or_else(|| in_place_of(small, &self.state, paid))
     }
 

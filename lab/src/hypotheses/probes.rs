@@ -93,6 +93,9 @@ const A_DAY_S: f64 = 86_400.0;
 /// Words for what targets show.
 const AT_TARGETS: &str = "own error of each target, at every visit";
 
+/// The same where it is another one way than the other.
+const EACH_WAY: &str = "own error of each target, another each way";
+
 /// Number of probes, for they are counted together: every logged column is two more, a speed that
 /// changes within a pass one, and so is every shaft beside the spindle and the screw.
 pub(super) fn probes(problem: &Problem) -> f64 {
@@ -301,24 +304,37 @@ fn in_common(problem: &Problem, fit: &Fit) -> Option<Structure> {
 /// What targets show each way, whatever the shape from one to the next: a screw that is pulled and pushed, a
 /// carriage that tilts with its motion.
 fn each_way_at_targets(problem: &Problem, model: &Columns, fit: &Fit) -> Option<Structure> {
-    let columns = problem.columns_of_targets_each_way();
-    of_targets(problem, (model, fit), columns, "own error of each target, another each way")
+    let between = problem.columns_between_ways();
+    if between.is_empty() || problem.are_targets_free() {
+        return None;
+    }
+    let own = problem.columns_of_targets();
+    of_targets(problem, (model, fit), [own, between].concat(), EACH_WAY)
 }
 
 /// What targets show at every visit, whatever the shape from one to the next.
 #[must_use]
 pub(crate) fn at_targets(problem: &Problem, model: &Columns, fit: &Fit) -> Option<Structure> {
+    if problem.are_targets_free() {
+        return None;
+    }
     of_targets(problem, (model, fit), problem.columns_of_targets(), AT_TARGETS)
 }
 
-/// What some columns of targets show, where they are not left free.
+/// What targets show one way and not the other, though what they show at every visit may be free.
+#[must_use]
+pub(crate) fn between_ways(problem: &Problem, model: &Columns, fit: &Fit) -> Option<Structure> {
+    of_targets(problem, (model, fit), problem.columns_between_ways(), EACH_WAY)
+}
+
+/// What some columns of targets show.
 fn of_targets(
     problem: &Problem,
     (model, fit): (&Columns, &Fit),
     columns: Vec<Vec<f64>>,
     shape: &str,
 ) -> Option<Structure> {
-    if columns.is_empty() || problem.starts < problem.free.raw.len() {
+    if columns.is_empty() {
         return None;
     }
     let raw: Vec<Column> = columns.into_iter().map(Column::from).collect();

@@ -6,7 +6,7 @@ use super::columns::Columns;
 use super::problem::Problem;
 use crate::noise::{Noise, Whitener};
 use crate::numerics::least_squares::{LinearFit, dot};
-use crate::numerics::{count, drawn_sizes_gain, least_squares};
+use crate::numerics::{count, drawn_sizes_gain_with, least_squares};
 use crate::policy::chance::MORE_THAN_NOISE;
 
 /// Whitened residual of a model, free of everything the model's columns can explain.
@@ -67,8 +67,15 @@ impl<'a> Stage<'a> {
     /// about zero, integrated out; the law's size is the likeliest.
     #[must_use]
     pub(crate) fn with_sizes_of(&self, columns: &Columns) -> f64 {
-        let white = self.beside_model(self.whitener.whiten_all(&columns.views()));
-        let gain = drawn_sizes_gain(&white, &self.target);
+        self.with_sizes_of_and(columns, &Columns::default())
+    }
+
+    /// The same with columns of free sizes as well.
+    #[must_use]
+    pub(crate) fn with_sizes_of_and(&self, columns: &Columns, free: &Columns) -> f64 {
+        let white =
+            |columns: &Columns| self.beside_model(self.whitener.whiten_all(&columns.views()));
+        let gain = drawn_sizes_gain_with(&white(columns), &self.target, &white(free));
         -0.5 * (self.square - gain + self.whitener.log_determinant())
     }
 

@@ -2,8 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use statrs::statistics::Statistics;
+
 use super::columns::Columns;
+use super::fit::settle;
 use super::problem::Problem;
+use super::state::State;
 use crate::numerics::{middle, middle_nearest_zero, spread};
 use crate::policy::evidence::{FEW_TARGETS, PASSING, VISITS, VISITS_OF_FEW};
 use crate::policy::extent::ROWS_A_COLUMN;
@@ -89,26 +93,42 @@ impl Problem {
             .collect()
     }
 
-    /// What each target shows at every visit one way and at every visit the other, but for a reversal that is
-    /// alike at all; none where there are no targets, or too few rows of each and each way.
-    #[must_use]
-    pub(crate) fn columns_of_targets_each_way(&self) -> Vec<Vec<f64>> {
-        let mut columns = self.columns_of_targets();
-        let (Some(targets), width) = (self.targets(), columns.len()) else { return columns };
+    /// What each target that is met both ways shows one way and not the other, a column a target of each sensor; none
+    /// where there are no targets, or too few rows of each and each way.
+    fn columns_of_ways(&self) -> Vec<Vec<Vec<f64>>> {
+        let (Some(targets), width) = (self.targets(), self.columns_of_targets().len()) else {
+            return Vec::new();
+        };
         let ways = self.samples.iter().map(|&sample| self.record.direction[sample].signum());
         let ways: Vec<f64> = ways.collect();
-        let is_both = ways.iter().any(|way| *way < 0.0) && ways.iter().any(|way| 0.0 < *way);
-        if !is_both || self.samples.len() < 2 * VISITS_OF_FEW * (width + self.sensors.len()) {
+        let of = self.visited(&targets);
+        let is_met = |target: usize, way: f64| {
+            let mut rows = self.samples.iter().zip(&ways);
+            rows.any(|(&sample, met)| of[sample] == target && 0.0 < way * met)
+        };
+        let both = |target: &usize| is_met(*target, 1.0) && is_met(*target, -1.0);
+        let both: Vec<usize> = (0..targets.len()).filter(both).collect();
+        let visits = VISITS_OF_FEW * (targets.len() + both.len()) * self.sensors.len();
+        if width == 0 || both.len() < 2 || self.samples.len() < visits {
             return Vec::new();
         }
-        let of = self.visited(&targets);
-        for place in 0..width {
-            let sensor = place / (targets.len() - 1);
-            let first = self.alone(sensor, |sample| f64::from(u8::from(of[sample] == 0)));
-            let one = columns[place].iter().zip(&first).zip(&ways);
-            columns.push(one.map(|((own, first), way)| (own - first) * way).collect());
-        }
-        columns
+        let column = |sensor, target| {
+            let own = self.alone(sensor, |sample| f64::from(u8::from(of[sample] == target)));
+            own.iter().zip(&ways).map(|(own, way)| own * way).collect()
+        };
+        let of_sensor = |sensor| both.iter().map(|&target| column(sensor, target)).collect();
+        (0..self.sensors.len()).map(of_sensor).collect()
+    }
+
+    /// The same but for a reversal that is alike at all.
+    #[must_use]
+    pub(crate) fn columns_between_ways(&self) -> Vec<Vec<f64>> {
+        let besides = |first: &[f64], one: &[f64]| -> Vec<f64> {
+            one.iter().zip(first).map(|(one, first)| one - first).collect()
+        };
+        let of_sensors = self.columns_of_ways();
+        let between = of_sensors.iter().filter_map(|columns| columns.split_first());
+        between.flat_map(|(first, rest)| rest.iter().map(|one| besides(first, one))).collect()
     }
 
     /// What a model leaves without what each target shows at most of its visits one way: a target that is off
@@ -145,6 +165,48 @@ impl Problem {
     #[must_use]
     pub(crate) fn with_targets_free(&self) -> Self {
         self.beside(&Columns::free(self.columns_of_targets()))
+    }
+
+    /// True where what targets show is left free.
+    #[must_use]
+    pub(crate) fn are_targets_free(&self) -> bool {
+        self.starts < self.free.raw.len()
+    }
+
+    /// The same with what each target shows one way and not the other, too: of one law, as wide as these scatter about
+    /// what is alike at all, so that a reversal is told by their scatter.
+    #[must_use]
+    pub(crate) fn with_ways_free(&self) -> Self {
+        let free = if self.are_targets_free() { self.clone() } else { self.with_targets_free() };
+        let of_sensors = free.columns_of_ways();
+        let all = Columns::free(of_sensors.concat());
+        let fit = settle(&free, &free.free.and(&all), &State::bare(&free).fit.noises);
+        let mut sizes = fit.linear.coefficients[free.free.raw.len()..].iter().copied();
+        let prior = |ways: &Vec<Vec<f64>>| {
+            let sizes: Vec<f64> = sizes.by_ref().take(ways.len()).collect();
+            vec![Some((0.0, sizes.std_dev())); ways.len()]
+        };
+        let priors = of_sensors.iter().flat_map(prior).collect();
+        free.beside(&Columns { priors, ..all })
+    }
+
+    /// What each target shows one way and not the other, where it is left free.
+    #[must_use]
+    pub(crate) fn free_ways(&self) -> Columns {
+        let sized =
+            self.free.raw.iter().zip(&self.free.priors).filter(|(_, prior)| prior.is_some());
+        Columns::free(sized.map(|(column, _)| column.clone()))
+    }
+
+    /// Columns of a model without these.
+    #[must_use]
+    pub(crate) fn without_ways(&self, model: &Columns) -> Columns {
+        let kept = model.raw.len() - self.free_ways().raw.len();
+        Columns {
+            raw: model.raw[..kept].to_vec(),
+            priors: model.priors[..kept].to_vec(),
+            fixed: model.fixed.clone(),
+        }
     }
 
     /// The same problem with some columns more that every model may follow.

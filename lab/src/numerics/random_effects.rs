@@ -21,28 +21,42 @@ const STEPS: usize = 20;
 /// 1992, chapter 6).
 #[must_use]
 pub(crate) fn drawn_sizes_gain(columns: &[Vec<f64>], target: &[f64]) -> f64 {
-    let width = columns.len();
-    if width == 0 {
-        return 0.0;
-    }
-    let products = DMatrix::from_fn(width, width, |i, j| dot(&columns[i], &columns[j]));
-    let moments = DVector::from_fn(width, |i, _| dot(&columns[i], target));
-    let eigen = SymmetricEigen::new(products);
-    let along = eigen.eigenvectors.transpose() * moments;
+    drawn_sizes_gain_with(columns, target, &[])
+}
+
+/// The same of such columns and of some of free sizes, which are whitened and free of the model, too: what the law
+/// leaves of these is weighed as generalised least squares do.
+#[must_use]
+pub(crate) fn drawn_sizes_gain_with(
+    columns: &[Vec<f64>],
+    target: &[f64],
+    free: &[Vec<f64>],
+) -> f64 {
+    let products = |one: &[Vec<f64>], other: &[Vec<f64>]| {
+        DMatrix::from_fn(one.len(), other.len(), |i, j| dot(&one[i], &other[j]))
+    };
+    let moments = |one: &[Vec<f64>]| DVector::from_fn(one.len(), |i, _| dot(&one[i], target));
+    let (of_free, free_along) = (products(free, free), moments(free));
+    let eigen = SymmetricEigen::new(products(columns, columns));
+    let along = eigen.eigenvectors.transpose() * moments(columns);
+    let across = eigen.eigenvectors.transpose() * products(columns, free);
+    let gain = |variance: f64| -> f64 {
+        let grown = eigen.eigenvalues.map(|value| 1.0 + variance * value.max(0.0));
+        let share = grown.map(|grown| variance / grown);
+        let of_law: f64 = along.component_mul(&along).dot(&share) - grown.map(libm::log).sum();
+        let shared = across.transpose() * DMatrix::from_diagonal(&share);
+        let left = &free_along - &shared * &along;
+        let sizes = (&of_free - shared * &across).cholesky().map(|root| root.solve(&left));
+        of_law + sizes.map_or(0.0, |sizes| left.dot(&sizes))
+    };
+    let nothing = gain(0.0);
     let largest = eigen.eigenvalues.iter().copied().fold(0.0, f64::max);
     if largest <= 0.0 {
-        return 0.0;
+        return nothing;
     }
-    let mut gain = |log_ratio: f64| -> f64 {
-        let variance = libm::exp(log_ratio) / largest;
-        let terms = eigen.eigenvalues.iter().zip(along.iter()).map(|(value, moment)| {
-            let grown = 1.0 + variance * value.max(0.0);
-            moment * moment * variance / grown - libm::log(grown)
-        });
-        terms.sum()
-    };
-    let (_, best) = golden_maximum(&mut gain, (-POWERS, 2.0 * POWERS), STEPS);
-    best.max(0.0)
+    let mut of_power = |log_ratio: f64| gain(libm::exp(log_ratio) / largest);
+    let (_, best) = golden_maximum(&mut of_power, (-POWERS, 2.0 * POWERS), STEPS);
+    best.max(nothing)
 }
 
 #[cfg(test)]
@@ -64,5 +78,23 @@ mod tests {
             assert!((said - expected).abs() < 0.01 + 1e-3 * expected, "{size}: {said}, {expected}");
         }
         assert!(drawn_sizes_gain(&[], &[1.0]).abs() < 1e-12);
+    }
+
+    /// Coefficients that are alike but for a scatter of their own, seen in noise that is far smaller: their mean is
+    /// told by that scatter, as in the test of Student, `k·ln(1 + t²/(k − 1))`.
+    #[test]
+    fn a_mean_is_told_by_the_scatter_about_it() {
+        let unit = |i: usize| (0..8).map(|j| f64::from(u8::from(i == j))).collect::<Vec<f64>>();
+        let columns: Vec<Vec<f64>> = (0..8).map(unit).collect();
+        for mean in [0.0, 300.0, 3000.0] {
+            let target: Vec<f64> =
+                (0..8).map(|i| mean + if i % 2 == 0 { 1000.0 } else { -1000.0 }).collect();
+            let ratio = mean / 1000.0;
+            let expected = 8.0 * libm::log(1.0 + ratio * ratio);
+            let alike = [vec![1.0; 8]];
+            let said = drawn_sizes_gain_with(&columns, &target, &alike)
+                - drawn_sizes_gain(&columns, &target);
+            assert!((said - expected).abs() < 0.01 + 1e-3 * expected, "{mean}: {said}, {expected}");
+        }
     }
 }

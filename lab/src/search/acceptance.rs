@@ -5,6 +5,7 @@ use std::ops::Range;
 use helixlock_plant::{Role, Search, Term};
 
 use super::orders::{not_told_by_targets, turns_as_well};
+use super::own_errors::scatters_as_targets;
 use super::refusal::Refusal;
 use super::uneven::Taken;
 use super::{likeness, other_spectrum, uneven};
@@ -46,6 +47,7 @@ pub(crate) fn refusal(problem: &Problem, now: &State, judged: &Judged) -> Option
         .or_else(|| not_told_by_targets(problem, now, judged))
         .or_else(|| likeness::at_one_target(problem, component, used).then_some(Refusal::OneTarget))
         .or_else(|| (!likeness::lets_motion_through(problem, component)).then_some(Refusal::Play))
+        .or_else(|| scatters_as_targets(problem, now, judged))
         .or_else(|| at_an_end(problem, now, judged))
         .or_else(|| (!repeats(judged, now)).then_some(Refusal::Again))
         .or_else(|| turns_as_well(problem, now, judged))
@@ -69,8 +71,11 @@ fn too_small(problem: &Problem, judged: &Judged, size_um: f64) -> Option<Refusal
 }
 
 /// Refused when the effects of the model have grown to undo nearly all of an effect: what it explains
-/// then is what no formula is true to.
+/// then is what no formula is true to. Where targets scatter each way, that is what a reversal is told by.
 fn undone(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
+    if !problem.free_ways().raw.is_empty() {
+        return None;
+    }
     let size_um = judged.component.size_um(problem, judged.coefficients().0);
     let before = now.fit.left.iter().zip(&judged.fit.left);
     let explained: Vec<f64> = before.map(|(before, left)| before - left).collect();
@@ -80,17 +85,23 @@ fn undone(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
 
 /// Refused when the model with an effect does no better on unseen data than without it.
 fn no_better_unseen(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
-    let columns = now.columns.and(&own_columns(problem, judged)?);
+    // What targets show each way is no better known on unseen data for what is alike at all.
+    let others = problem.without_ways(&now.columns);
+    let columns = others.and(&own_columns(problem, judged)?);
     let model = (&columns, judged.fit.noises.as_slice());
-    let without = (&now.columns, now.fit.noises.as_slice());
+    let without = (&others, now.fit.noises.as_slice());
     (!helps_unseen(problem, model, without)).then(|| Refusal::Unseen {
         with_um: judged.holdout_rms_um,
         without_um: holdout_rms_where(problem, &columns, without),
     })
 }
 
-/// Refused when one sample alone speaks for an effect, which the tails of the noise explain too.
+/// Refused when one sample alone speaks for an effect, which the tails of the noise explain too. A reversal against
+/// the scatter of targets is in no row.
 fn rests_on_one_sample(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
+    if !problem.free_ways().raw.is_empty() {
+        return None;
+    }
     let chance = chance_without_one_sample(problem, now, judged);
     is_too_much(judged, chance).then_some(Refusal::OneSample { chance })
 }

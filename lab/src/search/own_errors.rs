@@ -8,12 +8,28 @@ use std::slice;
 
 use super::analysis::Step;
 use super::court::{Price, groups};
-use crate::hypotheses::{Structure, at_targets};
-use crate::model::{Columns, Component, Problem, Stage, State, settle};
+use super::refusal::Refusal;
+use crate::hypotheses::{Structure, at_targets, is_left};
+use crate::model::{Columns, Component, Fit, Judged, Problem, Stage, State, settle};
 use crate::noise::Noise;
 use crate::numerics::least_squares::dot;
-use crate::numerics::{count, drawn_sizes_gain};
+use crate::numerics::{chi_squared_tail, count, drawn_sizes_gain};
+use crate::policy::chance::NAMED;
 use crate::policy::evidence::MARGIN;
+
+/// What targets show and a model of a search on few rows does not explain; of means, nothing.
+#[must_use]
+pub(crate) fn left_at_targets(
+    problem: &Problem,
+    small: &Problem,
+    state: &State,
+    shown: impl Fn(&Problem, &Columns, &Fit) -> Option<Structure>,
+) -> Option<Structure> {
+    if !small.has_rows_of(problem) {
+        return None;
+    }
+    shown(small, &state.columns, &state.fit).filter(|told| is_left(small, &state.fit, told))
+}
 
 /// What targets show at every visit, where it explains as much as the effects of a model in whose
 /// place it stands, or nearly so: then it cannot be known whether there are any.
@@ -45,6 +61,27 @@ pub(crate) fn in_place_of(
     });
     bare.filter_map(|others| at_targets(problem, &others.columns, &others.fit))
         .min_by(|a, b| a.p_value.total_cmp(&b.p_value))
+}
+
+/// Refused where the targets' own errors each way, of one law, show by chance what an effect does: a reversal that is
+/// alike at all is told by how much they scatter, and not by how well visits agree.
+#[must_use]
+pub(crate) fn scatters_as_targets(
+    problem: &Problem,
+    now: &State,
+    judged: &Judged,
+) -> Option<Refusal> {
+    let ways = problem.free_ways();
+    if ways.raw.is_empty() {
+        return None;
+    }
+    let own = Columns::of(problem, slice::from_ref(&judged.component)).ok()?;
+    let others = problem.without_ways(&now.columns);
+    let stage = Stage::new(problem, &others, &judged.fit.noises);
+    let gain = 2.0 * (stage.with_sizes_of_and(&ways, &own) - stage.with_sizes_of(&ways));
+    let chance = chi_squared_tail(gain, judged.component.freedom());
+    let p_value = (chance * judged.looks.max(1.0) * judged.tried).min(1.0);
+    (NAMED <= p_value).then_some(Refusal::Scatter { p_value })
 }
 
 /// What an effect of a model pays against errors of targets: its sizes are of one law, as theirs are, and a place or a

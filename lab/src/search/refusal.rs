@@ -37,6 +37,8 @@ pub(crate) enum Refusal {
     Untimed,
     /// A wave shorter than what targets resolve.
     Targets,
+    /// Own errors of targets, another each way, do as much by how they scatter, with this chance.
+    Scatter { p_value: f64 },
     /// A curve that is at one target what it is nowhere else: it has no shape there.
     OneTarget,
     /// A play wider than every move of the motor.
@@ -130,6 +132,7 @@ impl fmt::Display for Refusal {
             ),
             Self::Untimed => f.write_str("how long the axis stood is in no log"),
             Self::Targets => f.write_str("not told by the targets from a longer wave"),
+            Self::Scatter { p_value } => write!(f, "within the targets' scatter: p = {p_value:.3}"),
             Self::OneTarget => f.write_str("it shows at one target alone, where it has no shape"),
             Self::Play => f.write_str("a play wider than every move of the motor"),
             Self::Again => f.write_str("it is in the model already"),
@@ -141,11 +144,7 @@ impl fmt::Display for Refusal {
                 )
             }
             Self::OneSample { chance } => {
-                write!(
-                    f,
-                    "one sample alone speaks for it: p = {} with the noise's tails",
-                    rounded(*chance)
-                )
+                write!(f, "one sample alone speaks for it: p = {chance:.3} with the noise's tails")
             }
             // As it would be printed.
             Self::Victor { name, by } if *by < 0.05 => write!(f, "explains as much as {name}"),
