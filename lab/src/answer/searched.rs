@@ -21,14 +21,15 @@ pub(super) struct Searched {
 pub(super) fn search_on_all_rows(problem: &Problem, rows: usize) -> Searched {
     let mut small = problem.thinned(rows).unwrap_or_else(|| problem.clone());
     let mut steps = search(&mut small);
-    let last = |steps: &[Step]| steps[steps.len() - 1].state.clone();
-    let left = left_at_targets(problem, &small, &last(&steps), at_targets);
+    let end = &steps[steps.len() - 1].state;
+    let left = left_at_targets(problem, &small, end, at_targets);
     let mut of_targets = left.or_else(|| own_errors(&small, &steps));
     if of_targets.is_some() {
         small = small.with_targets_free();
         steps = search(&mut small);
     }
-    if let Some(each_way) = left_at_targets(problem, &small, &last(&steps), between_ways) {
+    let end = &steps[steps.len() - 1].state;
+    if let Some(each_way) = left_at_targets(problem, &small, end, between_ways) {
         small = small.with_ways_free();
         steps = search(&mut small);
         of_targets = Some(each_way);

@@ -6,10 +6,11 @@ use super::golden_maximum;
 use super::least_squares::dot;
 
 /// Variances that are tried for the law: from so many powers of e below that at which the best
-/// known coefficient is half noise, to twice as many above.
+/// known coefficient is half noise, to four times as many above: targets differ up to some hundred thousand
+/// times as much as visits of one.
 const POWERS: f64 = 6.0;
 
-/// Steps of the search among them, which leave a thousandth of a power.
+/// Steps of the search among them, which leave two thousandths of a power.
 const STEPS: usize = 20;
 
 /// By how much twice the log likelihood grows when whitened columns join whose coefficients are
@@ -36,6 +37,9 @@ pub(crate) fn drawn_sizes_gain_with(
         DMatrix::from_fn(one.len(), other.len(), |i, j| dot(&one[i], &other[j]))
     };
     let moments = |one: &[Vec<f64>]| DVector::from_fn(one.len(), |i, _| dot(&one[i], target));
+    if columns.is_empty() {
+        return explained(&products(free, free), &moments(free));
+    }
     let (of_free, free_along) = (products(free, free), moments(free));
     let eigen = SymmetricEigen::new(products(columns, columns));
     let along = eigen.eigenvectors.transpose() * moments(columns);
@@ -44,10 +48,9 @@ pub(crate) fn drawn_sizes_gain_with(
         let grown = eigen.eigenvalues.map(|value| 1.0 + variance * value.max(0.0));
         let share = grown.map(|grown| variance / grown);
         let of_law: f64 = along.component_mul(&along).dot(&share) - grown.map(libm::log).sum();
-        let shared = across.transpose() * DMatrix::from_diagonal(&share);
+        let shared = DMatrix::from_fn(free.len(), share.len(), |i, j| across[(j, i)] * share[j]);
         let left = &free_along - &shared * &along;
-        let sizes = (&of_free - shared * &across).cholesky().map(|root| root.solve(&left));
-        of_law + sizes.map_or(0.0, |sizes| left.dot(&sizes))
+        of_law + explained(&(&of_free - shared * &across), &left)
     };
     let nothing = gain(0.0);
     let largest = eigen.eigenvalues.iter().copied().fold(0.0, f64::max);
@@ -55,8 +58,14 @@ pub(crate) fn drawn_sizes_gain_with(
         return nothing;
     }
     let mut of_power = |log_ratio: f64| gain(libm::exp(log_ratio) / largest);
-    let (_, best) = golden_maximum(&mut of_power, (-POWERS, 2.0 * POWERS), STEPS);
+    let (_, best) = golden_maximum(&mut of_power, (-POWERS, 4.0 * POWERS), STEPS);
     best.max(nothing)
+}
+
+/// What columns of such products explain of a target with such moments.
+fn explained(products: &DMatrix<f64>, moments: &DVector<f64>) -> f64 {
+    let sizes = products.clone().cholesky().map(|root| root.solve(moments));
+    sizes.map_or(0.0, |sizes| moments.dot(&sizes))
 }
 
 #[cfg(test)]
