@@ -48,23 +48,6 @@ pub(crate) const NO_LAW: f64 = 2.0;
 /// Chosen: a row that weighs 4096 times another already decides alone. Doubled: 16 384 times.
 pub(crate) const MOST_TOLD: f64 = 64.0;
 
-/// Error of the logarithm of a robust deviation, times the root of the rows that tell it.
-///
-/// Derived: the median of sizes has 37 % of the efficiency of a mean square (Rousseeuw and Croux 1993), which is 1.17;
-/// rows that share their neighbours tell a little less. Doubled: a pass of a hundred rows must be four times as loud.
-pub(crate) const ERROR_OF_LOUDNESS: f64 = 1.3;
-
-/// Rows of a pass from which on it may be louder than others.
-///
-/// Chosen: eight times what a row is held against; of fewer a bow makes neighbours differ. Doubled: three passes of a
-/// hundred rows are all as loud.
-pub(crate) const FEWEST_OF_A_LOUD_PASS: usize = 8 * (2 * OUTLIER_NEIGHBOURS + 1);
-
-/// Such errors from which on a pass is louder than others, or quieter.
-///
-/// Chosen: once in ten thousand passes by chance. Doubled: a pass of a hundred rows must be four times as loud.
-pub(crate) const SURELY_LOUDER: f64 = 4.0;
-
 /// Least loudness of a place against that of its pass.
 ///
 /// Chosen: a sensor that holds its reading has none, and any change beside it would stand out.
