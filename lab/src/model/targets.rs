@@ -190,6 +190,12 @@ impl Problem {
         free.beside(&Columns { priors, ..all })
     }
 
+    /// True where what each target shows one way and not the other is left free.
+    #[must_use]
+    pub(crate) fn are_ways_free(&self) -> bool {
+        self.free.priors.iter().any(Option::is_some)
+    }
+
     /// What each target shows one way and not the other, where it is left free.
     #[must_use]
     pub(crate) fn free_ways(&self) -> Columns {
@@ -201,7 +207,7 @@ impl Problem {
     /// Columns of a model without these.
     #[must_use]
     pub(crate) fn without_ways(&self, model: &Columns) -> Columns {
-        let kept = model.raw.len() - self.free_ways().raw.len();
+        let kept = model.raw.len() - self.free.priors.iter().flatten().count();
         Columns {
             raw: model.raw[..kept].to_vec(),
             priors: model.priors[..kept].to_vec(),

@@ -73,7 +73,7 @@ fn too_small(problem: &Problem, judged: &Judged, size_um: f64) -> Option<Refusal
 /// Refused when the effects of the model have grown to undo nearly all of an effect: what it explains
 /// then is what no formula is true to. Where targets scatter each way, that is what a reversal is told by.
 fn undone(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
-    if !problem.free_ways().raw.is_empty() {
+    if problem.are_ways_free() {
         return None;
     }
     let size_um = judged.component.size_um(problem, judged.coefficients().0);
@@ -99,7 +99,7 @@ fn no_better_unseen(problem: &Problem, now: &State, judged: &Judged) -> Option<R
 /// Refused when one sample alone speaks for an effect, which the tails of the noise explain too. A reversal against
 /// the scatter of targets is in no row.
 fn rests_on_one_sample(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
-    if !problem.free_ways().raw.is_empty() {
+    if problem.are_ways_free() {
         return None;
     }
     let chance = chance_without_one_sample(problem, now, judged);

@@ -71,10 +71,10 @@ pub(crate) fn scatters_as_targets(
     now: &State,
     judged: &Judged,
 ) -> Option<Refusal> {
-    let ways = problem.free_ways();
-    if ways.raw.is_empty() {
+    if !problem.are_ways_free() {
         return None;
     }
+    let ways = problem.free_ways();
     let own = Columns::of(problem, slice::from_ref(&judged.component)).ok()?;
     let others = problem.without_ways(&now.columns);
     let stage = Stage::new(problem, &others, &judged.fit.noises);

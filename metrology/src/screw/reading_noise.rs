@@ -116,17 +116,17 @@ mod tests {
     /// deviations below 95 %.
     #[test]
     fn waves_of_any_length_are_told_from_noise() {
-        holds_waves(Screw::Medium);
+        holds_waves(Screw::Medium, 0.25, records(8, 20));
     }
 
     #[test]
     #[ignore = "long: `cargo xtask campaign` runs it"]
     fn waves_of_a_turn_and_of_the_grinder_are_told_from_noise() {
-        holds_waves(Screw::Grinder);
+        holds_waves(Screw::Grinder, 0.25, records(8, 20));
     }
 
-    fn holds_waves(screw: Screw) {
-        for found in coverage(screw, 0.25, records(8, 20), 7) {
+    fn holds_waves(screw: Screw, noise_um: f64, records: u32) {
+        for found in coverage(screw, noise_um, records, 7) {
             if found.symbol == "V300" || found.symbol == "V2π" {
                 assert!(0.75 < found.held, "{screw:?}: {found:?}");
             }
@@ -141,11 +141,7 @@ mod tests {
         for (screw, noise_um) in
             [(Screw::Swelling, 0.6), (Screw::Burst, 0.25), (Screw::Burst, 0.05)]
         {
-            for found in coverage(screw, noise_um, records(5, 20), 7) {
-                if found.symbol == "V300" || found.symbol == "V2π" {
-                    assert!(0.75 < found.held, "{screw:?}: {found:?}");
-                }
-            }
+            holds_waves(screw, noise_um, records(5, 20));
         }
     }
 
