@@ -150,8 +150,12 @@ impl Problem {
             }
         }
         for rows in visits.values().filter(|rows| VISITS_OF_FEW <= rows.len()) {
-            let usual =
-                middle_nearest_zero(&mut rows.iter().map(|&row| rest[row]).collect::<Vec<_>>());
+            let mut visited: Vec<f64> = rows.iter().map(|&row| rest[row]).collect();
+            let usual = if visited.len() == 4 {
+                middle_nearest_zero(&mut visited)
+            } else {
+                middle(&mut visited)
+            };
             for &row in rows {
                 rest[row] -= usual;
                 telling[row] = VISITS_OF_FEW < rows.len() || rest[row].abs() > 0.0;
