@@ -6,6 +6,7 @@
 mod factor;
 mod kernel;
 mod layout;
+mod loudness;
 mod noise_fit;
 mod plausible;
 mod prediction;
@@ -19,6 +20,7 @@ mod worth;
 pub use kernel::{Noise, SlowPart};
 pub use layout::{Block, Layout};
 pub(crate) use layout::{about_means, rms, swift_rms, weighed_rms};
+pub(crate) use loudness::loudness_of_passes;
 pub(crate) use noise_fit::{
     departures, fit_noise, is_far, is_surely_slow, outlier_inflation, scaled_to, without_outliers,
 };
