@@ -125,25 +125,30 @@ fn a_wave_in_even_noise_is_named() {
 }
 
 /// Four passes, one of them beside a motor that runs, and a wave of the screw, which is as sure as the three quiet ones
-/// make it: all four alike, its error is twice that.
+/// make it: all four alike, its error is twice that, and in noise with a memory it was slow noise.
 #[test]
 fn a_louder_pass_weighs_less() {
-    for seed in seeds(2, 8) {
-        let mut chance = ChaCha8Rng::seed_from_u64(seed);
-        let rows = (0..4 * 120_u32).map(|row| {
-            let (pass, place_mm) = (row / 120, 1.7 * f64::from(row % 120));
-            let loudness = if pass == 1 { 4.0 } else { 1.0 };
-            let drawn: f64 = StandardNormal.sample(&mut chance);
-            let error_um = 0.03 * libm::sin(TAU * place_mm / 5.0) + loudness * NOISE_UM * drawn;
-            [f64::from(pass), f64::from(row + 400 * pass), place_mm, error_um]
-        });
-        let titles = ["pass", "time_s", "position_mm", "error_um"];
-        let axis = "spindle.speed = \"60 rpm\"\nlead_screw.lead = \"5 mm\"\n";
-        let found = diagnosed::diagnosed_on(axis, diagnosed::columns(titles, rows));
-        assert_eq!((names(&found), found.verdict), (vec!["screw-periodic"], Verdict::Explained));
-        let amplitude = &found.rounds.last().expect("a round").effects[0].parameters[0];
-        let error = amplitude.stderr.expect("an error");
-        assert!(error < 0.005, "{seed}: {amplitude:?}");
-        assert!((amplitude.value - 0.03).abs() < 3.0 * error, "{seed}: {amplitude:?}");
+    for (kept, loudness) in [(0.0, 4.0), (0.8, 6.0)] {
+        for seed in seeds(2, 8) {
+            let mut chance = ChaCha8Rng::seed_from_u64(seed);
+            let mut slow = 0.0;
+            let rows = (0..4 * 120_u32).map(|row| {
+                let (pass, place_mm) = (row / 120, 1.7 * f64::from(row % 120));
+                let kick: f64 = StandardNormal.sample(&mut chance);
+                slow = kept * slow + f64::sqrt(1.0 - kept * kept) * kick;
+                let size = if pass == 1 { loudness } else { 1.0 };
+                let error_um = 0.03 * libm::sin(TAU * place_mm / 5.0) + size * NOISE_UM * slow;
+                [f64::from(pass), f64::from(row + 400 * pass), place_mm, error_um]
+            });
+            let titles = ["pass", "time_s", "position_mm", "error_um"];
+            let axis = "spindle.speed = \"60 rpm\"\nlead_screw.lead = \"5 mm\"\n";
+            let found = diagnosed::diagnosed_on(axis, diagnosed::columns(titles, rows));
+            assert_eq!(names(&found), ["screw-periodic"], "{kept} {seed}");
+            assert_eq!(found.verdict, Verdict::Explained, "{kept} {seed}");
+            let amplitude = &found.rounds.last().expect("a round").effects[0].parameters[0];
+            let error = amplitude.stderr.expect("an error");
+            assert!(error < 0.005, "{kept} {seed}: {amplitude:?}");
+            assert!((amplitude.value - 0.03).abs() < 3.0 * error, "{kept} {seed}: {amplitude:?}");
+        }
     }
 }

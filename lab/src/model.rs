@@ -20,6 +20,7 @@ mod targets;
 mod uncertainty;
 mod unsure;
 mod waves;
+mod weights;
 
 pub(crate) use columns::Columns;
 pub(crate) use component::{Component, price_of_starts};

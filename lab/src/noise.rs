@@ -20,9 +20,10 @@ mod worth;
 pub use kernel::{Noise, SlowPart};
 pub use layout::{Block, Layout};
 pub(crate) use layout::{about_means, rms, swift_rms, weighed_rms};
-pub(crate) use loudness::loudness_of_passes;
+pub(crate) use loudness::Loudness;
 pub(crate) use noise_fit::{
-    departures, fit_noise, is_far, is_surely_slow, outlier_inflation, scaled_to, without_outliers,
+    NoiseFit, departures, fit_noise, is_far, is_surely_slow, outlier_inflation, scaled_to,
+    without_outliers,
 };
 pub(crate) use plausible::plausible;
 pub(crate) use prediction::Prediction;

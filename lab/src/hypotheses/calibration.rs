@@ -112,7 +112,7 @@ pub(super) fn draw(layout: &Layout, noises: &[Noise], chance: &mut ChaCha8Rng) -
     let mut normal = || -> f64 { StandardNormal.sample(chance) };
     let mut all = vec![0.0; layout.len()];
     for block in &layout.blocks {
-        let noise = &noises[block.sensor];
+        let noise = noises[block.sensor].scaled(block.variance());
         let mut slow: Vec<f64> =
             noise.slow.iter().map(|part| part.variance.sqrt() * normal()).collect();
         for row in block.rows.clone() {
@@ -142,7 +142,7 @@ mod tests {
     fn drawn_noise_has_the_variance_and_the_memory_of_its_model() {
         let rows = 20_000;
         let layout = Layout {
-            blocks: vec![Block { sensor: 0, pass: 0, rows: 0..rows }],
+            blocks: vec![Block { sensor: 0, pass: 0, rows: 0..rows, loudness: 0 }],
             clock: (0..rows).map(count).collect(),
             inflation: vec![1.0; rows].into(),
         };

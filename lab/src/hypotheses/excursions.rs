@@ -204,7 +204,12 @@ mod tests {
     /// Chance of what two passes of 350 rows, read in steps, show under the noise that is fitted to
     /// them.
     fn chance_of(values: &[f64], step: f64) -> f64 {
-        let block = |pass: usize| Block { sensor: 0, pass, rows: 350 * pass..350 * (pass + 1) };
+        let block = |pass: usize| Block {
+            sensor: 0,
+            pass,
+            rows: 350 * pass..350 * (pass + 1),
+            loudness: 0,
+        };
         let layout = Layout {
             blocks: vec![block(0), block(1)],
             clock: (0..values.len()).map(count).collect(),

@@ -94,7 +94,7 @@ impl Passes {
 
     fn bend(&self, block: &Block, noise: &Noise) -> Option<Bend> {
         let curve = self.shape(block)?;
-        let layout = self.layout.stretch(block.rows.clone(), block.pass);
+        let layout = self.layout.stretch(block);
         let whitener = Whitener::new(&layout, std::slice::from_ref(noise));
         let left = whitener.whiten(self.left[block.rows.clone()].to_vec());
         let white = whitener.whiten_all(&curve.iter().map(Vec::as_slice).collect::<Vec<_>>());
@@ -159,7 +159,7 @@ mod tests {
             let shown = |place: &f64| if pass == 0 { more(*place) } else { 0.0 };
             left.extend(places.iter().map(|place| noise(*place == 0.0) + shown(place)));
         }
-        let block = |pass| Block { sensor: 0, pass, rows: 22 * pass..22 * (pass + 1) };
+        let block = |pass| Block { sensor: 0, pass, rows: 22 * pass..22 * (pass + 1), loudness: 0 };
         let layout = Layout {
             blocks: (0..5).map(block).collect(),
             clock: (0..110).map(count).collect(),

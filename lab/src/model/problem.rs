@@ -11,7 +11,7 @@ use super::columns::Columns;
 use super::designs::Designs;
 use super::finer::{Finer, interval_s};
 use crate::measurement::{Measurement, spacing};
-use crate::noise::{Block, Layout, loudness_of_passes, outlier_inflation};
+use crate::noise::{Block, Layout};
 use crate::numerics::{count, highest_frequency, median, middle};
 use crate::policy::extent::{MOST_BETWEEN, SEARCHED_ROWS};
 use crate::policy::reading::{FAR_OUT, MOST_TOLD, OUTLIER_DEVIATIONS, WRITTEN_INTERVAL};
@@ -34,8 +34,6 @@ pub struct Problem {
     pub samples: Column<usize>,
     /// Blocks, clocks and outliers.
     pub layout: Layout,
-    /// Variance of the noise in every row against the usual one, as its pass is louder or quieter than others.
-    pub(crate) loudness: Column,
     /// Observed values in µm (arcsec), the counter too.
     pub observed: Column,
     /// Variance below which no sensor's noise is taken to be, µm² (arcsec²).
@@ -140,7 +138,6 @@ impl Problem {
             sensors: measurement.observations.keys().copied().collect(),
             samples: Column::default(),
             layout: Layout::default(),
-            loudness: Column::default(),
             observed: Column::default(),
             least_variance: Vec::new(),
             predicted: Column::default(),
@@ -186,17 +183,6 @@ impl Problem {
         self.with_error(finer?).ok()
     }
 
-    /// Weighs outliers and loud passes down, as they stand out of what a model leaves.
-    pub(crate) fn mark_outliers(&mut self, left: &[f64]) {
-        let (left, telling) = &self.without_own_errors(left);
-        self.loudness = loudness_of_passes(&self.layout, left, &self.least_variance).into();
-        let told = self.told_variances();
-        let scaled: Vec<f64> =
-            left.iter().zip(&told).map(|(left, variance)| left / variance.sqrt()).collect();
-        let outliers = outlier_inflation(&self.layout, &scaled, telling, &self.least_variance);
-        self.layout.inflation = outliers.iter().zip(&told).map(|(own, told)| own * told).collect();
-    }
-
     /// Rows that lie far beyond what noise does, and weigh little.
     pub(crate) fn far_rows(&self) -> Vec<usize> {
         let told = self.told_variances();
@@ -234,10 +220,10 @@ impl Problem {
         self.least_variance != before
     }
 
-    /// Variance of every row against the usual one, as the file tells it or its pass shows, in powers of two: most
+    /// Variance of every row against the usual one, as the file tells it, in powers of two: most
     /// neighbours then share one, which the noise works faster with.
     pub(crate) fn told_variances(&self) -> Vec<f64> {
-        let Some(told) = &self.measurement.deviations else { return self.loudness.to_vec() };
+        let Some(told) = &self.measurement.deviations else { return vec![1.0; self.samples.len()] };
         let mut finite: Vec<f64> = told.iter().copied().filter(|sd| sd.is_finite()).collect();
         let usual = median(&mut finite);
         let variance = |sensor: Sensor, sample: usize| {
@@ -460,7 +446,7 @@ impl Problem {
                 samples.extend(rows.filter(|&sample| values[sample].is_finite()));
                 if start < samples.len() {
                     let rows = start..samples.len();
-                    self.layout.blocks.push(Block { sensor: index, pass, rows });
+                    self.layout.blocks.push(Block { sensor: index, pass, rows, loudness: 0 });
                 }
             }
         }

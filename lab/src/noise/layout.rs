@@ -16,6 +16,16 @@ pub struct Block {
     pub pass: usize,
     /// Rows of the block.
     pub rows: Range<usize>,
+    /// Logarithm to base 2 of the variance of its noise, white and slow, against the usual one.
+    pub loudness: i32,
+}
+
+impl Block {
+    /// Variance of its noise against the usual one.
+    #[must_use]
+    pub(crate) fn variance(&self) -> f64 {
+        libm::exp2(f64::from(self.loudness))
+    }
 }
 
 /// How the rows of a fit hang together.
@@ -59,7 +69,7 @@ impl Layout {
         let rows = start..own().map(|block| block.rows.end).max().unwrap_or(start);
         let block = |block: &Block| {
             let own = block.rows.start - start..block.rows.end - start;
-            Block { sensor: 0, rows: own, pass: block.pass }
+            Block { sensor: 0, rows: own, ..*block }
         };
         let (clock, inflation) = (self.clock.part(&rows), self.inflation.part(&rows));
         (Self { blocks: own().map(block).collect(), clock, inflation }, rows)
@@ -88,11 +98,11 @@ impl Layout {
 
     /// The layout of neighbouring rows of one block, as of one sensor.
     #[must_use]
-    pub(crate) fn stretch(&self, rows: Range<usize>, pass: usize) -> Self {
+    pub(crate) fn stretch(&self, block: &Block) -> Self {
         Self {
-            blocks: vec![Block { sensor: 0, pass, rows: 0..rows.len() }],
-            clock: self.clock.part(&rows),
-            inflation: self.inflation.part(&rows),
+            blocks: vec![Block { sensor: 0, rows: 0..block.rows.len(), ..*block }],
+            clock: self.clock.part(&block.rows),
+            inflation: self.inflation.part(&block.rows),
         }
     }
 
@@ -105,7 +115,7 @@ impl Layout {
         for (block, own) in parts {
             let start = rows.len();
             rows.extend(own);
-            part.blocks.push(Block { rows: start..rows.len(), ..block.clone() });
+            part.blocks.push(Block { rows: start..rows.len(), ..*block });
         }
         part.clock = rows.iter().map(|&row| self.clock[row]).collect();
         part.inflation = rows.iter().map(|&row| self.inflation[row]).collect();
@@ -136,15 +146,16 @@ pub(crate) fn rms(layout: &Layout, left: &[f64]) -> f64 {
 /// The same of rows as they weigh, so that one outlier is not most of it.
 #[must_use]
 pub(crate) fn weighed_rms(layout: &Layout, left: &[f64]) -> f64 {
-    weighed(layout, layout.blocks.iter().map(|block| block.rows.clone()), left)
+    weighed(layout, layout.blocks.iter().cloned(), left)
 }
 
 /// Root mean square about the mean of each stretch, rows as they weigh.
-fn weighed(layout: &Layout, stretches: impl Iterator<Item = Range<usize>>, left: &[f64]) -> f64 {
+fn weighed(layout: &Layout, stretches: impl Iterator<Item = Block>, left: &[f64]) -> f64 {
     let (mut square, mut all) = (0.0, 0.0);
-    for rows in stretches {
-        let part = &left[rows.clone()];
-        let weights = layout.inflation[rows].iter().map(|by| 1.0 / by);
+    for stretch in stretches {
+        let part = &left[stretch.rows.clone()];
+        let variance = stretch.variance();
+        let weights = layout.inflation[stretch.rows].iter().map(|by| 1.0 / (by * variance));
         let weight: f64 = weights.clone().sum();
         let sum: f64 = weights.clone().zip(part).map(|(by, value)| by * value).sum();
         let mean = sum / weight.max(f64::MIN_POSITIVE);
@@ -162,7 +173,8 @@ pub(crate) fn swift_rms(layout: &Layout, left: &[f64]) -> f64 {
     let stretches = layout.blocks.iter().flat_map(|block| {
         let Range { start, end } = block.rows;
         let length = (end - start).div_ceil(STRETCHES).max(1);
-        (start..end).step_by(length).map(move |from| from..(from + length).min(end))
+        let part = move |from: usize| Block { rows: from..(from + length).min(end), ..*block };
+        (start..end).step_by(length).map(part)
     });
     weighed(layout, stretches, left)
 }

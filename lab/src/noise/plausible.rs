@@ -79,7 +79,7 @@ mod tests {
     #[test]
     fn shares_add_to_one_and_a_walk_has_its_own() {
         let layout = Layout {
-            blocks: vec![Block { sensor: 0, pass: 0, rows: 0..100 }],
+            blocks: vec![Block { sensor: 0, pass: 0, rows: 0..100, loudness: 0 }],
             clock: (0..100).map(count).collect(),
             inflation: vec![1.0; 100].into(),
         };

@@ -12,13 +12,12 @@
 //! states, value, slope and curvature, make it a Kalman filter as well (Hartikainen and Särkkä 2010, *Kalman
 //! filtering and smoothing solutions to temporal Gaussian process regression models*, IEEE MLSP).
 
-use std::ops::Range;
-
 use nalgebra::{Matrix2, Matrix3, Matrix3x2, RowVector2, Vector2, Vector3};
 
 use super::kernel::Noise;
-use super::layout::Layout;
+use super::layout::{Block, Layout};
 use super::noise_fit::{DESCENT, log_likelihood_of, longest_block, scaled_likelihood, variance};
+use crate::numerics::count;
 use crate::numerics::quasi_newton::minimise;
 
 /// Lengths that a search begins at, against the longest block.
@@ -60,7 +59,7 @@ fn log_likelihood(layout: &Layout, residual: &[f64], point: &Vector2<f64>, span:
     let (variance, rate) = (variance(point[0]), 5.0_f64.sqrt() / length(point, span));
     let (mut square, mut log_determinant) = (0.0, 0.0);
     for block in layout.blocks.iter().filter(|block| !block.rows.is_empty()) {
-        let (products, logarithm) = filtered(layout, residual, &block.rows, (variance, rate));
+        let (products, logarithm) = filtered(layout, residual, block, (variance, rate));
         let ones = products[(1, 1)].max(f64::MIN_POSITIVE);
         square += products[(0, 0)] - products[(0, 1)] * products[(0, 1)] / ones;
         log_determinant += logarithm + libm::log(ones);
@@ -72,7 +71,7 @@ fn log_likelihood(layout: &Layout, residual: &[f64], point: &Vector2<f64>, span:
 fn filtered(
     layout: &Layout,
     residual: &[f64],
-    rows: &Range<usize>,
+    block: &Block,
     (variance, rate): (f64, f64),
 ) -> (Matrix2<f64>, f64) {
     // In units of the rate all states are as large as the value.
@@ -80,8 +79,8 @@ fn filtered(
     let settled = variance * Matrix3::new(1.0, 0.0, third, 0.0, -third, 0.0, third, 0.0, 1.0);
     let (mut spread, mut state) = (settled, Matrix3x2::<f64>::zeros());
     let (mut products, mut logarithm) = (Matrix2::zeros(), 0.0);
-    for row in rows.clone() {
-        if rows.start < row {
+    for row in block.rows.clone() {
+        if block.rows.start < row {
             let ahead = transition(rate * (layout.clock[row] - layout.clock[row - 1]));
             state = ahead * state;
             spread = settled + ahead * (spread - settled) * ahead.transpose();
@@ -94,7 +93,8 @@ fn filtered(
         products += news.transpose() * news / pivot;
         logarithm += libm::log(pivot);
     }
-    (products, logarithm)
+    let variance = block.variance();
+    (products / variance, logarithm + count(block.rows.len()) * libm::log(variance))
 }
 
 /// What value, slope and curvature are after a while, in units of the rate: `exp(F·s)`, whose `F + 1` is
@@ -117,9 +117,9 @@ mod tests {
             (0..14).map(|row| f64::from(row) + 0.2 * f64::from(row * row % 5)).collect();
         let mut inflation = vec![1.0; 14];
         inflation[3] = 7.0;
-        let block = |pass, rows| Block { sensor: 0, pass, rows };
+        let block = |pass, rows, loudness| Block { sensor: 0, pass, rows, loudness };
         Layout {
-            blocks: vec![block(0, 0..8), block(1, 8..14)],
+            blocks: vec![block(0, 0..8, 0), block(1, 8..14, 2)],
             clock: clock.into_iter().collect(),
             inflation: inflation.into_iter().collect(),
         }
@@ -137,7 +137,8 @@ mod tests {
                 let s =
                     5.0_f64.sqrt() * (layout.clock[rows[i]] - layout.clock[rows[j]]).abs() / length;
                 let white = if i == j { layout.inflation[rows[i]] } else { 0.0 };
-                white + variance * (1.0 + s + s * s / 3.0) * libm::exp(-s)
+                let loudness = if block.pass == 1 { 4.0 } else { 1.0 };
+                loudness * (white + variance * (1.0 + s + s * s / 3.0) * libm::exp(-s))
             });
             let values = DVector::from_iterator(rows.len(), rows.iter().map(|&row| residual[row]));
             let ones = DVector::from_element(rows.len(), 1.0);

@@ -6,6 +6,7 @@ use std::ops::Range;
 use super::factor::{Factor, Lanes, Pivots};
 use super::kernel::{Noise, PARTS};
 use super::layout::Layout;
+use crate::numerics::count;
 
 /// Noises whose likelihood is worked out side by side, in vector registers.
 const LANES: usize = 6;
@@ -74,10 +75,13 @@ impl Column<'_> {
         for block in self.layout.blocks.iter().filter(|block| !block.rows.is_empty()) {
             let sums = self.block::<P, L>(&block.rows, noises);
             let logarithms = sums.pivots.logarithm();
+            let variance = block.variance();
+            let louder = (count(block.rows.len()) - 1.0) * libm::log(variance);
             for (lane, (square, logarithm)) in total.iter_mut().enumerate() {
                 let ones = sums.ones[lane].max(f64::MIN_POSITIVE);
-                *square += sums.square[lane] - sums.product[lane] * sums.product[lane] / ones;
-                *logarithm += logarithms[lane] + libm::log(ones);
+                let product = sums.product[lane];
+                *square += (sums.square[lane] - product * product / ones) / variance;
+                *logarithm += logarithms[lane] + libm::log(ones) + louder;
             }
         }
         total

@@ -14,8 +14,10 @@ fn uneven() -> (Layout, Vec<Noise>) {
     let clock = vec![0.0, 1.0, 1.5, 4.0, 4.0, 7.0, 0.0, 2.0, 2.5, 9.0];
     let mut inflation = vec![1.0; 10];
     inflation[4] = 7.0;
-    let blocks =
-        vec![Block { sensor: 0, pass: 0, rows: 0..6 }, Block { sensor: 1, pass: 0, rows: 6..10 }];
+    let blocks = vec![
+        Block { sensor: 0, pass: 0, rows: 0..6, loudness: 3 },
+        Block { sensor: 1, pass: 0, rows: 6..10, loudness: -1 },
+    ];
     let slow =
         vec![SlowPart { variance: 2.0, length: 1.5 }, SlowPart { variance: 0.7, length: 40.0 }];
     let noises = vec![Noise { white: 0.3, slow }, Noise { white: 1.1, slow: vec![] }];
@@ -28,7 +30,7 @@ fn even() -> Layout {
     let clock = (0..rows).map(|i| if i < 300 { i } else { i + 50 }).map(count).collect();
     let mut inflation = vec![1.0; rows];
     inflation[200] = 9.0;
-    let blocks = vec![Block { sensor: 0, pass: 0, rows: 0..rows }];
+    let blocks = vec![Block { sensor: 0, pass: 0, rows: 0..rows, loudness: 0 }];
     Layout { blocks, clock, inflation: inflation.into() }
 }
 
@@ -41,9 +43,9 @@ fn dense(layout: &Layout, noises: &[Noise]) -> DMatrix<f64> {
             for j in block.rows.clone() {
                 let apart = (layout.clock[i] - layout.clock[j]).abs();
                 let slow = |p: &SlowPart| p.variance * libm::exp(-apart / p.length);
-                matrix[(i, j)] = noise.slow.iter().map(slow).sum();
+                matrix[(i, j)] = block.variance() * noise.slow.iter().map(slow).sum::<f64>();
             }
-            matrix[(i, i)] += noise.white * layout.inflation[i];
+            matrix[(i, i)] += block.variance() * noise.white * layout.inflation[i];
         }
     }
     matrix

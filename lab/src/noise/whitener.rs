@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::factor::{Factor, Pivots};
 use super::kernel::{Noise, PARTS};
 use super::layout::{Block, Layout};
+use crate::numerics::count;
 use crate::numerics::least_squares::dot;
 
 /// The factorised covariance of all rows: makes columns white and frees them of pass offsets.
@@ -221,7 +222,8 @@ impl Whitener {
         let first_run = self.runs.len();
         if let Some(first) = block.rows.clone().next() {
             let mut factor = Factor::<P, 1>::new([noise], layout.inflation[first]);
-            let mut run = Run { end: first + 1, step: Step::new(&factor, &[[0.0]; P]) };
+            let variance = block.variance();
+            let mut run = Run { end: first + 1, step: Step::new(&factor, &[[0.0]; P], variance) };
             let mut pivots = Pivots::new();
             pivots.times(&factor.pivot, first);
             for row in block.rows.clone().skip(1) {
@@ -231,14 +233,14 @@ impl Whitener {
                     let before = factor.gain;
                     factor.advance(interval, inflation);
                     self.runs.push(run);
-                    run.step = Step::new(&factor, &before);
+                    run.step = Step::new(&factor, &before, variance);
                 }
                 run.end = row + 1;
                 pivots.times(&factor.pivot, row);
             }
             self.runs.push(run);
             let [logarithm] = pivots.logarithm();
-            self.log_determinant += logarithm;
+            self.log_determinant += logarithm + count(block.rows.len()) * libm::log(variance);
         }
         let runs = first_run..self.runs.len();
         self.blocks.push(Part { rows: block.rows.clone(), runs, slow: P });
@@ -259,9 +261,9 @@ impl Whitener {
 }
 
 impl Step {
-    /// Of a row's factor and the gains of the row before.
-    fn new<const P: usize>(factor: &Factor<P, 1>, gain: &[[f64; 1]; P]) -> Self {
-        let inverse_root = 1.0 / factor.pivot[0].sqrt();
+    /// Of a row's factor and the gains of the row before, in a block of some variance.
+    fn new<const P: usize>(factor: &Factor<P, 1>, gain: &[[f64; 1]; P], variance: f64) -> Self {
+        let inverse_root = 1.0 / (variance * factor.pivot[0]).sqrt();
         let mut step = Self { decay: [0.0; PARTS], carried: [0.0; PARTS], inverse_root };
         for (part, ([decay], [gain])) in factor.decay.iter().zip(gain).enumerate() {
             step.decay[part] = *decay;

@@ -51,31 +51,38 @@ pub(crate) const MOST_TOLD: f64 = 64.0;
 /// Error of the logarithm of the deviation that the median size of bends between neighbours tells, times the root of
 /// the rows.
 ///
-/// Measured: drawn normal rows, 24 to 600, have 1.40 to 1.43; rows that share no neighbours would have 1.16. Doubled: a
-/// pass of a hundred rows must be three times as loud.
-pub(crate) const ERROR_OF_LOUDNESS: f64 = 1.42;
+/// Measured: drawn normal rows, 24 to 600, have 1.40 to 1.43. Doubled: a pass of a hundred rows must be three times as
+/// loud.
+pub(crate) const ERROR_OF_NEIGHBOURS: f64 = 1.42;
+
+/// The same of rows that share no neighbours.
+///
+/// Derived: the median of sizes has 37 % of the efficiency of a mean square (Rousseeuw and Croux 1993). Doubled: as above.
+pub(crate) const ERROR_OF_LOUDNESS: f64 = 1.17;
 
 /// Rows of a pass from which on it may be louder than others.
 ///
-/// Chosen: of fewer the median of bends has tails that no normal law has. Doubled: two passes of ten targets there and
-/// back are all as loud.
-pub(crate) const FEWEST_OF_A_LOUD_PASS: usize = 24;
+/// Chosen: of fewer half a dozen bends are the median. Doubled: a pass of sixteen rows five times as loud has a step or
+/// a slip of the laser.
+pub(crate) const FEWEST_OF_A_LOUD_PASS: usize = 12;
 
-/// Rows between neighbours that are held against the next ones, to tell noise that is slow.
+/// Twice the log likelihood by which no pass may prefer a noise of its own where one is taken to be louder.
 ///
-/// Chosen: half of what is slow for three of them is past. Doubled: the screw's wave at sixteen rows a turn is slow noise.
-pub(crate) const NEIGHBOURS_APART: usize = 4;
+/// Derived: χ² with three degrees, the size of either part and a memory, exceeds it once in forty thousand. Doubled: in a
+/// sound example with passes of other colours a slow one is taken to be quiet, and what is slow in it to be a cause.
+pub(crate) const SURELY_ANOTHER_COLOUR: f64 = 24.0;
 
-/// Sizes of bends between these against those between the next neighbours from which on noise is slow.
+/// Such errors from which on a pass is asked whether it is louder than others, or quieter.
 ///
-/// Chosen: three tenths of the variance are then slower than a few rows. Doubled: slow noise at rows here near and there far
-/// apart is as loud as these, as in a sound example whose passes were read at random times.
-pub(crate) const SLOW_AGAINST_NEIGHBOURS: f64 = 1.2;
+/// Chosen: chance asks one pass in eighty, and the likelihood decides. Doubled: a pass of sixteen rows must be eight
+/// times as loud.
+pub(crate) const PERHAPS_LOUDER: f64 = 2.5;
 
-/// Such errors from which on a pass is louder than others, or quieter.
+/// Twice the log likelihood that each pass that is louder than others, or quieter, must gain.
 ///
-/// Chosen: once in ten thousand passes by chance. Doubled: a pass of a hundred rows must be three times as loud.
-pub(crate) const SURELY_LOUDER: f64 = 4.0;
+/// Derived: four standard errors of one figure, squared: chance has it in one of sixteen thousand passes. Doubled: a pass
+/// of forty rows must be twice as loud.
+pub(crate) const PRICE_OF_LOUDNESS: f64 = 16.0;
 
 /// Least loudness of a place against that of its pass.
 ///

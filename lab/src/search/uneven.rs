@@ -142,7 +142,7 @@ fn nearby(
     };
     a_part
         .filter(stands)
-        .map(|rows| gained_apart(problem, now, fit, &Block { rows, ..block.clone() }))
+        .map(|rows| gained_apart(problem, now, fit, &Block { rows, ..*block }))
         .fold(1.0, f64::max)
 }
 
@@ -150,7 +150,7 @@ fn nearby(
 /// their own; 1 where they do not need one. It gains no more there than in all: without a large step the
 /// noise is not that which the step leaves, but the step itself.
 fn gained_apart(problem: &Problem, now: &State, fit: &Fit, part: &Block) -> f64 {
-    let layout = problem.layout.stretch(part.rows.clone(), part.pass);
+    let layout = problem.layout.stretch(part);
     let (before, after) = (&now.fit.left[part.rows.clone()], &fit.left[part.rows.clone()]);
     let whitener = Whitener::new(&layout, &fit.noises[part.sensor..=part.sensor]);
     let under_all = |left: &[f64]| {

@@ -355,7 +355,7 @@ impl Scan<'_> {
                 Stretch {
                     rows: block.rows.clone(),
                     turns,
-                    density: Density::of(&self.noises[block.sensor], gap),
+                    density: Density::of(&self.noises[block.sensor].scaled(block.variance()), gap),
                     square: dot(&self.unit[block.rows.clone()], &self.unit[block.rows.clone()]),
                     cycles_a_gap: cycles_an_interval * gap,
                 }

@@ -1,0 +1,83 @@
+//! How much rows weigh: outliers and loud passes weigh less.
+
+use super::problem::Problem;
+use crate::noise::{Block, Loudness, Noise, NoiseFit, Whitener, fit_noise, outlier_inflation};
+use crate::numerics::count;
+use crate::numerics::least_squares::dot;
+use crate::policy::reading::{PRICE_OF_LOUDNESS, SURELY_ANOTHER_COLOUR};
+
+/// How loud the blocks are, in powers of two of the variance, the noises of the sensors then, and twice their log
+/// likelihood less what each block that differs must gain to be sure.
+struct Loud {
+    powers: Vec<i32>,
+    noises: Vec<Noise>,
+    gained: f64,
+}
+
+impl Problem {
+    /// Weighs outliers and loud passes down, as they stand out of what a model leaves.
+    ///
+    /// Passes are as loud as makes what is left likeliest, all alike unless one surely differs, and none is then of
+    /// another colour: a pass that is slow where others are swift is no quiet one.
+    pub(crate) fn mark_outliers(&mut self, left: &[f64]) {
+        let (left, telling) = &self.without_own_errors(left);
+        let alike = vec![0; self.layout.blocks.len()];
+        self.weigh(&alike, left, telling);
+        let near = self.loudness().by_neighbours(left);
+        if near == alike {
+            return;
+        }
+        let plain = self.as_loud(alike, left, telling);
+        let own = self.loudness().by_noise(left, &plain.noises, &near);
+        let [near, own] = [near, own].map(|powers| self.as_loud(powers, left, telling));
+        let likelier = if near.gained < own.gained { own } else { near };
+        self.weigh(&likelier.powers, left, telling);
+        if likelier.gained < plain.gained || self.has_another_colour(left, &likelier.noises) {
+            self.weigh(&plain.powers, left, telling);
+        }
+    }
+
+    fn loudness(&self) -> Loudness<'_> {
+        Loudness { layout: &self.layout, least_variance: &self.least_variance }
+    }
+
+    fn as_loud(&mut self, powers: Vec<i32>, left: &[f64], telling: &[bool]) -> Loud {
+        self.weigh(&powers, left, telling);
+        let fits = (0..self.sensors.len()).map(|sensor| {
+            let (layout, rows) = self.layout.of_sensor(sensor);
+            fit_noise(&layout, &left[rows], None)
+        });
+        let fits: Vec<NoiseFit> = fits.collect();
+        let likelihood: f64 = fits.iter().map(|fit| fit.log_likelihood).sum();
+        let differing = count(powers.iter().filter(|power| **power != 0).count());
+        let gained = 2.0 * likelihood - PRICE_OF_LOUDNESS * differing;
+        Loud { powers, noises: fits.into_iter().map(|fit| fit.noise).collect(), gained }
+    }
+
+    /// Takes passes to be as loud, and weighs down what stands out of them.
+    fn weigh(&mut self, powers: &[i32], left: &[f64], telling: &[bool]) {
+        let blocks = self.layout.blocks.iter_mut();
+        blocks.zip(powers).for_each(|(block, power)| block.loudness = *power);
+        let told = self.told_variances();
+        let mut scaled: Vec<f64> =
+            left.iter().zip(&told).map(|(left, variance)| left / variance.sqrt()).collect();
+        for block in &self.layout.blocks {
+            let deviation = block.variance().sqrt();
+            scaled[block.rows.clone()].iter_mut().for_each(|left| *left /= deviation);
+        }
+        let outliers = outlier_inflation(&self.layout, &scaled, telling, &self.least_variance);
+        self.layout.inflation = outliers.iter().zip(&told).map(|(own, told)| own * told).collect();
+    }
+
+    /// True where a block surely has a noise of its own beside those of the sensors.
+    fn has_another_colour(&self, left: &[f64], noises: &[Noise]) -> bool {
+        let gained = |block: &Block| {
+            let (layout, left) = (self.layout.stretch(block), &left[block.rows.clone()]);
+            let whitener = Whitener::new(&layout, &noises[block.sensor..=block.sensor]);
+            let white = whitener.whiten(left.to_vec());
+            let under_all = -dot(&white, &white) - whitener.log_determinant();
+            2.0 * fit_noise(&layout, left, None).log_likelihood - under_all
+        };
+        self.layout.blocks.iter().any(|block| SURELY_ANOTHER_COLOUR < gained(block))
+    }
+}
