@@ -27,6 +27,7 @@ fn turn(seed: u64, error_arcsec: impl Fn(f64) -> f64) -> Diagnosis {
 
 /// From row to row the poles move the error ten times as far as a wave of two a turn, which is seven times as large.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_long_wave_is_found_under_a_loud_ripple() {
     for seed in seeds(1, 5) {
         let found = turn(seed, |rad| 880.0 * libm::sin(2.0 * rad + 0.45));
@@ -39,6 +40,7 @@ fn a_long_wave_is_found_under_a_loud_ripple() {
 
 /// A mount that is turned to the other side of its pier after half of the night.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_worm_keeps_its_name_where_its_wave_changes() {
     let mount = "output.rotary = true\nspindle.speed = '0.000696346 rpm'\n\
                  gear = [{ name = 'worm', order = 180 }]\n";

@@ -187,6 +187,7 @@ fn there_and_back(row: u32, places: u32, apart_mm: f64) -> [f64; 3] {
 
 /// A bed that leans: its pitch, read as the air's temperature, would be a slope and what leans beside it.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_bed_that_leans_is_no_exchange_with_the_air() {
     for seed in seeds(1, 8) {
         let mut noise = white(seed, 0.15);

@@ -82,6 +82,7 @@ fn what_falls_in_several_times_a_turn_is_no_division() {
 
 /// On half a turn waves of 1.3 and 2.1 a turn are followed by whole ones that are not there.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn whole_waves_a_turn_need_a_whole_turn() {
     let wave = |at: f64| 300.0 * libm::sin(TAU * 1.3 * at) + 200.0 * libm::sin(TAU * 2.1 * at);
     let found = motor(0.5, wave);
@@ -233,6 +234,7 @@ fn a_wheel_that_swells_with_the_table_is_no_division_of_its_disc() {
 /// Five passes with a ram drawn out from pass to pass, which bows as far as it stands out: no screw's lead does. A
 /// bow of one size has its name beside a column that hardly changes.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_bow_as_large_as_a_column_is_no_screw() {
     let over = |height_mm: [f64; 5], bow_um: fn(f64) -> f64| {
         let [pass, position, height, error] = columns([5, 60], 1.0, |pass, row| {

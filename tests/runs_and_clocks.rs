@@ -123,6 +123,7 @@ fn a_clock_that_begins_anew_behind_a_turn_is_told() {
 /// Targets a turn apart, each a twentieth of a turn off, and those between on a second way, four times, each reached by a
 /// move and a dwell: a wave of 1.037 a turn is seen once a row, and so is one of the frequencies far above the rate.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_wave_of_the_travel_is_no_vibration_where_targets_are_visited_by_turns() {
     for seed in seeds(1, 4) {
         let (mut noise, mut off) = (white(seed, 0.2), white(900 + seed, 0.5));
@@ -215,6 +216,7 @@ fn an_axis_that_trembles_where_it_stands_goes_on() {
 /// Ten targets of three readings each, the last read from either side: the axis has gone on and come back meanwhile, which
 /// took as long as a move.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn readings_of_the_last_target_come_from_either_side() {
     for seed in seeds(2, 8) {
         let mut noise = of_five_rows(seed, 0.5);

@@ -121,6 +121,7 @@ fn a_drive_that_was_wound_up_stays_so_from_pass_to_pass() {
 
 /// The loop of a piezo, which bends over a quarter of the stroke, and on over the rest.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_loop_over_the_stroke_is_no_play() {
     for seed in seeds(2, 6) {
         let (mut lag, mut before) = (0.0, 0.0);

@@ -139,6 +139,7 @@ fn uneven_targets_tell_a_wave_between_them() {
 /// A reversal that grows along the travel is, at one speed and from zero in each run, as much a drift
 /// beside a reversal.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn one_shape_in_the_place_of_two_names_makes_them_doubtful() {
     let mut noise = white(9, 1.0);
     let rows = visits().map(|(run, visit, target, direction)| {
@@ -171,6 +172,7 @@ fn formulas(seed: u64, targets: u8, own_um: impl Fn(u8) -> f64) -> Found {
 /// Errors of five targets in whatever order: a formula of nearly as many numbers follows most of them, and explains
 /// none.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_formula_of_as_many_numbers_as_targets_explains_none() {
     const OWN_UM: [f64; 5] = [12.0, -21.0, -2.0, 7.0, 1.0];
     const ORDERS: [[usize; 5]; 4] =
@@ -299,6 +301,7 @@ fn a_knock_and_a_spell_in_one_run_are_no_noise() {
 /// Six gusts of up to fifteen times the noise, each of which dies away in some rows: noise that is
 /// slow and large enough is like that nowhere else.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn gusts_that_most_of_a_run_does_not_show_are_no_noise() {
     let gusts = [(11.0, 4.0), (23.0, 6.0), (58.0, 3.0), (85.0, 5.0), (121.0, 4.0), (139.0, 6.0)];
     let dies = |since: f64, um: f64| if since < 0.0 { 0.0 } else { um * libm::exp(-since / 3.0) };
@@ -311,6 +314,7 @@ fn gusts_that_most_of_a_run_does_not_show_are_no_noise() {
 /// A hop of the wavelength between two passes, or as the first one ends, tilts all passes behind it; that is no end of
 /// a run.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_hop_between_two_passes_is_named() {
     for at_s in [1800.0, 1488.0] {
         let hop = |t: f64, x: f64, _: f64| if t < at_s { 0.0 } else { 1e-3 * x };
@@ -366,6 +370,7 @@ fn a_moment_is_as_uncertain_as_the_data_have_it() {
 
 /// The same where a search works on means of neighbours: such a moment had the error of its two rows.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn a_moment_among_thousands_of_rows_is_as_uncertain() {
     for seed in seeds(1, 6) {
         let mut noise = white(seed, 0.7);
@@ -498,6 +503,7 @@ fn a_slope_and_a_slip_are_no_hop_of_the_laser() {
 
 /// A sensor that is late by a time is as far behind as the axis is quick; play is as wide at any speed.
 #[test]
+#[ignore = "long: `cargo xtask campaign` runs it"]
 fn what_is_late_at_two_speeds_is_no_play() {
     for seed in seeds(1, 6) {
         let of_way = |quick: f64| {
