@@ -18,13 +18,14 @@ impl Problem {
     /// Weighs outliers and loud passes down, as they stand out of what a model leaves.
     ///
     /// Passes are as loud as makes what is left likeliest, all alike unless one surely differs, and none is then of
-    /// another colour: a pass that is slow where others are swift is no quiet one.
+    /// another colour: a pass that is slow where others are swift is no quiet one. A file that says how sure each
+    /// reading is says that of its passes.
     pub(crate) fn mark_outliers(&mut self, left: &[f64]) {
         let (left, telling) = &self.without_own_errors(left);
         let alike = vec![0; self.layout.blocks.len()];
         self.weigh(&alike, left, telling);
         let near = self.loudness().by_neighbours(left);
-        if near == alike {
+        if near == alike || self.measurement.deviations.is_some() {
             return;
         }
         let plain = self.as_loud(alike, left, telling);
