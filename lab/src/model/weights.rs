@@ -1,15 +1,16 @@
 //! How much rows weigh: outliers and loud passes weigh less.
 
 use super::problem::Problem;
-use crate::noise::{Block, Loudness, Noise, NoiseFit, Whitener, fit_noise, outlier_inflation};
+use crate::noise::{
+    Block, Layout, Loudness, Noise, NoiseFit, Whitener, fit_noise, outlier_inflation,
+};
 use crate::numerics::count;
-use crate::numerics::least_squares::dot;
 use crate::policy::reading::{PRICE_OF_LOUDNESS, SURELY_ANOTHER_COLOUR};
 
-/// How loud the blocks are, in powers of two of the variance, the noises of the sensors then, and twice their log
+/// Rows as they weigh where passes are as loud as they may be, the noises of the sensors then, and twice their log
 /// likelihood less what each block that differs must gain to be sure.
 struct Loud {
-    powers: Vec<i32>,
+    layout: Layout,
     noises: Vec<Noise>,
     gained: f64,
 }
@@ -28,22 +29,20 @@ impl Problem {
         if near == alike || self.measurement.deviations.is_some() {
             return;
         }
-        let plain = self.as_loud(alike, left, telling);
+        let plain = self.as_loud(&alike, left, telling);
         let own = self.loudness().by_noise(left, &plain.noises, &near);
-        let [near, own] = [near, own].map(|powers| self.as_loud(powers, left, telling));
+        let [near, own] = [near, own].map(|powers| self.as_loud(&powers, left, telling));
         let likelier = if near.gained < own.gained { own } else { near };
-        self.weigh(&likelier.powers, left, telling);
-        if likelier.gained < plain.gained || self.has_another_colour(left, &likelier.noises) {
-            self.weigh(&plain.powers, left, telling);
-        }
+        let alike = likelier.gained < plain.gained || likelier.has_another_colour(left);
+        self.layout = if alike { plain.layout } else { likelier.layout };
     }
 
     fn loudness(&self) -> Loudness<'_> {
         Loudness { layout: &self.layout, least_variance: &self.least_variance }
     }
 
-    fn as_loud(&mut self, powers: Vec<i32>, left: &[f64], telling: &[bool]) -> Loud {
-        self.weigh(&powers, left, telling);
+    fn as_loud(&mut self, powers: &[i32], left: &[f64], telling: &[bool]) -> Loud {
+        self.weigh(powers, left, telling);
         let fits = (0..self.sensors.len()).map(|sensor| {
             let (layout, rows) = self.layout.of_sensor(sensor);
             fit_noise(&layout, &left[rows], None)
@@ -52,7 +51,8 @@ impl Problem {
         let likelihood: f64 = fits.iter().map(|fit| fit.log_likelihood).sum();
         let differing = count(powers.iter().filter(|power| **power != 0).count());
         let gained = 2.0 * likelihood - PRICE_OF_LOUDNESS * differing;
-        Loud { powers, noises: fits.into_iter().map(|fit| fit.noise).collect(), gained }
+        let noises = fits.into_iter().map(|fit| fit.noise).collect();
+        Loud { layout: self.layout.clone(), noises, gained }
     }
 
     /// Takes passes to be as loud, and weighs down what stands out of them.
@@ -69,15 +69,16 @@ impl Problem {
         let outliers = outlier_inflation(&self.layout, &scaled, telling, &self.least_variance);
         self.layout.inflation = outliers.iter().zip(&told).map(|(own, told)| own * told).collect();
     }
+}
 
+impl Loud {
     /// True where a block surely has a noise of its own beside those of the sensors.
-    fn has_another_colour(&self, left: &[f64], noises: &[Noise]) -> bool {
+    fn has_another_colour(&self, left: &[f64]) -> bool {
         let gained = |block: &Block| {
             let (layout, left) = (self.layout.stretch(block), &left[block.rows.clone()]);
-            let whitener = Whitener::new(&layout, &noises[block.sensor..=block.sensor]);
-            let white = whitener.whiten(left.to_vec());
-            let under_all = -dot(&white, &white) - whitener.log_determinant();
-            2.0 * fit_noise(&layout, left, None).log_likelihood - under_all
+            let whitener = Whitener::new(&layout, &self.noises[block.sensor..=block.sensor]);
+            let own = fit_noise(&layout, left, None).log_likelihood;
+            2.0 * (own - whitener.log_likelihood(left))
         };
         self.layout.blocks.iter().any(|block| SURELY_ANOTHER_COLOUR < gained(block))
     }

@@ -78,6 +78,13 @@ impl Whitener {
         self.log_determinant
     }
 
+    /// Restricted log likelihood of what is left under these noises, without the constant `−n/2·log 2π`.
+    #[must_use]
+    pub(crate) fn log_likelihood(&self, left: &[f64]) -> f64 {
+        let white = self.whiten(left.to_vec());
+        -0.5 * (dot(&white, &white) + self.log_determinant)
+    }
+
     /// Number of offsets projected out: one a block.
     #[must_use]
     pub(crate) fn offsets(&self) -> usize {

@@ -153,17 +153,13 @@ fn gained_apart(problem: &Problem, now: &State, fit: &Fit, part: &Block) -> f64 
     let layout = problem.layout.stretch(part);
     let (before, after) = (&now.fit.left[part.rows.clone()], &fit.left[part.rows.clone()]);
     let whitener = Whitener::new(&layout, &fit.noises[part.sensor..=part.sensor]);
-    let under_all = |left: &[f64]| {
-        let white = whitener.whiten(left.to_vec());
-        -0.5 * (dot(&white, &white) + whitener.log_determinant())
-    };
     let own = fit_noise(&layout, after, None).log_likelihood;
-    let with_it = under_all(after);
+    let with_it = whitener.log_likelihood(after);
     if 2.0 * (own - with_it) < ANOTHER_NOISE {
         return 1.0;
     }
     let in_all = (fit.log_likelihood - now.fit.log_likelihood).max(0.0);
-    let gained = (with_it - under_all(before)).min(in_all);
+    let gained = (with_it - whitener.log_likelihood(before)).min(in_all);
     let apart = own - fit_noise(&layout, before, None).log_likelihood;
     gained / apart.clamp(f64::MIN_POSITIVE, gained.max(f64::MIN_POSITIVE))
 }
