@@ -23,8 +23,10 @@ mod late;
 mod law;
 mod lead;
 mod readings;
+mod scale;
 mod shift;
 mod slip;
+mod stretch;
 mod stuck;
 mod swap;
 mod view;
@@ -69,7 +71,11 @@ pub(crate) fn doubts_and_suspects(problem: &Problem) -> (Vec<Doubt>, Vec<Suspect
     while doubts.len() < MOST {
         let (mistake, suspects) = judged(&now);
         let is_new = |one: &Hypothesis| doubts.iter().all(|other| other.mend != one.mend);
-        let Some(one) = mistake.filter(is_new) else { return (doubts, suspects) };
+        let Some(one) = mistake.filter(is_new) else {
+            let scale = Some(&now).filter(|_| doubts.is_empty()).and_then(scale::another_scale);
+            doubts.extend(scale);
+            return (doubts, suspects);
+        };
         doubts.push(one.doubt());
         now = one.mended;
     }
@@ -111,6 +117,7 @@ fn hypotheses(problem: &Problem) -> Vec<Hypothesis> {
     all.extend(shift::shifts(problem, odd, &noises));
     all.extend(dividers::other_dividers(problem));
     all.extend(lead::leads(problem));
+    all.extend(stretch::stretches(problem, &noises));
     if !follows_steps(problem) {
         all.extend(factor::factors(problem, odd, &noises));
         all.extend(late::late_logs(problem, &noises));

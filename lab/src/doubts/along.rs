@@ -6,50 +6,70 @@ use crate::model::Problem;
 use crate::numerics::count;
 use crate::policy::mistakes::{RUNS_ALONG, RUNS_ALONG_SHARE};
 
+/// A turn in seconds of arc.
+pub(super) const A_TURN_ARCSEC: f64 = 1_296_000.0;
+
+/// The line over the travel that is nearest to values of a sensor, where every pass has a zero of its own.
+pub(super) struct Line {
+    /// Share of the travel in the values.
+    pub(super) share: f64,
+    /// Share of the values' square that the line explains.
+    pub(super) explained: f64,
+    rows: usize,
+}
+
 /// The doubt, where an error moves as a tenth of the travel does, and the file does not say so.
 pub(super) fn runs_along(problem: &Problem) -> Option<Doubt> {
     let left = problem.residual();
     (0..problem.sensors.len()).find_map(|sensor| {
-        let (share, evidence) = along(problem, sensor, &left)?;
-        along(problem, sensor, &problem.observed)?;
-        Some(said(
-            sensor_column(problem.sensors[sensor], problem.measurement.rotary),
-            share,
-            evidence,
-        ))
+        let line = Line::of(problem, sensor, &left).filter(Line::runs_along)?;
+        Line::of(problem, sensor, &problem.observed).filter(Line::runs_along)?;
+        Some(said(sensor_column(problem.sensors[sensor], problem.measurement.rotary), &line))
     })
 }
 
-/// Share of the travel in values, and its evidence; every pass has a zero of its own.
-fn along(problem: &Problem, sensor: usize, values: &[f64]) -> Option<(f64, f64)> {
-    let (mut xx, mut xy, mut yy, mut rows) = (0.0, 0.0, 0.0, 0);
-    let travel = |row: usize| {
-        let sample = problem.samples[row];
-        if problem.measurement.rotary {
-            1_296_000.0 * problem.measurement.angle_rev[sample]
-        } else {
-            1000.0 * problem.record.position_mm[sample]
+impl Line {
+    /// That of a sensor's rows, of a square that they have.
+    pub(super) fn of(problem: &Problem, sensor: usize, values: &[f64]) -> Option<Self> {
+        let (mut xx, mut xy, mut yy, mut rows) = (0.0, 0.0, 0.0, 0);
+        for block in problem.layout.blocks.iter().filter(|block| block.sensor == sensor) {
+            let mean = |of: &dyn Fn(usize) -> f64| {
+                block.rows.clone().map(of).sum::<f64>() / count(block.rows.len())
+            };
+            let (x0, y0) = (mean(&|row| travel(problem, row)), mean(&|row| values[row]));
+            for row in block.rows.clone() {
+                let (x, y) = (travel(problem, row) - x0, values[row] - y0);
+                (xx, xy, yy) = (xx + x * x, xy + x * y, yy + y * y);
+                rows += 1;
+            }
         }
-    };
-    for block in problem.layout.blocks.iter().filter(|block| block.sensor == sensor) {
-        let mean = |of: &dyn Fn(usize) -> f64| {
-            block.rows.clone().map(of).sum::<f64>() / count(block.rows.len())
-        };
-        let (x0, y0) = (mean(&travel), mean(&|row| values[row]));
-        for row in block.rows.clone() {
-            let (x, y) = (travel(row) - x0, values[row] - y0);
-            (xx, xy, yy) = (xx + x * x, xy + x * y, yy + y * y);
-            rows += 1;
-        }
+        let line = Self { share: xy / xx, explained: xy * xy / (xx * yy), rows };
+        line.explained.is_finite().then_some(line)
     }
-    let (share, explained) = (xy / xx, xy * xy / (xx * yy));
-    let found = RUNS_ALONG <= share.abs() && RUNS_ALONG_SHARE <= explained;
-    let left = (1.0 - explained).max(f64::EPSILON);
-    found.then(|| (share, -count(rows) * libm::log(left)))
+
+    fn runs_along(&self) -> bool {
+        RUNS_ALONG <= self.share.abs() && RUNS_ALONG_SHARE <= self.explained
+    }
+
+    /// Twice the logarithm by which values are likelier to be the line and what it leaves than to be noise.
+    pub(super) fn evidence(&self) -> f64 {
+        -count(self.rows) * libm::log((1.0 - self.explained).max(f64::EPSILON))
+    }
 }
 
-fn said(column: &'static str, share: f64, evidence: f64) -> Doubt {
+/// How far a row is along the travel, µm (arcsec).
+pub(super) fn travel(problem: &Problem, row: usize) -> f64 {
+    let sample = problem.samples[row];
+    if problem.measurement.rotary {
+        A_TURN_ARCSEC * problem.measurement.angle_rev[sample]
+    } else {
+        1000.0 * problem.record.position_mm[sample]
+    }
+}
+
+fn said(column: &'static str, line: &Line) -> Doubt {
     // Another unit or ratio is hardly ever so near.
+    let share = line.share;
     let near = |whole: f64| (share.abs() - whole).abs() < 0.1 * RUNS_ALONG;
     let mend = if near(1.0) {
         recipe(column, "minus = \"the column of the position aimed at\"\nsign = -1")
@@ -63,5 +83,5 @@ fn said(column: &'static str, share: f64, evidence: f64) -> Doubt {
     };
     let says =
         format!("`{column}` runs along with the travel, {share:.4} of it: is it a position?");
-    Doubt { what: "position-for-error", evidence, says, mend }
+    Doubt { what: "position-for-error", evidence: line.evidence(), says, mend }
 }

@@ -82,10 +82,10 @@ impl Hypothesis {
         self.what == "shift"
     }
 
-    /// True for a unit of what is no sensor's, of a place, and for a lead: harmonics of the file's waves
+    /// True for a unit of what is no sensor's, of a place, for its scale, and for a lead: harmonics of the file's waves
     /// imitate them.
     pub(super) fn stretches(&self) -> bool {
-        self.what == "lead" || self.what == "unit" && !self.scales
+        matches!(self.what, "lead" | "scale") || self.what == "unit" && !self.scales
     }
 
     /// True when it is said only if no mistake of this machine's data is likely.

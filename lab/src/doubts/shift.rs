@@ -2,6 +2,8 @@
 //!
 //! The clock's zero is none of this: time counts from the start of a record, whatever its clock says.
 
+use std::ops::Range;
+
 use super::hypothesis::{Hypothesis, Words};
 use super::law::follows_from_clock;
 use crate::measurement::Measurement;
@@ -71,7 +73,7 @@ fn hypotheses(stages: &[Stage<'_>], zero: Zero) -> Vec<Hypothesis> {
 }
 
 /// By how much a shift moves what is predicted; `None` where an effect cannot be worked out.
-type Moved<'a> = dyn Fn(f64) -> Option<Vec<f64>> + Sync + 'a;
+pub(super) type Moved<'a> = dyn Fn(f64) -> Option<Vec<f64>> + Sync + 'a;
 
 /// The best shift, looked for so many places of a grid either way, and at how many independent places that was:
 /// shifts by a period more are no other shift.
@@ -114,10 +116,19 @@ fn grid(problem: &Problem, moved: &Moved<'_>) -> Option<(f64, i32)> {
         let is_moved = 0.0 < change(0.5 * step)?;
         return is_moved.then_some((step, i32::from(SHIFT_TURNS * PLACES_A_TURN)));
     }
-    let most = A_PLACE.sqrt() * std::f64::consts::SQRT_2 * rms(&problem.layout, &problem.predicted);
-    let is_near = |power: &i32| change(libm::exp2(-f64::from(*power))).is_some_and(|by| by < most);
-    let power = (1..FINEST).rev().take_while(is_near).last().unwrap_or(FINEST);
-    (0.0 < most).then(|| (libm::exp2(-f64::from(power)), 1 << (power - 1)))
+    let power = a_place(problem, moved, 1..FINEST)?;
+    Some((libm::exp2(-f64::from(power)), 1 << (power - 1)))
+}
+
+/// The least power of a half that moves what is predicted by no more than a place, or the end of those; `None` where
+/// nothing is predicted.
+pub(super) fn a_place(problem: &Problem, moved: &Moved<'_>, powers: Range<i32>) -> Option<i32> {
+    let predicted = rms(&problem.layout, &problem.predicted);
+    let most = A_PLACE.sqrt() * std::f64::consts::SQRT_2 * predicted;
+    let change = |power: i32| Some(rms(&problem.layout, &moved(libm::exp2(-f64::from(power)))?));
+    let is_near = |power: &i32| change(*power).is_some_and(|by| by < most);
+    let end = powers.end;
+    (0.0 < most).then(|| powers.rev().take_while(is_near).last().unwrap_or(end))
 }
 
 /// Height of a parabola through the top of a grid and its neighbours.

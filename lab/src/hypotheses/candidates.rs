@@ -3,6 +3,7 @@
 use std::cell::LazyCell;
 use std::ops::Range;
 
+use helixlock_plant::units::Dimension;
 use helixlock_plant::{CATALOGUE, Card, Entry, Formula, Parameter, Role, Search, Term};
 
 use super::corrections::{corrections, is_correctable};
@@ -93,7 +94,7 @@ fn candidates_of(
         .filter(|card| problem.model.lacks(card.parts).is_none())
         .filter(|card| card.entry != Entry::Actuator || corrector_moves(problem))
         .filter(|card| !is_another_size(problem, card))
-        .map(|card| Term::candidate(card, problem.model.rotary))
+        .map(|card| over_the_way(problem, Term::candidate(card, problem.model.rotary)))
         .chain(problem.extra.iter().cloned())
         .filter(|term| is_wanted(term) && logged(problem, term))
         .filter_map(|term| candidate(stage, term))
@@ -111,6 +112,23 @@ fn candidates_of(
         })
         .flatten()
         .collect()
+}
+
+/// An effect whose bends are as large as leave the slopes of a metre, where the travel is shorter.
+fn over_the_way(problem: &Problem, mut term: Term) -> Term {
+    let way_m = spread(&problem.record.position_mm) / 1000.0;
+    if way_m <= 0.0 || 1.0 <= way_m {
+        return term;
+    }
+    for what in &mut term.parameters {
+        let times = match what.unit.dimension {
+            Dimension::Curvature => way_m.recip(),
+            Dimension::CurvatureChange => way_m.powi(-2),
+            _ => 1.0,
+        };
+        what.range = times * what.range.start()..=times * what.range.end();
+    }
+    term
 }
 
 /// True for an effect that beside one of the file's is that one in another size.

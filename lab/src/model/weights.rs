@@ -18,8 +18,8 @@ struct Loud {
 impl Problem {
     /// Weighs outliers and loud passes down, as they stand out of what a model leaves.
     ///
-    /// Passes are as loud as makes what is left likeliest, all alike unless one surely differs, and none is then of
-    /// another colour: a pass that is slow where others are swift is no quiet one. A file that says how sure each
+    /// Passes are as loud as makes what is left likeliest, all alike unless one surely differs, and none that does is then
+    /// of another colour: a pass that is slow where others are swift is no quiet one. A file that says how sure each
     /// reading is says that of its passes.
     pub(crate) fn mark_outliers(&mut self, left: &[f64]) {
         let (left, telling) = &self.without_own_errors(left);
@@ -72,7 +72,8 @@ impl Problem {
 }
 
 impl Loud {
-    /// True where a block surely has a noise of its own beside those of the sensors.
+    /// True where a block that is louder than others, or quieter, surely has a noise of its own: a step in another one
+    /// does not matter.
     fn has_another_colour(&self, left: &[f64]) -> bool {
         let gained = |block: &Block| {
             let (layout, left) = (self.layout.stretch(block), &left[block.rows.clone()]);
@@ -80,6 +81,7 @@ impl Loud {
             let own = fit_noise(&layout, left, None).log_likelihood;
             2.0 * (own - whitener.log_likelihood(left))
         };
-        self.layout.blocks.iter().any(|block| SURELY_ANOTHER_COLOUR < gained(block))
+        let mut differing = self.layout.blocks.iter().filter(|block| block.loudness != 0);
+        differing.any(|block| SURELY_ANOTHER_COLOUR < gained(block))
     }
 }

@@ -126,6 +126,26 @@ pub(crate) const RUNS_ALONG: f64 = 0.1;
 /// Chosen: what is left is a third of the error. Nearer to 1: a position with large errors is no doubt.
 pub(crate) const RUNS_ALONG_SHARE: f64 = 0.9;
 
+/// Least slope of an error along all of the travel, as a share of it, that is no machine's.
+///
+/// Derived: beyond what `screw-progressive` (500 µm/m) and `cosine` (450 µm/m) may be. Doubled: a wrong tooth in a
+/// thousand is told, and not one in two thousand.
+pub(crate) const ANOTHER_SCALE: f64 = 5e-4;
+
+/// The same where an axis goes round whole turns both ways, after which its error is what it was.
+///
+/// Derived: one line in the 36 000 of a fine disc. Doubled: one line in 18 000.
+pub(crate) const ONE_LINE_OF_A_TURN: f64 = 1.0 / 36_000.0;
+
+/// How much an error may grow and drift with the time, where all passes go one way, and what a µm of that may be as an
+/// angle, arcsec.
+///
+/// Derived: `headstock-growth` and `phase-drift` may be as large, on a rotary axis by 36 times: a telescope's polar axis
+/// that is two degrees off drifts by 1900 arcsec an hour. Doubled: wrong scales of short axes are told later.
+pub(crate) const GROWS_UM: f64 = 200.0;
+pub(crate) const DRIFTS_UM_PER_H: f64 = 1000.0;
+pub(crate) const GROWS_AS_AN_ANGLE: f64 = 36.0;
+
 /// Share of the way that was gone against `direction`, from which on one of the two is turned.
 ///
 /// Chosen: rows at reversals and a jitter while the axis stands are less than the rest. Nearer to 1:

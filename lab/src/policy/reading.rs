@@ -66,7 +66,7 @@ pub(crate) const ERROR_OF_LOUDNESS: f64 = 1.17;
 /// a slip of the laser.
 pub(crate) const FEWEST_OF_A_LOUD_PASS: usize = 12;
 
-/// Twice the log likelihood by which no pass may prefer a noise of its own where one is taken to be louder.
+/// Twice the log likelihood by which no pass that is taken to be louder, or quieter, may prefer a noise of its own.
 ///
 /// Derived: χ² with three degrees, the size of either part and a memory, exceeds it once in forty thousand. Doubled: in a
 /// sound example with passes of other colours a slow one is taken to be quiet, and what is slow in it to be a cause.

@@ -143,3 +143,62 @@ fn phases_of_another_convention_are_told_of_two_waves() {
     wave.effects.truncate(1);
     assert_eq!(doubted(&one, &turn(&wave, |turn| turn)), None);
 }
+
+/// A tape that was stretched, a belt, a lead that is in no list.
+#[test]
+fn places_that_are_all_longer_are_told() {
+    let known = machine(150, WAVES);
+    for (factor, unit) in [(1.008, 0.992_063), (0.97, 1.030_928)] {
+        let table = changed(measured(&known), "position_mm", |place| factor * place);
+        let (what, mend) = doubted(&known, &table).expect("a doubt");
+        assert_eq!(what, "scale", "{mend}");
+        let written = mend.rsplit('"').nth(1).and_then(|unit| unit.strip_suffix(" mm"));
+        let written: f64 = written.and_then(|unit| unit.parse().ok()).expect("a unit");
+        assert!((written - unit).abs() < 2e-4, "{mend}");
+    }
+    // Of an axis whose angle follows from its clock it is the speed.
+    let known = rotary("1 rpm");
+    let mut table = turn(&known, |turn| turn);
+    table.columns.remove(1);
+    let table = changed(table, "time_s", |time_s| 60.0 / 60.5 * 0.99 * time_s);
+    let (what, mend) = doubted(&known, &table).expect("a doubt");
+    assert!(what == "scale" && mend.starts_with("[spindle]\nspeed = \"1.010"), "{mend}");
+}
+
+/// A row each millimetre, there and back where it is asked, of a screw without effects.
+fn along(shown: impl Fn(f64, f64) -> f64, returns: bool) -> Option<(&'static str, String)> {
+    let text = "lead_screw.lead = '14 mm'\nspindle.speed = '6 rpm'\n";
+    let bare = Model::parse(text, Path::new("machine.toml")).expect("a machine");
+    let there = (0..300_u32).map(f64::from);
+    let places: Vec<f64> =
+        if returns { there.clone().chain(there.rev()).collect() } else { there.collect() };
+    let mut chance = ChaCha8Rng::seed_from_u64(7);
+    let mut noise = || -> f64 { StandardNormal.sample(&mut chance) };
+    let (mut error, mut time_s) = (Vec::new(), Vec::new());
+    for (row, place) in places.iter().enumerate() {
+        time_s.push(crate::numerics::count(row));
+        error.push(shown(*place, time_s[row]) + 0.3 * noise());
+    }
+    let column = |name: &str, values: Vec<f64>| Column { name: name.to_owned(), values };
+    let table =
+        vec![column("time_s", time_s), column("position_mm", places), column("error_um", error)];
+    doubted(&bare, &Table::new(table))
+}
+
+#[test]
+fn an_error_that_runs_straight_along_the_travel_is_another_scale() {
+    for returns in [true, false] {
+        let (what, mend) =
+            along(|place, _| 3.0 * place + libm::sin(place), returns).expect("a doubt");
+        assert!(what == "scale" && mend.contains("0.9970"), "{mend}");
+    }
+    // Where the axis goes back, no drift is as steep; where it does not, one may be.
+    let slope = |place: f64, _: f64| 0.6 * place;
+    assert_eq!(along(slope, true).map(|(what, _)| what), Some("scale"));
+    assert_eq!(along(slope, false), None);
+    assert_eq!(along(|place, _| 0.4 * place, true), None);
+    assert_eq!(along(|_, time_s| 0.6 * time_s, true), None);
+    // An arc and a kink are no straight line, though one explains nine tenths of them.
+    assert_eq!(along(|place, _| 0.01 * place * place, true), None);
+    assert_eq!(along(|place, _| 3.0 * (place - 100.0).max(0.0), true), None);
+}
