@@ -76,10 +76,10 @@ fn same(difference: f64, deviation: f64) -> f64 {
     2.0 * libm::log(density.max(f64::MIN_POSITIVE))
 }
 
-/// Share of a column that lies on the run of the clock: 1 when it follows from it.
+/// True where the way follows from a clock that was read; where none was, the clock follows from the way.
 pub(super) fn follows_from_clock(measurement: &Measurement, machine: &Machine) -> bool {
     let turns_per_second = machine.spindle.speed_rpm / 60.0;
     let off = measurement.angle_rev.iter().zip(&measurement.time_s);
     let off = off.map(|(angle, time)| (angle - time * turns_per_second).abs());
-    off.fold(0.0, f64::max) < 1e-9 * count(measurement.len())
+    measurement.timed && off.fold(0.0, f64::max) < 1e-9 * count(measurement.len())
 }

@@ -8,11 +8,11 @@ use super::along::{A_TURN_ARCSEC, Line, travel};
 use super::doubt::Doubt;
 use crate::measurement::sensor_column;
 use crate::model::Problem;
-use crate::numerics::least_squares::fit;
+use crate::numerics::least_squares::{dot, fit};
 use crate::numerics::{mean, spread};
 use crate::policy::mistakes::{
-    ANOTHER_SCALE, DRIFTS_UM_PER_H, GROWS_AS_AN_ANGLE, GROWS_UM, ONE_LINE_OF_A_TURN,
-    RUNS_ALONG_SHARE,
+    ANOTHER_SCALE, DRIFTS_UM_PER_H, GROWS_AS_AN_ANGLE, GROWS_UM, OFF_CENTRE, ONE_LINE_OF_A_TURN,
+    RUNS_ALONG_SHARE, STRAIGHT, TOLD_FROM_TIME,
 };
 
 /// The doubt, of the first sensor that gives one.
@@ -57,11 +57,35 @@ impl<'a> Strokes<'a> {
     /// True where values grow along all of the travel, either way, as no machine's error does.
     fn are_steep(&self, values: &[f64]) -> bool {
         let span = self.travel.end - self.travel.start;
+        let middle = self.travel.start.midpoint(self.travel.end);
+        let place = |row: usize| (travel(self.problem, row) - middle) / span;
         let both = !self.there.is_empty() && !self.back.is_empty();
-        let is_turn = both && self.problem.measurement.rotary && A_TURN_ARCSEC <= span;
-        let least = if is_turn { ONE_LINE_OF_A_TURN } else { ANOTHER_SCALE };
-        let grown = if both { 0.0 } else { self.may_grow() / span };
-        least.max(grown) <= self.least_slope(values, both) / span
+        let of_time = if both {
+            self.about_means(|row, way| way * place(row))
+        } else {
+            self.about_means(|row, _| self.problem.record.time_s[self.problem.samples[row]])
+        };
+        let powers = [1, 2, 3].map(|power| self.about_means(|row, _| place(row).powi(power)));
+        let left_of_place = fit(&[&of_time], &powers[0]).residual_square;
+        let is_told = TOLD_FROM_TIME * dot(&powers[0], &powers[0]) < left_of_place;
+        let mut shapes: Vec<&[f64]> = powers.iter().map(Vec::as_slice).collect();
+        shapes.extend(is_told.then_some(of_time.as_slice()));
+        let sizes = fit(&shapes, &self.about_means(|row, _| values[row])).coefficients;
+        let each_way = sizes.get(3).filter(|_| both).map_or(0.0, |size| size.abs());
+        let grown = if is_told { 0.0 } else { self.may_grow() };
+        let (flattest, steepest) = slopes(&sizes);
+        let (flattest, steepest) = (flattest - each_way, steepest + each_way);
+        STRAIGHT * steepest <= flattest && grown.max(self.least_share(both) * span) <= flattest
+    }
+
+    /// Share of the travel from which on an error that is straight is no machine's.
+    fn least_share(&self, both: bool) -> f64 {
+        let turns = (self.travel.end - self.travel.start) / A_TURN_ARCSEC;
+        match (self.problem.measurement.rotary, both && 1.0 <= turns) {
+            (true, true) => ONE_LINE_OF_A_TURN,
+            (true, false) => OFF_CENTRE,
+            _ => ANOTHER_SCALE,
+        }
     }
 
     /// How much a drift and a growth may be in the time of the longest stroke, µm (arcsec).
@@ -72,27 +96,6 @@ impl<'a> Strokes<'a> {
         let longest_h = took_s.fold(0.0, f64::max) / 3600.0;
         let unit = if self.problem.measurement.rotary { GROWS_AS_AN_ANGLE } else { 1.0 };
         unit * (GROWS_UM + DRIFTS_UM_PER_H * longest_h)
-    }
-
-    /// Least slope over the travel, either way, of the cubic with an own slope each way that is nearest to values.
-    fn least_slope(&self, values: &[f64], both: bool) -> f64 {
-        let middle = self.travel.start.midpoint(self.travel.end);
-        let span = self.travel.end - self.travel.start;
-        let place = |row: usize| (travel(self.problem, row) - middle) / span;
-        let mut shapes: Vec<Vec<f64>> =
-            [1, 2, 3].map(|power| self.about_means(|row, _| place(row).powi(power))).into();
-        if both {
-            shapes.push(self.about_means(|row, way| way * place(row)));
-        }
-        let shapes: Vec<&[f64]> = shapes.iter().map(Vec::as_slice).collect();
-        let sizes = fit(&shapes, &self.about_means(|row, _| values[row])).coefficients;
-        let upwards = |size: f64| size * sizes[0].signum();
-        let each_way = sizes.get(3).map_or(0.0, |size| size.abs());
-        let (bend, change) = (upwards(sizes[1]), upwards(sizes[2]));
-        let slope = |place: f64| 2.0 * bend * place + 3.0 * change * place * place;
-        let steepest = (-bend / (3.0 * change)).clamp(-0.5, 0.5);
-        let least = [-0.5, steepest, 0.5].map(slope).into_iter().fold(f64::INFINITY, f64::min);
-        sizes[0].abs() - each_way + least
     }
 
     /// Values of rows, by their way, from the mean of their stroke.
@@ -106,6 +109,17 @@ impl<'a> Strokes<'a> {
         };
         all.flat_map(stroke).collect()
     }
+}
+
+/// Least and greatest slope of a cubic over places from -½ to ½, upwards as it mostly is.
+fn slopes(sizes: &[f64]) -> (f64, f64) {
+    let up = sizes[0].signum();
+    let slope =
+        |place: f64| up * (sizes[0] + 2.0 * sizes[1] * place + 3.0 * sizes[2] * place * place);
+    let flat = (-sizes[1] / (3.0 * sizes[2])).clamp(-0.5, 0.5);
+    let all = [-0.5, flat, 0.5].map(slope);
+    let end = |better: fn(f64, f64) -> f64| all.into_iter().reduce(better).unwrap_or(f64::NAN);
+    (end(f64::min), end(f64::max))
 }
 
 fn said(problem: &Problem, sensor: usize, line: &Line) -> Doubt {

@@ -132,6 +132,23 @@ pub(crate) const RUNS_ALONG_SHARE: f64 = 0.9;
 /// thousand is told, and not one in two thousand.
 pub(crate) const ANOTHER_SCALE: f64 = 5e-4;
 
+/// The same of a rotary axis that goes less than a turn, or one way.
+///
+/// Derived: what turns a millimetre off the centre of a disc of 200 mm is as steep. Doubled: of a wheel one wrong tooth
+/// in fifty is told, and not one in a hundred.
+pub(crate) const OFF_CENTRE: f64 = 1e-2;
+
+/// Least against greatest slope of an error that is straight.
+///
+/// Chosen: a sine over a seventh of a turn about its middle has 0.9, an arc that begins level 0. Nearer to 1: a bow of a
+/// twentieth beside the slope hides it.
+pub(crate) const STRAIGHT: f64 = 0.8;
+
+/// Part of the square of the places that no time, or way, explains, from which on a slope is no drift.
+///
+/// Derived: speeds whose spread is a tenth leave as much. Doubled: those of a seventh are as one.
+pub(crate) const TOLD_FROM_TIME: f64 = 0.01;
+
 /// The same where an axis goes round whole turns both ways, after which its error is what it was.
 ///
 /// Derived: one line in the 36 000 of a fine disc. Doubled: one line in 18 000.

@@ -156,8 +156,12 @@ fn places_that_are_all_longer_are_told() {
         let written: f64 = written.and_then(|unit| unit.parse().ok()).expect("a unit");
         assert!((written - unit).abs() < 2e-4, "{mend}");
     }
-    // Of an axis whose angle follows from its clock it is the speed.
+    // Of an axis whose angle follows from its clock it is the speed, and where no clock was read the angle.
     let known = rotary("1 rpm");
+    let mut untimed = turn(&known, |turn| 1.01 * turn);
+    untimed.columns.remove(0);
+    let (what, mend) = doubted(&known, &untimed).expect("a doubt");
+    assert!(what == "scale" && mend.contains("angle_rev") && mend.contains("\"0.990"), "{mend}");
     let mut table = turn(&known, |turn| turn);
     table.columns.remove(1);
     let table = changed(table, "time_s", |time_s| 60.0 / 60.5 * 0.99 * time_s);
@@ -198,7 +202,8 @@ fn an_error_that_runs_straight_along_the_travel_is_another_scale() {
     assert_eq!(along(slope, false), None);
     assert_eq!(along(|place, _| 0.4 * place, true), None);
     assert_eq!(along(|_, time_s| 0.6 * time_s, true), None);
-    // An arc and a kink are no straight line, though one explains nine tenths of them.
+    // An arc, a part of a wave and a kink are no straight line, though one explains nine tenths of them.
+    assert_eq!(along(|place, _| 500.0 * libm::sin(place / 250.0), true), None);
     assert_eq!(along(|place, _| 0.01 * place * place, true), None);
     assert_eq!(along(|place, _| 3.0 * (place - 100.0).max(0.0), true), None);
 }
