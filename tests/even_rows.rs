@@ -112,3 +112,42 @@ fn a_wave_too_swift_for_even_rows_is_a_rival_of_a_slow_one() {
     assert_eq!((even.verdict, names(&even)), (Verdict::Ambiguous, vec!["gear-error"]));
     assert_eq!((uneven.verdict, names(&uneven)), (Verdict::Explained, vec!["gear-error"]));
 }
+
+/// A grinder whose table shaft meshes 48.1 times a turn, which rows each half turn draw as a wave and a third.
+#[test]
+fn a_mesh_too_quick_for_the_rows_is_no_slow_curve() {
+    const GRINDER: &str = "spindle.speed = \"6 rpm\"\nworkpiece.lead = \"6 mm\"\nlead_screw.lead = \"8 mm\"\n\
+                           [[gear]]\nname = \"table shaft\"\norder = 1.3\nteeth = 37\n";
+    let mut noise = white(3, 0.2);
+    let places: Vec<f64> = (0..188).map(|row| 2.994_652 * f64::from(row)).collect();
+    let mut columns = [const { Vec::new() }; 3];
+    for (pass, mm) in
+        [0.0, 1.0, 2.0].iter().flat_map(|pass| places.iter().map(move |mm| (*pass, *mm)))
+    {
+        let error_um = 20.0 * libm::sin(TAU * mm / 420.0 - 1.0) + noise();
+        let cells = [pass, mm, error_um];
+        columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+    }
+    let names_of = ["pass", "position_mm", "error_um"];
+    let found = diagnosed_on(GRINDER, names_of.into_iter().zip(columns).collect());
+    assert!(!names(&found).contains(&"gear-error"), "{:?}", names(&found));
+}
+
+/// Six passes over the same three hundred places, without a clock: no table of targets, each with an error of its own,
+/// which took half a minute.
+#[test]
+fn hundreds_of_places_are_no_targets() {
+    let mut noise = white(5, 0.2);
+    let mut own = white(6, 0.8);
+    let places: Vec<(f64, f64)> = (0..300).map(|row| (0.5 * f64::from(row), own())).collect();
+    let mut columns = [const { Vec::new() }; 3];
+    for (pass, (mm, own_um)) in (0..6).flat_map(|pass| places.iter().map(move |one| (pass, *one))) {
+        let cells = [f64::from(pass), mm, own_um + noise()];
+        columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+    }
+    let names_of = ["pass", "position_mm", "error_um"];
+    let found = diagnosed(names_of.into_iter().zip(columns).collect());
+    assert_eq!((found.verdict, names(&found)), (Verdict::Unexplained, vec![]));
+    let shapes: Vec<_> = found.residual.iter().map(|one| one.shape.as_str()).collect();
+    assert!(shapes.iter().all(|shape| !shape.contains("own error of each target")), "{shapes:?}");
+}

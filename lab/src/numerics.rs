@@ -24,6 +24,7 @@ pub(crate) use parallel::in_parallel;
 pub(crate) use random_effects::{drawn_sizes_gain, drawn_sizes_gain_with};
 pub(crate) use sampling::{
     highest_frequency, may_resolve, nearly_even_rate, resolves, turns_of_the_way, usual_rate,
+    waves_drawn,
 };
 pub(crate) use summary::{
     count, deviation, longest, mean, median, middle, middle_nearest_zero, one_in, rms_about_means,

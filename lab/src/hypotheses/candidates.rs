@@ -11,9 +11,12 @@ use super::unfolding::unfolded;
 use crate::model::{Component, Problem, Stage};
 use crate::numerics::{
     Looks, by_factors, count, evenly, longest, may_resolve, product, spread, usual_rate,
+    waves_drawn,
 };
 use crate::policy::evidence::{ANOTHER_MATERIAL, HIGH_HARMONIC_PRICE, LOOSELY_KNOWN, MARGIN};
-use crate::policy::extent::{FREQUENCIES, LONGEST, NARROWEST, OVERTONES, SHORTEST, SLOWEST_WAVES};
+use crate::policy::extent::{
+    FEWEST_DRAWN, FREQUENCIES, LONGEST, NARROWEST, OVERTONES, SHORTEST, SLOWEST_WAVES,
+};
 use crate::spectrum::{Scan, arc, gear_orders, strongest_first};
 
 /// An effect that may be missing.
@@ -111,6 +114,7 @@ fn candidates_of(
             others.into_iter().chain(begun).chain([Some(candidate)])
         })
         .flatten()
+        .filter_map(|candidate| without_smooth_aliases(problem, candidate))
         .collect()
 }
 
@@ -296,14 +300,30 @@ fn keep_resolved(problem: &Problem, candidate: &mut Candidate) {
     if candidate.term.parameters.iter().all(|what| what.search != Search::Whole) {
         return;
     }
-    let places =
-        LazyCell::new(|| problem.places().unwrap_or_else(|| problem.record.turns().collect()));
+    let places = LazyCell::new(|| places(problem));
     let is_told = |point| {
         let waves = Component::new(candidate.at(point)).waves_a_turn(problem);
         waves <= problem.highest_order() || may_resolve(&places, waves)
     };
     let told = (0..candidate.grid.len()).filter(|point| is_told(*point));
     candidate.grid = told.map(|point| candidate.grid[point].clone()).collect();
+}
+
+/// Leaves out listed gears, quicker than the samples, of which they draw so little of a wave that any smooth curve is as
+/// near to it; `None` where none is left.
+fn without_smooth_aliases(problem: &Problem, mut candidate: Candidate) -> Option<Candidate> {
+    if candidate.term.is_of_a_gear() {
+        let places = LazyCell::new(|| places(problem));
+        let highest = problem.highest_order();
+        let is_drawn = |order: f64| order <= highest || FEWEST_DRAWN <= waves_drawn(&places, order);
+        candidate.grid.retain(|values| values.iter().all(|order| is_drawn(*order)));
+    }
+    Some(candidate).filter(|candidate| !candidate.grid.is_empty())
+}
+
+/// Where the samples were taken, turns of the spindle: the targets, or the places of all.
+fn places(problem: &Problem) -> Vec<f64> {
+    problem.places().unwrap_or_else(|| problem.record.turns().collect())
 }
 
 /// Axes along which the curve of an effect turns, with their values; of an instant, all gaps between

@@ -10,7 +10,7 @@ use super::problem::Problem;
 use super::state::State;
 use crate::numerics::{middle, middle_nearest_zero, spread};
 use crate::policy::evidence::{FEW_TARGETS, PASSING, VISITS, VISITS_OF_FEW};
-use crate::policy::extent::ROWS_A_COLUMN;
+use crate::policy::extent::{MOST_TARGETS, ROWS_A_COLUMN};
 use crate::policy::reading::ONE_PLACE;
 
 /// Values that are more than a place apart, lowest first.
@@ -74,13 +74,13 @@ impl Problem {
     }
 
     /// What each target shows at every visit, a column a target and sensor; none where there are no
-    /// targets, or too few rows of each.
+    /// targets, or too few rows of each, or so many that they are a log's places, which every pass reads.
     #[must_use]
     pub(crate) fn columns_of_targets(&self) -> Vec<Vec<f64>> {
         let Some(targets) = self.targets() else { return Vec::new() };
         let width = targets.len() * self.sensors.len();
         let rows = if targets.len() <= FEW_TARGETS { VISITS_OF_FEW } else { ROWS_A_COLUMN };
-        if self.samples.len() < rows * width {
+        if MOST_TARGETS < width || self.samples.len() < rows * width {
             return Vec::new();
         }
         let of = self.visited(&targets);

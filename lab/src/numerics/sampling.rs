@@ -68,6 +68,16 @@ pub(crate) fn may_resolve(coordinate: &[f64], frequency: f64) -> bool {
     is_told_below(coordinate, frequency, SAME_WINDOW)
 }
 
+/// Waves along all places that samples draw of one of any frequency, in the order in which they were taken.
+#[must_use]
+pub(crate) fn waves_drawn(coordinate: &[f64], frequency: f64) -> f64 {
+    let is_above = |place: &f64| 0.0 < libm::cos(std::f64::consts::TAU * frequency * place);
+    let crosses = |pair: &&[f64]| is_above(&pair[0]) != is_above(&pair[1]);
+    let crossings = coordinate.windows(2).filter(crosses).count();
+    let way: f64 = coordinate.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum();
+    0.5 * count(crossings) * spread(coordinate) / way.max(f64::MIN_POSITIVE)
+}
+
 /// True when the spectral window does not come back to `alike` where a slower wave would be an alias.
 fn is_told_below(coordinate: &[f64], frequency: f64, alike: f64) -> bool {
     let rate = usual_rate(coordinate);
@@ -128,6 +138,16 @@ fn window(stretches: &[&[f64]], end: f64) -> Option<(Vec<(f64, f64)>, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn even_samples_draw_a_slow_wave_of_a_quick_one() {
+        let there: Vec<f64> = (0..=100_u32).map(f64::from).collect();
+        let back: Vec<f64> = there.iter().rev().copied().collect();
+        let both = [there, back].concat();
+        for (frequency, waves) in [(1.02, 2.0), (0.25, 25.0), (0.02, 2.0)] {
+            assert!((waves_drawn(&both, frequency) - waves).abs() < 0.6, "{frequency}");
+        }
+    }
 
     #[test]
     fn even_sampling_resolves_half_its_rate() {

@@ -157,6 +157,12 @@ pub(crate) const MOST_OF_A_TURN: f64 = 0.9;
 /// less than three waves are left to the smooth curves.
 pub(crate) const SLOWEST_WAVES: f64 = 1.5;
 
+/// Waves along the travel that rows must draw of a gear that is quicker than they come.
+///
+/// Chosen: a drawn wave of no cause of its own is as near to any curve of one or two bends. Doubled: a mesh whose alias
+/// has five waves along the travel has no name.
+pub(crate) const FEWEST_DRAWN: f64 = 3.0;
+
 /// Waves over the record of the longest that a formula has, of one length or of a changing one.
 ///
 /// Chosen: of a part of a wave a cube is as good a formula. Doubled: the one wave of a gear's turn is a wave of
@@ -273,6 +279,11 @@ pub(crate) const CURVE_OF_A_LOG: usize = 12;
 ///
 /// Chosen. Doubled: short files are not looked at for bumps.
 pub(crate) const ROWS_A_COLUMN: usize = 6;
+
+/// Most targets of all sensors that may each have an error of their own.
+///
+/// Chosen, by time, which grows as their cube: 200 places that six passes read take three seconds. Doubled: a minute.
+pub(crate) const MOST_TARGETS: usize = 200;
 
 /// Fewest targets of a table that tell what is at one of them alone from a curve.
 ///
