@@ -49,7 +49,7 @@ fn words(problem: &Problem, times: f64) -> Words {
     if follows_from_clock(measurement, &problem.model) {
         let says = format!("the axis turns {times:.5} times as fast as the file says");
         let rpm = times * problem.model.spindle.speed_rpm;
-        return ("scale", says, format!("[spindle]\nspeed = \"{rpm:.6} rpm\""));
+        return ("scale", says, format!("[spindle]\nspeed = \"{rpm:.5e} rpm\""));
     }
     let (column, unit) =
         if measurement.rotary { ("angle_rev", "rev") } else { ("position_mm", "mm") };
