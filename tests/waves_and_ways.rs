@@ -460,3 +460,26 @@ fn a_shaft_beside_a_harmonic_of_the_screw_is_not_that_harmonic() {
         assert_eq!((found.verdict, names(&found)), (Verdict::Unexplained, vec![]), "{seed}");
     }
 }
+
+/// A wheel of another ratio and a drift are one curve where all passes go one way at one speed; not where they come back.
+#[test]
+fn a_drift_over_an_angle_is_sure_where_the_axis_comes_back() {
+    const CIRCLE: &str = "output.rotary = true\nspindle.speed = '1 rpm'\n";
+    let drifted = |returns: bool| {
+        let mut noise = white(4, 0.3);
+        let mut columns = [const { Vec::new() }; 4];
+        for row in 0..400_u32 {
+            let (pass, gone) = (row / 100, f64::from(row % 100) / 400.0);
+            let back = returns && pass % 2 == 1;
+            let turns = if back { 0.2475 - gone } else { gone };
+            let time_s = 80.0 * f64::from(pass) + 60.0 * gone;
+            let cells = [f64::from(pass), time_s, turns, 0.05 * time_s + noise()];
+            columns.iter_mut().zip(cells).for_each(|(column, cell)| column.push(cell));
+        }
+        let names_of = ["pass", "time_s", "angle_rev", "error_arcsec"];
+        diagnosed_on(CIRCLE, names_of.into_iter().zip(columns).collect())
+    };
+    let [there, both] = [false, true].map(drifted);
+    assert_eq!((both.verdict, names(&both)), (Verdict::Explained, vec!["phase-drift"]));
+    assert_eq!((there.verdict, names(&there)), (Verdict::Ambiguous, vec!["phase-drift"]));
+}

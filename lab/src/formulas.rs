@@ -11,4 +11,5 @@ mod shape;
 mod turning;
 
 pub(crate) use grammar::{formulas, nameless, several_a_turn, sine_between, switching};
+pub(crate) use moving::STRAIGHT_LINE;
 pub(crate) use shape::{Delta, ORDER, Placed, Shape};

@@ -13,7 +13,7 @@ use crate::policy::extent::{MOST_A_TURN, MOST_OF_A_TURN, TURNS};
 #[must_use]
 pub(crate) fn nameless(problem: &Problem) -> Vec<Shape> {
     let quantities = Quantities::of(problem);
-    let mut all = Vec::new();
+    let mut all: Vec<Shape> = moving::another_ratio(&quantities).into_iter().collect();
     if quantities.have_places() {
         all.extend(moving::along_travel(&quantities));
         all.extend(moving::one_target(&quantities));

@@ -44,6 +44,16 @@ pub(super) fn triangle(waves: Expression) -> Expression {
     call(Function::Abs, call(Function::Fract, waves) - number(0.5))
 }
 
+/// What is nobody's where nothing of the catalogue grows with the way.
+pub(crate) const STRAIGHT_LINE: &str = "straight line";
+
+/// An error that grows with the angle, as no effect of the catalogue does; over a travel one has that name.
+pub(super) fn another_ratio(all: &Quantities) -> Option<Shape> {
+    let physics = "a gear ratio, a wheel or a number of lines that is not the file's";
+    let line = || shape(STRAIGHT_LINE, all.way(), physics).curve("slope", of(&all.position));
+    (all.is_rotary() && all.moves()).then(line)
+}
+
 /// Kinks, bends, steps and roots along the travel.
 pub(super) fn along_travel(all: &Quantities) -> Vec<Shape> {
     let x = &all.position;

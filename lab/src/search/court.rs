@@ -18,7 +18,7 @@ use super::rivals::Rivals;
 use super::seats::{self, Seat, Tried};
 use super::span::{Span, shown};
 use super::uneven::{self, Taken};
-use crate::formulas::{Placed, Shape, nameless};
+use crate::formulas::{Placed, STRAIGHT_LINE, Shape, nameless};
 use crate::hypotheses::{Structure, chance_with_tails, is_left};
 use crate::model::{
     Columns, Component, Fit, Judged, Problem, Stage, State, noises_of, plain_noises, settle,
@@ -355,14 +355,17 @@ impl<'a> Court<'a> {
     }
 
     /// The relation to a logged column that explains more than the only effect of a group, which
-    /// does not know of it: two that were logged by the same clock seldom go along by accident.
+    /// does not know of it: two that were logged by the same clock seldom go along by accident. Or what grows straight
+    /// with the way and explains as much, where no effect does.
     fn witness(&self, group: &[usize], claims: &[Claim<'a>]) -> Option<(usize, String)> {
         let [index] = *group else { return None };
         let needs = self.state.components[index].term.needs();
         let logged = &self.problem.measurement.covariates;
         let tells = |claim: &&Claim<'_>| {
             let along = claim.placed.shape.along.as_str();
-            0.0 < claim.ahead && logged.contains_key(along) && !needs.contains(&along)
+            let is_of_a_log = logged.contains_key(along) && !needs.contains(&along);
+            let is_a_line = claim.placed.shape.words == STRAIGHT_LINE;
+            0.0 < claim.ahead && is_of_a_log || -MARGIN < claim.ahead && is_a_line
         };
         Some((index, farthest(claims.iter().filter(tells))?.words()))
     }
