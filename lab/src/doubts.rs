@@ -72,8 +72,9 @@ pub(crate) fn doubts_and_suspects(problem: &Problem) -> (Vec<Doubt>, Vec<Suspect
         let (mistake, suspects) = judged(&now);
         let is_new = |one: &Hypothesis| doubts.iter().all(|other| other.mend != one.mend);
         let Some(one) = mistake.filter(is_new) else {
-            let scale = Some(&now).filter(|_| doubts.is_empty()).and_then(scale::another_scale);
-            doubts.extend(scale);
+            if doubts.is_empty() {
+                doubts.extend(scale::another_scale(&now));
+            }
             return (doubts, suspects);
         };
         doubts.push(one.doubt());

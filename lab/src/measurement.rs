@@ -19,6 +19,7 @@ mod thinning;
 mod zeros;
 
 pub use error::LabError;
+pub(crate) use measurand::{ARCSEC_A_TURN, UM_A_MM};
 pub(crate) use passes::Restart;
 pub use pulse_trains::{PulseTrains, Steps};
 pub(crate) use quantised::spacing;

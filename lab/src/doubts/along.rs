@@ -1,13 +1,10 @@
 //! A position where the error should be: what runs along with the travel is no error.
 
 use super::doubt::{Doubt, recipe};
-use crate::measurement::sensor_column;
+use crate::measurement::{ARCSEC_A_TURN, UM_A_MM, sensor_column};
 use crate::model::Problem;
 use crate::numerics::count;
 use crate::policy::mistakes::{RUNS_ALONG, RUNS_ALONG_SHARE};
-
-/// A turn in seconds of arc.
-pub(super) const A_TURN_ARCSEC: f64 = 1_296_000.0;
 
 /// The line over the travel that is nearest to values of a sensor, where every pass has a zero of its own.
 pub(super) struct Line {
@@ -61,9 +58,9 @@ impl Line {
 pub(super) fn travel(problem: &Problem, row: usize) -> f64 {
     let sample = problem.samples[row];
     if problem.measurement.rotary {
-        A_TURN_ARCSEC * problem.measurement.angle_rev[sample]
+        ARCSEC_A_TURN * problem.measurement.angle_rev[sample]
     } else {
-        1000.0 * problem.record.position_mm[sample]
+        UM_A_MM * problem.record.position_mm[sample]
     }
 }
 

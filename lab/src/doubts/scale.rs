@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use helixlock_plant::Part;
 
-use super::along::{A_TURN_ARCSEC, Line, travel};
+use super::along::{Line, travel};
 use super::doubt::Doubt;
-use crate::measurement::sensor_column;
+use crate::measurement::{ARCSEC_A_TURN, sensor_column};
 use crate::model::Problem;
 use crate::numerics::least_squares::{dot, fit};
 use crate::numerics::{mean, spread};
@@ -80,7 +80,7 @@ impl<'a> Strokes<'a> {
 
     /// Share of the travel from which on an error that is straight is no machine's.
     fn least_share(&self, both: bool) -> f64 {
-        let turns = (self.travel.end - self.travel.start) / A_TURN_ARCSEC;
+        let turns = (self.travel.end - self.travel.start) / ARCSEC_A_TURN;
         match (self.problem.measurement.rotary, both && 1.0 <= turns) {
             (true, true) => ONE_LINE_OF_A_TURN,
             (true, false) => OFF_CENTRE,
@@ -126,7 +126,7 @@ fn said(problem: &Problem, sensor: usize, line: &Line) -> Doubt {
     let rotary = problem.measurement.rotary;
     let column = sensor_column(problem.sensors[sensor], rotary);
     let (grows, place) = if rotary {
-        (format!("{:.4} arcsec a turn", A_TURN_ARCSEC * line.share), "angle_rev")
+        (format!("{:.4} arcsec a turn", ARCSEC_A_TURN * line.share), "angle_rev")
     } else {
         (format!("{:.4} µm/m", 1e6 * line.share), "position_mm")
     };

@@ -7,9 +7,9 @@ use super::shift::{a_place, best, moved, stages};
 use crate::measurement::Measurement;
 use crate::model::{Problem, Stage};
 use crate::noise::Noise;
+use crate::policy::mistakes::FARTHEST_STRETCH;
 
-/// Grids of longer places, as powers of a half; the widest is 3 %.
-const WIDEST: i32 = 5;
+/// Finest grid of longer places, as a power of a half.
 const FINEST: i32 = 16;
 
 /// Most places of a grid either way, as a power of two: the finest then is 0.2 % wide.
@@ -28,8 +28,8 @@ fn hypothesis(stage: &Stage<'_>) -> Option<Hypothesis> {
     let problem = stage.problem;
     let before = problem.predicted_of(&problem.measurement).ok()?;
     let by = |longer: f64| moved(problem, &stretched(&problem.measurement, longer), &before);
-    let power = a_place(problem, &by, WIDEST + 1..FINEST)?;
-    let places = 1 << (power - WIDEST).min(PLACES);
+    let power = a_place(problem, &by, FARTHEST_STRETCH + 1..FINEST)?;
+    let places = 1 << (power - FARTHEST_STRETCH).min(PLACES);
     let (longer, looks) = best(stage, &by, (libm::exp2(-f64::from(power)), places))?;
     let mended = stretched(&problem.measurement, longer);
     let one = Hypothesis::of_measurement(problem, &mended, words(problem, 1.0 + longer))?;

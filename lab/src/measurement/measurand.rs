@@ -17,8 +17,8 @@ const OF_A_MILLIMETRE: [(&str, f64); 4] =
 const OF_A_TURN: [(&str, f64); 4] =
     [("_rev", 1.0), ("_deg", 360.0), ("_rad", std::f64::consts::TAU), ("_arcsec", ARCSEC_A_TURN)];
 
-const ARCSEC_A_TURN: f64 = 1_296_000.0;
-const UM_A_MM: f64 = 1000.0;
+pub(crate) const ARCSEC_A_TURN: f64 = 1_296_000.0;
+pub(crate) const UM_A_MM: f64 = 1000.0;
 
 /// What a column is that the error, or the position, was read from.
 const READING: &str = "the error in other units";

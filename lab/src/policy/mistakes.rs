@@ -96,6 +96,11 @@ pub(crate) const FARTHEST_LEAD: f64 = 4.0;
 /// Chosen. Doubled: twice the time.
 pub(crate) const SHIFT_TURNS: u16 = 6;
 
+/// How much longer or shorter all places may be, as a power of a half: 3 %.
+///
+/// Chosen: what is farther off is seen by whoever types it. Doubled: 0.1 %, and a stretched belt is not told.
+pub(crate) const FARTHEST_STRETCH: i32 = 5;
+
 /// Share of a record by which a log may be late or early, and places either way at which that is looked for.
 ///
 /// Chosen: a logger's clock, or readings sent once in a while. Doubled: twice the time; what is later still has
