@@ -181,7 +181,8 @@ fn active_blocks(plan: &Plan, packing: &Packing) -> Option<String> {
     let call = "Self::blocks(inputs, registers, kept, known, late, found, next)";
     let statement = if packing.gives_all_to_blocks(plan) {
         format!(
-            "next = rest.passing_over([known, late, found], registers, next, |registers| {call});"
+            "let kept = &mut *kept; \
+             next = rest.passing_over([known, late, found], registers, next, move |registers| {call});"
         )
     } else {
         format!("next = {call};")
@@ -315,8 +316,9 @@ fn keep(
     if !packed.is_empty() {
         let bits = packed.iter().map(|kept| (kept.word, packing.bits[&kept.word]));
         let mask: u64 = bits.clone().map(|(_, bit)| 1 << bit).sum();
-        let parts = bits.map(|(word, bit)| format!(" | w{word} << {bit}"));
-        lines.push(format!("next = next & {:#x}{};", !mask, parts.collect::<String>()));
+        let parts: Vec<String> = bits.map(|(word, bit)| format!("w{word} << {bit}")).collect();
+        // In brackets, so that what is known last is joined last.
+        lines.push(format!("next = next & {:#x} | ({});", !mask, parts.join(" | ")));
     }
     lines.push("}".to_owned());
     lines

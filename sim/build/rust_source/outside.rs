@@ -17,7 +17,8 @@ pub(super) fn look(plan: &Plan, packing: &Packing, name: &str) -> (Vec<String>, 
     outside.look_up();
     let known = "Known { early: known, late }";
     let next = "Known { early: next, late: later }";
-    outside.lines.push(format!("Edge {{ known: {known}, next: {next}, found }}"));
+    let found = format!("found: found & {:#x}", read_of_found(plan, packing));
+    outside.lines.push(format!("Edge {{ known: {known}, next: {next}, {found} }}"));
     (outside.lines, outside.entries)
 }
 
@@ -45,6 +46,19 @@ pub(super) fn needed_by_blocks(plan: &Plan, packing: &Packing) -> Vec<String> {
         outside.compute(Some(word));
     }
     outside.lines
+}
+
+/// Bits of what is found that something else than packed registers is made of.
+fn read_of_found(plan: &Plan, packing: &Packing) -> u64 {
+    let mut outside = Outside::found(plan, packing);
+    let left =
+        packing.left_outside(plan).into_iter().filter_map(|register| number(plan.next[register]));
+    let strays = plan.coasting.iter().filter_map(|coasting| number(coasting.strays));
+    for word in plan.needed_by_blocks().into_iter().chain(left).chain(strays) {
+        outside.compute(Some(word));
+    }
+    let places = packing.places.iter().filter(|(word, _)| outside.computed.contains(word));
+    places.map(|(_, bit)| 1 << bit).sum()
 }
 
 /// Code outside all blocks in the making.
@@ -85,24 +99,28 @@ impl<'a> Outside<'a> {
         self.lines.push("let mut found = 0_u64;".to_owned());
         let at_once = packing.tables.partition_point(|table| table.depth == 1);
         let (first, later) = packing.tables.split_at(at_once);
-        self.ask_all(first);
+        // Tables that say what registers become are asked first: the next clock waits for nothing else.
+        let (registers, others): (Vec<&Table>, Vec<&Table>) =
+            first.iter().partition(|table| packing.tells_registers(self.plan, table));
+        self.ask_all(registers);
         self.update("next", &packing.registers);
         let beside = packing.steady.iter().chain(&packing.fresh);
         let beside: u64 = beside.map(|kept| 1 << packing.bits[&kept.word]).sum();
         if beside != 0 {
             self.lines.push(format!("let next = next | known & {beside:#x};"));
         }
+        self.ask_all(others);
         for tables in later.chunk_by(|one, next| one.depth == next.depth) {
-            self.ask_all(tables);
+            self.ask_all(tables.iter().collect());
         }
         self.update("later", &packing.late);
     }
 
-    fn ask_all(&mut self, tables: &[Table]) {
-        for table in tables {
+    fn ask_all(&mut self, tables: Vec<&Table>) {
+        for table in &tables {
             self.ask(table);
         }
-        self.found.extend(tables.iter().flat_map(|table| &table.functions));
+        self.found.extend(tables.into_iter().flat_map(|table| &table.functions));
     }
 
     fn ask(&mut self, table: &Table) {
@@ -125,7 +143,11 @@ impl<'a> Outside<'a> {
         let entries = table.entries(self.plan, &order, &self.packing.places);
         let (first, last, index) = (self.entries.len(), entries.len() - 1, index.join(" | "));
         // The mask is there for the compiler, which needs not look whether an entry is there.
-        self.lines.push(format!("found |= tables[{first} + (({index}) as usize & {last:#x})];"));
+        let entry = format!("tables[{first} + (({index}) as usize & {last:#x})]");
+        // What is asked later says which bits it tells: others are known before, and need not wait.
+        let told: u64 = table.functions.iter().map(|word| 1 << self.packing.places[word]).sum();
+        let only = if table.depth == 1 { String::new() } else { format!(" & {told:#x}") };
+        self.lines.push(format!("found |= {entry}{only};"));
         self.entries.extend(entries);
     }
 

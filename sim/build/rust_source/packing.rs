@@ -110,6 +110,12 @@ impl Packing {
         self.places.get(&number(block.active)?).map(|place| 1 << place)
     }
 
+    /// True when a table tells what a packed register becomes.
+    pub(super) fn tells_registers(&self, plan: &Plan, table: &Table) -> bool {
+        let mut next = self.registers.keys().filter_map(|register| number(plan.next[*register]));
+        next.any(|word| table.functions.contains(&word))
+    }
+
     /// What enters a table when the functions of others are `found`.
     pub(super) fn entering(&self, table: &Table, found: &BTreeSet<usize>) -> Entering {
         let mut entering = Entering::default();
