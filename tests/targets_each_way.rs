@@ -57,3 +57,23 @@ fn a_reversal_is_told_by_the_scatter_of_targets() {
         assert!((width.value - 8.0).abs() < 3.0 * error, "{seed}: {width:?}");
     }
 }
+
+/// Play of twenty standard errors beside a bow of eight, five runs there and back past 31 targets: a way as long as the
+/// travel, in which the play is taken up, follows both, and is no play.
+#[test]
+fn play_beside_a_bow_keeps_its_name() {
+    let axis = "spindle.speed = \"60 rpm\"\nlead_screw.lead = \"10 mm\"\nlaser.wavelength = \"0.6328 um\"\n";
+    for seed in seeds(4, 12) {
+        let mut noise = white(2005 + seed, 3.0);
+        let rows = (0..5 * 62_u16).map(|visit| {
+            let (run, of_run) = (visit / 62, visit % 62);
+            let (target, way) = if of_run < 31 { (of_run, 1.0) } else { (61 - of_run, -1.0) };
+            let place_mm = 500.0 / 30.0 * f64::from(target);
+            let bow_um = 20e-6 * place_mm * place_mm;
+            [f64::from(run), place_mm, way, bow_um - 3.5 * way + noise()]
+        });
+        let found =
+            diagnosed_on(axis, columns(["pass", "position_mm", "direction", "error_um"], rows));
+        assert!(names(&found).contains(&"backlash"), "{seed}: {:?}", names(&found));
+    }
+}

@@ -234,7 +234,7 @@ fn implausible(problem: &Problem, judged: &Judged, reach: f64) -> Option<Refusal
 /// Refused when the fit would go on beyond the range of a nonlinear parameter, or a way beyond what reversals are
 /// followed by: what it follows there is another shape than the one the effect is named for, and what was not taken up
 /// is carried over the next reversal.
-fn at_an_end(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
+pub(super) fn at_an_end(problem: &Problem, now: &State, judged: &Judged) -> Option<Refusal> {
     let term = &judged.component.term;
     term.nonlinear_indices().iter().enumerate().find_map(|(place, &index)| {
         let (what, value) = (&term.parameters[index], term.values[index]);

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use helixlock_plant::Term;
 
+use super::acceptance::at_an_end;
 use super::likeness;
 use super::starts::worth_alone;
 use crate::hypotheses::{
@@ -14,6 +15,7 @@ use crate::model::{
 };
 use crate::noise::{Noise, rms};
 use crate::numerics::{chi_squared_tail, count, in_parallel};
+use crate::policy::chance::NAMED;
 use crate::policy::extent::{NEAR_THE_BEST, SHORTLIST};
 
 /// All candidates on what a model leaves, best evidence first.
@@ -29,18 +31,8 @@ pub(crate) fn tried(problem: &Problem, now: &State) -> Vec<Judged> {
     // Under the noise that the best one leaves, its rivals show what they can really do.
     let clear = Stage::new(problem, &now.columns, &best.fit.noises);
     let again = trials(&clear, now);
-    let mut all = judged_shortlist(problem, now, &[again]);
-    for judged in first {
-        let known =
-            all.iter().position(|other| other.component.term.name == judged.component.term.name);
-        match known {
-            Some(place) if all[place].evidence < judged.evidence => all[place] = judged,
-            Some(_) => {}
-            None => all.push(judged),
-        }
-    }
-    all.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
-    all
+    let all = judged_shortlist(problem, now, &[again]).into_iter().chain(first);
+    best_of_each_name(problem, now, all)
 }
 
 /// The best of the candidates that are the same effect as one, on what a model leaves; where to look is told by the
@@ -106,14 +98,27 @@ fn judged_shortlist(problem: &Problem, now: &State, lists: &[(Vec<Trial>, usize)
     let tried = count(lists.iter().map(|(_, tried)| *tried).max().unwrap_or(1).max(1));
     let flat = chosen.into_values().flatten();
     let judged = in_parallel(flat, |trial| judge(problem, now, trial, tried));
-    let mut best: Vec<Judged> = Vec::new();
-    for one in judged.into_iter().flatten() {
-        match best.iter_mut().find(|other| other.component.term.name == one.component.term.name) {
-            Some(other) if other.evidence < one.evidence => *other = one,
-            Some(_) => {}
-            None => best.push(one),
-        }
+    best_of_each_name(problem, now, judged.into_iter().flatten())
+}
+
+/// The best of each name, best evidence first. One that would go on beyond its range stands behind what may be named:
+/// play as it is taken up at once is no less there because a way as long as the stroke follows a bow as well.
+fn best_of_each_name(
+    problem: &Problem,
+    now: &State,
+    all: impl Iterator<Item = Judged>,
+) -> Vec<Judged> {
+    let mut of_name: BTreeMap<String, Vec<Judged>> = BTreeMap::new();
+    for one in all {
+        of_name.entry(one.component.term.name.clone()).or_default().push(one);
     }
+    let may_be_named = |one: &Judged| one.p_value < NAMED && at_an_end(problem, now, one).is_none();
+    let chosen = |mut ways: Vec<Judged>| {
+        ways.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+        let place = ways.iter().position(may_be_named).unwrap_or(0);
+        ways.swap_remove(place)
+    };
+    let mut best: Vec<Judged> = of_name.into_values().map(chosen).collect();
     best.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
     best
 }
