@@ -152,3 +152,43 @@ fn a_louder_pass_weighs_less() {
         }
     }
 }
+
+/// Five passes of a screw of two known effects in noise of a tenth of its wave, the last of which is spoilt.
+fn spoilt(seed: u64, spoil: impl Fn(&mut [f64])) -> Diagnosis {
+    let known = "spindle.speed = \"60 rpm\"\nlead_screw.lead = \"10 mm\"\n\
+                 [[effect]]\nkind = \"screw-periodic\"\namplitude = \"3 um\"\nphase = \"20 deg\"\n\
+                 [[effect]]\nkind = \"screw-progressive\"\nlinear = \"40 um/m\"\n";
+    let table = |error_um: Vec<f64>| {
+        let rows = (0..5 * 84_u32).zip(error_um).map(|(row, error_um)| {
+            [f64::from(row / 84), f64::from(row), 4.7 * f64::from(row % 84), error_um]
+        });
+        diagnosed::columns(["pass", "time_s", "position_mm", "error_um"], rows)
+    };
+    let bare = diagnosed::problem_of(known, table(vec![0.0; 5 * 84]));
+    let mut chance = ChaCha8Rng::seed_from_u64(seed);
+    let noise = StandardNormal.sample_iter(&mut chance);
+    let said = bare.residual().into_iter().zip(noise);
+    let mut error_um: Vec<f64> = said.map(|(left, noise): (f64, f64)| 0.3 * noise - left).collect();
+    spoil(&mut error_um[4 * 84..]);
+    diagnosed::diagnosed_on(known, table(error_um))
+}
+
+/// What makes one pass of five many times as loud is weighed away, and no all-clear for that.
+#[test]
+fn a_pass_that_was_spoilt_gets_no_all_clear() {
+    for seed in seeds(2, 8) {
+        assert_eq!(spoilt(seed, |_| {}).verdict, Verdict::NothingMissing, "{seed}");
+        let half_back = spoilt(seed, |pass| pass[42..].reverse());
+        assert_ne!(half_back.verdict, Verdict::NothingMissing, "{seed}");
+        let loud = spoilt(seed, |pass| {
+            let rattles = (1..=84_u32).map(|row| 6.0 * libm::sin(37.0 * f64::from(row * row)));
+            pass.iter_mut().zip(rattles).for_each(|(value, more)| *value += more);
+        });
+        assert_eq!(loud.verdict, Verdict::Unexplained, "{seed}");
+        assert!(
+            loud.residual[0].shape.contains("times as loud as the others"),
+            "{:?}",
+            loud.residual[0].shape
+        );
+    }
+}

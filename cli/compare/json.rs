@@ -23,7 +23,7 @@ keys! {
             found.lines.iter().map(|one| LineJson::new(one, found, measurement.rotary)).collect(),
         far_readings: Option<FarReadingsJson> =
             found.far_readings.as_ref().map(|far| FarReadingsJson::new(far, measurement)),
-        notes: Vec<String> = notes(measurement, found.far_readings.as_ref()),
+        notes: Vec<String> = notes(measurement, found.far_readings.as_ref(), &found.loud_passes),
     }
 
     SensorJson(one: &SensorResidual, rotary: bool) {

@@ -50,7 +50,8 @@ pub(crate) fn page(problem: &Problem, comparison: &Comparison) -> Page {
     parts.push(Part::Table(along(comparison, unit)));
     parts.push(Part::Heading("Lines".into()));
     parts.push(Part::Table(lines(comparison, unit)));
-    let notes = notes(&problem.measurement, comparison.far_readings.as_ref());
+    let notes =
+        notes(&problem.measurement, comparison.far_readings.as_ref(), &comparison.loud_passes);
     parts.extend(notes.into_iter().map(Part::Text));
     let says = left_over(comparison);
     Page {

@@ -46,7 +46,7 @@ pub(crate) fn print(
         print_line(out, line, unit)?;
     }
     print_doubts(out, &comparison.doubts)?;
-    print_notes(out, measurement, comparison.far_readings.as_ref())
+    print_notes(out, measurement, comparison.far_readings.as_ref(), &comparison.loud_passes)
 }
 
 fn print_line(out: &mut impl Write, line: &NamedLine, unit: &str) -> anyhow::Result<()> {

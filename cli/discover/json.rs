@@ -27,7 +27,7 @@ keys! {
             found.experiments.iter().take(5).map(ExperimentJson::new).collect(),
         far_readings: Option<FarReadingsJson> =
             found.far_readings.as_ref().map(|far| FarReadingsJson::new(far, measurement)),
-        notes: Vec<String> = notes(measurement, found.far_readings.as_ref()),
+        notes: Vec<String> = notes(measurement, found.far_readings.as_ref(), &found.loud_passes),
     }
 
     ProposalJson<'a>(one: &'a Proposal) {

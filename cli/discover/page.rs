@@ -34,7 +34,7 @@ pub(super) fn page(
         parts.push(Part::Heading("What would tell it from the others".into()));
         parts.push(Part::Table(experiments(found)));
     }
-    let notes = notes(&problem.measurement, found.far_readings.as_ref());
+    let notes = notes(&problem.measurement, found.far_readings.as_ref(), &found.loud_passes);
     parts.extend(notes.into_iter().map(Part::Text));
     Page {
         title: format!("{}: a formula where no name fits", problem.model.title),

@@ -57,7 +57,7 @@ pub(super) fn print(
     if !found.experiments.is_empty() {
         writeln!(out)?;
     }
-    print_notes(out, measurement, found.far_readings.as_ref())
+    print_notes(out, measurement, found.far_readings.as_ref(), &found.loud_passes)
 }
 
 /// Where a runner-up stands, and why that is not in front.

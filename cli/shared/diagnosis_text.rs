@@ -2,7 +2,9 @@
 
 use std::io::Write;
 
-use helixlock_lab::{Diagnosis, Doubt, FarReadings, FittedEffect, Measurement, Ranked, Round};
+use helixlock_lab::{
+    Diagnosis, Doubt, FarReadings, FittedEffect, LoudPass, Measurement, Ranked, Round,
+};
 
 use crate::shared::far_readings::notes;
 use crate::shared::words::{change, file_says, why_left, with_error, with_p, worth_of_a_pass};
@@ -52,7 +54,7 @@ pub(crate) fn print(
             why_left(left)
         )?;
     }
-    print_notes(out, measurement, diagnosis.far_readings.as_ref())
+    print_notes(out, measurement, diagnosis.far_readings.as_ref(), &diagnosis.loud_passes)
 }
 
 /// How the data were read, and which of them weigh little.
@@ -60,8 +62,9 @@ pub(crate) fn print_notes(
     out: &mut impl Write,
     measurement: &Measurement,
     far: Option<&FarReadings>,
+    loud: &[LoudPass],
 ) -> anyhow::Result<()> {
-    for note in notes(measurement, far) {
+    for note in notes(measurement, far, loud) {
         writeln!(out, "note: {note}")?;
     }
     Ok(())

@@ -1,6 +1,6 @@
-//! Readings that lie far from the rest, as notes and JSON say them.
+//! Readings that lie far from the rest, and loud passes, as notes and JSON say them.
 
-use helixlock_lab::{FarReading, FarReadings, Measurement, sensor_column};
+use helixlock_lab::{FarReading, FarReadings, LoudPass, Measurement, sensor_column};
 
 use super::keys::keys;
 
@@ -23,9 +23,22 @@ keys! {
 }
 
 /// How data were read, and which readings weigh little.
-pub(crate) fn notes(measurement: &Measurement, far: Option<&FarReadings>) -> Vec<String> {
+pub(crate) fn notes(
+    measurement: &Measurement,
+    far: Option<&FarReadings>,
+    loud: &[LoudPass],
+) -> Vec<String> {
     let weigh_little = far.map(|far| weigh_little(far, measurement));
-    measurement.notes.iter().cloned().chain(weigh_little).collect()
+    let weighs_less = |one: &LoudPass| weighs_less(one, measurement.rotary);
+    let notes = measurement.notes.iter().cloned().chain(weigh_little);
+    notes.chain(loud.iter().map(weighs_less)).collect()
+}
+
+fn weighs_less(LoudPass { sensor, pass, times }: &LoudPass, rotary: bool) -> String {
+    let column = sensor_column(*sensor, rotary);
+    format!(
+        "`{column}` is {times:.1} times as loud in pass {pass} as in the others, and weighs less there"
+    )
 }
 
 fn weigh_little(far: &FarReadings, measurement: &Measurement) -> String {

@@ -9,6 +9,7 @@ mod far_readings;
 mod final_check;
 mod harmonics;
 mod learn;
+mod loud_passes;
 mod searched;
 
 pub use adding::{Added, add};
@@ -21,3 +22,5 @@ pub(crate) use far_readings::far_readings;
 pub use far_readings::{FarReading, FarReadings};
 pub use final_check::{FinalCheck, SensorCheck, final_check};
 pub use learn::{Ledger, LedgerEntry, Spectra, fingerprint, fnv1a64, ledger, spectra, written};
+pub use loud_passes::LoudPass;
+pub(crate) use loud_passes::loud_passes;

@@ -28,6 +28,7 @@ mod repeatability;
 mod setting_trial;
 mod settings;
 mod slow_noise;
+mod spoilt_pass;
 mod swings;
 mod tails;
 mod time_reversal;

@@ -30,9 +30,9 @@ mod challenge;
 
 pub use answer::{
     Added, Advice, Comparison, Diagnosis, FarReading, FarReadings, FinalCheck, FittedEffect,
-    FittedParameter, Ledger, LedgerEntry, NoiseSize, PassSize, Ranked, Round, SensorCheck,
-    SensorResidual, SlowSize, Spectra, Verdict, add, compare, diagnose, final_check, fingerprint,
-    fnv1a64, ledger, spectra, written,
+    FittedParameter, Ledger, LedgerEntry, LoudPass, NoiseSize, PassSize, Ranked, Round,
+    SensorCheck, SensorResidual, SlowSize, Spectra, Verdict, add, compare, diagnose, final_check,
+    fingerprint, fnv1a64, ledger, spectra, written,
 };
 pub use challenge::{
     Challenge, ChallengeError, Experimented, Figure, Hidden, Outcome, Score, Scored, Share,

@@ -41,7 +41,8 @@ pub(crate) fn page(problem: &Problem, diagnosis: &Diagnosis, more: Vec<Part>) ->
     parts.push(Part::Table(parameters(diagnosis).without_empty_columns()));
     parts.push(Part::Heading("What was tried".into()));
     parts.push(Part::Table(tried(diagnosis, unit).without_empty_columns()));
-    let notes = notes(&problem.measurement, diagnosis.far_readings.as_ref());
+    let notes =
+        notes(&problem.measurement, diagnosis.far_readings.as_ref(), &diagnosis.loud_passes);
     if !notes.is_empty() {
         parts.push(Part::Heading("How the data were read".into()));
     }

@@ -3,6 +3,7 @@
 use helixlock_plant::prediction::Sensor;
 
 use super::far_readings::{FarReadings, far_readings};
+use super::loud_passes::{LoudPass, loud_passes};
 use crate::doubts::{Doubt, doubts};
 use crate::hypotheses::{
     Structure, above_flaws, all_structures, no_all_clear, no_larger_than, taken_for_noise,
@@ -79,6 +80,8 @@ pub struct Comparison {
     pub sensors: Vec<SensorResidual>,
     /// Readings that lie far from the rest and weigh little, if there are any.
     pub far_readings: Option<FarReadings>,
+    /// Passes that weigh less.
+    pub loud_passes: Vec<LoudPass>,
     /// Everything that was looked along, clearest first; chances count all looks. A smooth curve
     /// that cannot be told from slow noise stands before all.
     pub along: Vec<Structure>,
@@ -133,6 +136,7 @@ fn compared(problem: &Problem) -> Comparison {
         doubts: Vec::new(),
         sensors,
         far_readings: far_readings(problem, &residual),
+        loud_passes: loud_passes(problem),
         lines: lines(small, &state.columns, &state.fit),
         noise_only,
         noise_p_value,

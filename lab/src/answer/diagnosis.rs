@@ -7,6 +7,7 @@ use helixlock_plant::{Role, Search, Term};
 use super::experiment::{self, Advice};
 use super::far_readings::{FarReadings, far_readings};
 use super::harmonics::one_of_several;
+use super::loud_passes::{LoudPass, loud_passes};
 use super::searched::{Searched, search_on_all_rows, without_dropped};
 use crate::doubts::{Doubt, Suspect, doubts_and_suspects};
 use crate::hypotheses::{
@@ -135,6 +136,8 @@ pub struct Diagnosis {
     pub samples_a_pass: f64,
     /// Readings that lie far from the rest and weigh little, if there are any.
     pub far_readings: Option<FarReadings>,
+    /// Passes that weigh less.
+    pub loud_passes: Vec<LoudPass>,
     /// Rounds of the search, the first without any effect.
     pub rounds: Vec<Round>,
     /// Effects tried, those of the final model first.
@@ -244,6 +247,7 @@ fn doubtful(problem: &Problem, doubts: Vec<Doubt>) -> Diagnosis {
         noise_um: rms(&problem.layout, &state.fit.left),
         samples_a_pass: samples_a_pass(problem, &state.fit),
         far_readings: far_readings(problem, &state.fit.left),
+        loud_passes: loud_passes(problem),
         rounds: rounds(problem, &steps, std::slice::from_ref(&state)),
         candidates: Vec::new(),
         residual: Vec::new(),
@@ -306,6 +310,7 @@ fn answered(searched: Searched, suspects: &[Suspect], rows: usize) -> Diagnosis 
         noise_um,
         samples_a_pass: samples_a_pass(&problem, &state.fit),
         far_readings: far_readings(&problem, &state.fit.left),
+        loud_passes: loud_passes(&problem),
         rounds: rounds(&problem, &steps, &states),
         candidates,
         residual,

@@ -7,7 +7,8 @@ use super::held::{lost_part, takes_its_share};
 use super::orders::is_named;
 use super::proposal::{Granted, Proposal};
 use crate::answer::{
-    Advice, FarReadings, FittedEffect, accepted_beyond, apart, effects, far_readings,
+    Advice, FarReadings, FittedEffect, LoudPass, accepted_beyond, apart, effects, far_readings,
+    loud_passes,
 };
 use crate::doubts::{Doubt, doubts_and_suspects};
 use crate::formulas::{Delta, Shape, formulas};
@@ -77,6 +78,8 @@ pub struct Discovery {
     pub samples_a_pass: f64,
     /// Readings that lie far from the rest and weigh little, if there are any.
     pub far_readings: Option<FarReadings>,
+    /// Passes that weigh less.
+    pub loud_passes: Vec<LoudPass>,
     /// What is left that is not noise.
     pub residual: Vec<Structure>,
     /// Experiments that would tell the proposals from their runners-up, best first.
@@ -449,6 +452,7 @@ fn told(problem: &Problem, state: &State) -> Discovery {
         holdout_rms_um: [unseen(&bare), unseen(state)],
         samples_a_pass: samples_a_pass(problem, &state.fit),
         far_readings: far_readings(problem, &state.fit.left),
+        loud_passes: loud_passes(problem),
         residual: Vec::new(),
         experiments: Vec::new(),
     }

@@ -5,6 +5,7 @@
 
 use super::flaws::above_flaws;
 use super::probes::Structure;
+use super::spoilt_pass::spoilt_pass;
 use crate::model::{Fit, Judged, Problem, State};
 use crate::noise::{
     Layout, Noise, effective_samples, is_surely_slow, rms, smooth_fit, weighed_rms,
@@ -35,7 +36,8 @@ pub(crate) fn taken_for_noise(
     Some(Structure { shape, ..curve.clone() })
 }
 
-/// What a model leaves, where nothing is `left` but noise, which is so slow that it may be a cause.
+/// What a model leaves, where nothing is `left` but noise, which is so slow that it may be a
+/// cause, or a pass of it is.
 ///
 /// Where effects explain a third as much such noise is believed; else the answer rests on it.
 #[must_use]
@@ -47,10 +49,11 @@ pub(crate) fn no_all_clear(
     let [before, now] =
         [&problem.residual(), &state.fit.left].map(|left| rms(&problem.layout, left));
     let is_beside = !state.components.is_empty() && now * now < BESIDE_EFFECTS * before * before;
-    if is_beside || !left.is_empty() {
+    if !left.is_empty() {
         return None;
     }
-    slow_cause(problem, &state.fit)
+    let slow = || (!is_beside).then(|| slow_cause(problem, &state.fit)).flatten();
+    spoilt_pass(problem, &state.fit).or_else(slow)
 }
 
 /// What a fit leaves where that is so slow that it may be a cause.
