@@ -22,6 +22,7 @@ mod hypothesis;
 mod late;
 mod law;
 mod lead;
+mod order;
 mod readings;
 mod scale;
 mod shift;
@@ -119,11 +120,13 @@ fn hypotheses(problem: &Problem) -> Vec<Hypothesis> {
     all.extend(dividers::other_dividers(problem));
     all.extend(lead::leads(problem));
     all.extend(stretch::stretches(problem, &noises));
+    all.extend(order::other_orders(problem, &noises));
     if !follows_steps(problem) {
         all.extend(factor::factors(problem, odd, &noises));
         all.extend(late::late_logs(problem, &noises));
         all.extend(convention::conventions(problem));
         all.extend(hypothesis::another_machine(problem));
+        all.extend(odd.and_then(|pass| hypothesis::another_machine_in(problem, pass)));
     }
     all
 }

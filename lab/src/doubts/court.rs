@@ -10,7 +10,7 @@ use super::common::{curve_of, curves, slopes};
 use super::doubt::Suspect;
 use super::hypothesis::{Hypothesis, with_effects};
 use super::view::{View, rough_noises};
-use super::worst_pass::{rows_of, worst_pass};
+use super::worst_pass::{saying, silent, worst_pass};
 use crate::formulas::{Placed, nameless};
 use crate::hypotheses::{candidate, however_begun, try_candidate};
 use crate::model::{Columns, Component, Fit, Problem, Stage, noises_of, settle, with_noise};
@@ -128,7 +128,7 @@ impl<'a> Court<'a> {
             return true;
         }
         // A mistake in one pass is all that is wrong with it.
-        if one.pass.is_some() && worst_pass(&one.mended) == one.pass {
+        if one.pass.is_some() && !one.last_resort() && worst_pass(&one.mended) == one.pass {
             return false;
         }
         let (before, after) = (rough.left(self.problem), rough.left(&one.mended));
@@ -166,7 +166,8 @@ impl<'a> Court<'a> {
     fn nothing(&self, best: &Hypothesis) -> f64 {
         let evidence = |problem: &Problem| self.evidence(problem, &Columns::default()).0;
         let absent = self.absent.iter().filter(|_| !best.last_resort()).map(evidence);
-        let in_pass = best.pass.map(|pass| evidence(&silent(self.problem, pass)));
+        let in_pass = best.pass.filter(|_| !best.last_resort());
+        let in_pass = in_pass.map(|pass| evidence(&silent(self.problem, pass)));
         let grown = best.pass.map(|pass| self.grown(pass));
         let in_places = best.slips || best.pass.is_some();
         let shape = in_places.then(|| *self.shape.get_or_init(|| self.nameless())).flatten();
@@ -336,18 +337,6 @@ fn with_the_rest_held(fit: &Fit, width: usize) -> Vec<f64> {
 fn fitted(problem: &Problem, columns: &Columns) -> Fit {
     let rough = with_noise(&problem.layout, columns, &problem.residual(), &rough_noises(problem));
     settle(problem, columns, &noises_of(problem, &rough.left))
-}
-
-/// A problem that predicts something else.
-pub(super) fn saying(problem: &Problem, predicted: Vec<f64>) -> Problem {
-    Problem { predicted: predicted.into(), ..problem.clone() }
-}
-
-/// A problem that predicts nothing in a pass.
-fn silent(problem: &Problem, pass: usize) -> Problem {
-    let mut predicted = problem.predicted.to_vec();
-    rows_of(problem, pass).for_each(|rows| predicted[rows].fill(0.0));
-    saying(problem, predicted)
 }
 
 fn predicted_by(problem: &Problem, model: &Model) -> Option<Vec<f64>> {

@@ -9,7 +9,7 @@ use crate::numerics::count;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Doubt {
     /// What kind of mistake: `position-for-error`, `sign`, `unit`, `swap`, `shift`, `phase`, `dividers`, `lead`,
-    /// `scale`, `reversed`, `another-machine`, `clock`, `copy`, `cut-off`, `stuck`.
+    /// `gear`, `scale`, `reversed`, `another-machine`, `clock`, `copy`, `cut-off`, `stuck`.
     pub what: &'static str,
     /// Evidence against the next best explanation, in units of twice the log likelihood.
     pub evidence: f64,

@@ -10,6 +10,7 @@ use crate::policy::mistakes::MACHINE_OF_EFFECTS;
 
 use super::doubt::Doubt;
 use super::law::usualness;
+use super::worst_pass::silent;
 
 /// What kind of mistake, the mistake in a sentence, and the line that puts it right.
 pub(super) type Words = (&'static str, String, String);
@@ -85,7 +86,7 @@ impl Hypothesis {
     /// True for a unit of what is no sensor's, of a place, for its scale, and for a lead: harmonics of the file's waves
     /// imitate them.
     pub(super) fn stretches(&self) -> bool {
-        matches!(self.what, "lead" | "scale") || self.what == "unit" && !self.scales
+        matches!(self.what, "lead" | "gear" | "scale") || self.what == "unit" && !self.scales
     }
 
     /// True when it is said only if no mistake of this machine's data is likely.
@@ -157,18 +158,37 @@ pub(super) fn with_effects(model: &Model, more: &[Term]) -> Model {
     model
 }
 
-/// The measurement shows nothing of what the file says that its machine has.
+/// True of a file that says so much of its machine that nothing of it in the data is a doubt.
 ///
 /// What is predicted from a log that holds its readings is not what the machine did between them.
-pub(super) fn another_machine(problem: &Problem) -> Option<Hypothesis> {
-    let effects = problem.model.effects.len();
+fn tells_a_machine(problem: &Problem) -> bool {
     let held = |term: &&Term| term.needs().iter().any(|name| problem.measurement.holds(name));
     let told = problem.model.effects.iter().filter(|term| !held(term)).count();
-    if told < MACHINE_OF_EFFECTS {
+    MACHINE_OF_EFFECTS <= told
+}
+
+/// The measurement shows nothing of what the file says that its machine has.
+pub(super) fn another_machine(problem: &Problem) -> Option<Hypothesis> {
+    let effects = problem.model.effects.len();
+    if !tells_a_machine(problem) {
         return None;
     }
     let bare = Model { effects: Vec::new(), ..problem.model.clone() };
     let says = format!("none of the file's {effects} effects is in the data: is it this machine?");
     let mend = "take the machine file that belongs to the data".to_owned();
     Hypothesis::of_model(problem, &bare, ("another-machine", says, mend))
+}
+
+/// The same of one pass: it is of another machine, or its rows are not in order.
+pub(super) fn another_machine_in(problem: &Problem, pass: usize) -> Option<Hypothesis> {
+    if !tells_a_machine(problem) {
+        return None;
+    }
+    let name = problem.measurement.pass_names[pass];
+    let says = format!(
+        "nothing of the file's effects is in pass {name}: is it of this machine, and are its rows in order?"
+    );
+    let mend = format!("leave pass {name} out, or put its rows in order");
+    let one = Hypothesis::new(("another-machine", says, mend), silent(problem, pass));
+    Some(Hypothesis { pass: Some(pass), ..one })
 }

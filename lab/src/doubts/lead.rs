@@ -25,7 +25,8 @@ pub(super) fn leads(problem: &Problem) -> Vec<Hypothesis> {
     })
 }
 
-fn with_lead(problem: &Problem, own: Lead, text: &str) -> Option<Hypothesis> {
+/// The file with another lead of its screw; `None` for one too far off, or which its places are doubted for.
+pub(super) fn with_lead(problem: &Problem, own: Lead, text: &str) -> Option<Hypothesis> {
     let lead: Lead = text.parse().ok().filter(|lead: &Lead| lead.rational() != own.rational())?;
     let ratio = lead.mm() / own.mm();
     // The position is asked for those, which moves waves alike.

@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use super::court::saying;
 use super::hypothesis::Hypothesis;
 use super::view::{View, rough_noises};
+use super::worst_pass::saying;
 use crate::measurement::sensor_column;
 use crate::model::{Columns, Problem};
 use crate::policy::mistakes::{DOUBT, MOST_ROWS_SLIPPED};

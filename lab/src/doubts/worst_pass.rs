@@ -25,6 +25,18 @@ pub(super) fn rows_of(problem: &Problem, pass: usize) -> impl Iterator<Item = Ra
     blocks.filter(move |block| block.pass == pass).map(|block| block.rows.clone())
 }
 
+/// A problem that predicts something else.
+pub(super) fn saying(problem: &Problem, predicted: Vec<f64>) -> Problem {
+    Problem { predicted: predicted.into(), ..problem.clone() }
+}
+
+/// A problem that predicts nothing in a pass.
+pub(super) fn silent(problem: &Problem, pass: usize) -> Problem {
+    let mut predicted = problem.predicted.to_vec();
+    rows_of(problem, pass).for_each(|rows| predicted[rows].fill(0.0));
+    saying(problem, predicted)
+}
+
 /// Mean square about the mean of each sensor.
 fn mean_square(rows: impl Iterator<Item = Range<usize>>, left: &[f64]) -> f64 {
     let (squares, number) = rows.fold((0.0, 0), |(squares, number), rows| {

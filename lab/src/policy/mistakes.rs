@@ -91,6 +91,13 @@ pub(crate) const MACHINE_OF_EFFECTS: usize = 2;
 /// Chosen: one farther off is seen by whoever types it. Doubled: half as many leads again, and their time.
 pub(crate) const FARTHEST_LEAD: f64 = 4.0;
 
+/// Share of a wave of the file by which one that comes more or less often in the data departs from it in size and phase,
+/// and is the same.
+///
+/// Chosen: what a machine file says of a wave is good to a fifth. Doubled: any wave beside one that was mended, and of
+/// nearly its size, is the file's.
+pub(crate) const SAME_WAVE: f64 = 0.2;
+
 /// Farthest shift of the position's zero that is looked for, in turns of the spindle.
 ///
 /// Chosen. Doubled: twice the time.

@@ -122,3 +122,16 @@ fn a_pass_that_is_told_backwards_is_told() {
     assert_eq!(doubted(&known, &turned), Some(("reversed", mend)));
     assert_eq!(doubted(&known, &sound), None);
 }
+
+/// Rows of a pass in another order, as a table that was sorted by one column alone.
+#[test]
+fn a_pass_whose_rows_changed_places_is_told() {
+    let known = machine(150, WAVES);
+    let mut mixed = two_passes(&known);
+    let rows = mixed.rows() / 2;
+    let errors = mixed.columns.iter_mut().find(|column| column.name == "error_um");
+    let values = &mut errors.expect("errors").values[rows..];
+    (0..rows).for_each(|row| values.swap(row, 257 * row % rows));
+    let mend = "leave pass 2 out, or put its rows in order".to_owned();
+    assert_eq!(doubted(&known, &mixed), Some(("another-machine", mend)));
+}

@@ -207,3 +207,33 @@ fn an_error_that_runs_straight_along_the_travel_is_another_scale() {
     assert_eq!(along(|place, _| 0.01 * place * place, true), None);
     assert_eq!(along(|place, _| 3.0 * (place - 100.0).max(0.0), true), None);
 }
+
+/// Whatever its waves come by: ratios on either side of the file's, near and far.
+#[test]
+fn a_gear_and_a_screw_that_come_otherwise_are_told() {
+    let known = machine(150, WAVES);
+    let said = |mend: &str| mend.rsplit(' ').next().and_then(|number| number.parse::<f64>().ok());
+    for order in [2.7, 2.45, 1.3] {
+        let other = machine(150, &WAVES.replace("2.5", &order.to_string()));
+        let (what, mend) = doubted(&known, &measured(&other)).expect("a doubt");
+        let told = said(&mend).expect("an order");
+        assert!(what == "gear" && (told - order).abs() < 1e-3, "{order}: {what} {mend}");
+    }
+    let mut other = machine(150, WAVES);
+    other.machine.lead_screw = Some("17.3 mm".parse().expect("a lead"));
+    let (what, mend) = doubted(&known, &measured(&other)).expect("a doubt");
+    let told: f64 =
+        mend[mend.find('"').expect("a lead") + 1..].trim_end_matches(" mm\"").parse().expect("mm");
+    assert!(what == "lead" && (told - 17.3).abs() < 2e-3, "{what} {mend}");
+}
+
+/// One wave that was mended and another, half as large again, that nobody knows: the gear has its teeth.
+#[test]
+fn a_wave_of_another_size_is_no_other_gear() {
+    let known = machine(150, WAVES);
+    let other = WAVES.replace("2.5", "2.7").replace("1.1 um", "1.7 um");
+    assert_eq!(doubted(&known, &measured(&machine(150, &other))), None);
+    let more =
+        format!("{WAVES}[[effect]]\nkind = 'gear-error'\norder = 2.7\namplitude = '1.1 um'\n");
+    assert_eq!(doubted(&known, &measured(&machine(150, &more))), None);
+}
