@@ -9,20 +9,11 @@ use super::shift::{best, stages};
 use crate::model::{Columns, Problem, Stage, noises_of};
 use crate::noise::{Noise, rms};
 use crate::numerics::spread;
-use crate::policy::mistakes::{FARTHEST_LEAD, SAME_WAVE};
+use crate::policy::mistakes::{FARTHEST_LEAD, NEAR_A_STEP, SAME_LINE, SAME_WAVE, WHOLE};
 use crate::spectrum::amplitude_spectrum;
 
 /// Places looked at either way of a line, in a cell of the spectrum.
 const PLACES: u8 = 8;
-
-/// Cells of the spectrum within which a line is no other.
-const SAME_LINE: f64 = 0.5;
-
-/// How far a ratio may be off a whole number by the last digit that is written.
-const WHOLE: f64 = 1e-4;
-
-/// How far a ratio of leads may be off a step of a unit and be that.
-const NEAR_A_STEP: f64 = 0.01;
 
 /// What turns, and the places in the file of the effects that come with it.
 struct Shaft {
@@ -41,12 +32,13 @@ enum Turned {
 pub(super) fn other_orders(problem: &Problem, noises: &[Vec<Noise>]) -> Vec<Hypothesis> {
     let shafts = shafts(&problem.model);
     let stages = if shafts.is_empty() { Vec::new() } else { stages(problem, noises) };
-    let found = |shaft: &Shaft| Some((shaft.predicted(problem, 1.0)?, shaft.elsewhere(problem)?));
-    let hypotheses = |shaft: &Shaft| -> Vec<Hypothesis> {
-        let Some((own, lines)) = found(shaft) else { return Vec::new() };
-        stages.iter().filter_map(|stage| shaft.hypothesis(stage, &own, lines)).collect()
+    let told = |shaft: &Shaft| {
+        let own = shaft.predicted(problem, 1.0)?;
+        let lines = elsewhere(problem, &own)?;
+        let each = stages.iter().filter_map(|stage| shaft.hypothesis(stage, &own, lines));
+        Some(each.collect::<Vec<_>>())
     };
-    shafts.iter().flat_map(hypotheses).collect()
+    shafts.iter().filter_map(told).flatten().collect()
 }
 
 /// The screw, and each gear that waves of the file come with.
@@ -114,23 +106,6 @@ impl Shaft {
         Some(sum(problem, &self.columns(problem, times)?, &sizes))
     }
 
-    /// How often the strongest of its waves comes, and how often the strongest of the data that are free of them.
-    fn elsewhere(&self, problem: &Problem) -> Option<[f64; 2]> {
-        let own = self.predicted(problem, 1.0)?;
-        let strongest = |curve: &[f64], sensor: usize| {
-            let spectrum = amplitude_spectrum(problem, curve, sensor);
-            spectrum.into_iter().max_by(|a, b| a[1].total_cmp(&b[1]))
-        };
-        let on = |sensor: usize| Some((sensor, strongest(&own, sensor)?));
-        let sensors = (0..problem.sensors.len()).filter_map(on);
-        let (sensor, [from, _]) = sensors.max_by(|a, b| a.1[1].total_cmp(&b.1[1]))?;
-        let free: Vec<f64> =
-            problem.residual().iter().zip(&own).map(|(left, own)| left + own).collect();
-        let [to, _] = strongest(&free, sensor)?;
-        let is_another = SAME_LINE * cell(problem) < (to - from).abs();
-        (is_another && (to / from).max(from / to) < FARTHEST_LEAD).then_some([from, to])
-    }
-
     fn hypothesis(
         &self,
         stage: &Stage<'_>,
@@ -166,10 +141,12 @@ impl Shaft {
             Turned::Gear(own) => own,
         };
         let mut model = problem.model.clone();
-        for (at, term) in self.effects.iter().zip(self.terms(&problem.model, times)) {
+        let terms = self.terms(&problem.model, times);
+        let words = words(&model, [own, own * times], &terms);
+        for (at, term) in self.effects.iter().zip(terms) {
             model.effects[*at] = term;
         }
-        Hypothesis::of_model(problem, &model, words(own, own * times))
+        Hypothesis::of_model(problem, &model, words)
     }
 
     /// True where the wave there has the size and the phase of the file's.
@@ -188,6 +165,21 @@ impl Shaft {
     }
 }
 
+/// How often the strongest of a shaft's own waves comes, and how often the strongest of the data that are free of them.
+fn elsewhere(problem: &Problem, own: &[f64]) -> Option<[f64; 2]> {
+    let strongest = |curve: &[f64], sensor: usize| {
+        let spectrum = amplitude_spectrum(problem, curve, sensor);
+        spectrum.into_iter().max_by(|a, b| a[1].total_cmp(&b[1]))
+    };
+    let on = |sensor: usize| Some((sensor, strongest(own, sensor)?));
+    let sensors = (0..problem.sensors.len()).filter_map(on);
+    let (sensor, [from, _]) = sensors.max_by(|a, b| a.1[1].total_cmp(&b.1[1]))?;
+    let free: Vec<f64> = problem.residual().iter().zip(own).map(|(left, own)| left + own).collect();
+    let [to, _] = strongest(&free, sensor)?;
+    let is_another = SAME_LINE * cell(problem) < (to - from).abs();
+    (is_another && (to / from).max(from / to) < FARTHEST_LEAD).then_some([from, to])
+}
+
 fn sum(problem: &Problem, columns: &[Column], sizes: &[f64]) -> Vec<f64> {
     let mut all = vec![0.0; problem.samples.len()];
     for (column, size) in columns.iter().zip(sizes) {
@@ -202,9 +194,16 @@ fn cell(problem: &Problem) -> f64 {
     1.0 / turns.max(f64::MIN_POSITIVE)
 }
 
-fn words(from: f64, to: f64) -> Words {
+fn words(model: &Model, [from, to]: [f64; 2], terms: &[Term]) -> Words {
     let says = format!(
         "what comes {from:.4} times a turn by the file comes {to:.4} times: a gear has other teeth than the file says"
     );
-    ("gear", says, format!("[[gear]]\norder = {to:.5}"))
+    let is_listed = model.gears.iter().any(|gear| is_whole(gear.order / from));
+    let gear = is_listed.then(|| format!("[[gear]]\norder = {to:.5}"));
+    let effect = |term: &Term| {
+        let order = order(term).unwrap_or(to);
+        format!("[[effect]]\nkind = \"{}\"\norder = {order:.5}", term.name)
+    };
+    let lines: Vec<String> = gear.into_iter().chain(terms.iter().map(effect)).collect();
+    ("gear", says, lines.join("\n"))
 }

@@ -91,6 +91,21 @@ pub(crate) const MACHINE_OF_EFFECTS: usize = 2;
 /// Chosen: one farther off is seen by whoever types it. Doubled: half as many leads again, and their time.
 pub(crate) const FARTHEST_LEAD: f64 = 4.0;
 
+/// Cells of the spectrum within which a line is no other.
+///
+/// Derived: a line is as wide. Doubled: orders a tenth apart are not told in ten turns.
+pub(crate) const SAME_LINE: f64 = 0.5;
+
+/// How far a ratio may be off a whole number.
+///
+/// Chosen: orders are written with five digits. Doubled: the same gears.
+pub(crate) const WHOLE: f64 = 1e-4;
+
+/// How far a ratio of leads may be off a step of a unit and be that.
+///
+/// Chosen: what a spectrum of a dozen turns tells of a ratio. Doubled: a lead 2 % off twice the file's is not told.
+pub(crate) const NEAR_A_STEP: f64 = 0.01;
+
 /// Share of a wave of the file by which one that comes more or less often in the data departs from it in size and phase,
 /// and is the same.
 ///
