@@ -23,7 +23,8 @@ use crate::policy::chance::{AT_AN_END, STANDARD_ERRORS};
 use crate::policy::extent::{COARSER, COMPARED_ROWS, FEWEST_COARSE, SEARCHED_ROWS, STEPPED_ROWS};
 use crate::search::{
     Dropped, Refusal, Rivals, Step, at_flanks, come_again, errors_of_counts, hear, nobodys,
-    not_told, one_cause, one_comb, pruned, rivals, suspected, tried_beside, unlisted_order, untold,
+    not_told, one_cause, one_comb, pruned, rivals, running_off, suspected, tried_beside,
+    unlisted_order, untold,
 };
 
 /// What can be said about a model and a measurement.
@@ -354,6 +355,9 @@ const BEATEN: &str = "a shape without a name explains more in its place";
 /// Why waves are taken out of which one shape has all.
 const ONE_COMB: &str = "harmonics of one shape that comes again evenly";
 
+/// Why an effect is taken out that is the nearest to another shape.
+const RUNS_OFF: &str = "a way beyond its range explains more in its place";
+
 /// Why an effect is taken out that is not needed beside what is left.
 const NOT_TOLD: &str = "not told from what is left";
 
@@ -411,8 +415,8 @@ fn without_denied(
     }
 }
 
-/// Goes on without waves that are those of one shape, and without effects that are not told from what is left; what
-/// they show is left too.
+/// Goes on without effects that are the nearest to another shape, without waves that are those of one, and without
+/// effects that are not told from what is left; what they show is left too.
 fn without_untold(
     problems: (&Problem, &Problem),
     (steps, states): (&mut Vec<Step>, &mut Vec<State>),
@@ -420,6 +424,10 @@ fn without_untold(
     mut found: Vec<Rivals>,
 ) -> Vec<Rivals> {
     let small = problems.1;
+    let (off, shown): (Vec<_>, Vec<_>) =
+        running_off(small, &steps[steps.len() - 1].state).into_iter().unzip();
+    found = take_out(problems, (steps, states), (&off, RUNS_OFF), found);
+    residual.extend(shown);
     if let Some((waves, shape)) = one_comb(small, &steps[steps.len() - 1].state) {
         found = take_out(problems, (steps, states), (&waves, ONE_COMB), found);
         residual.push(shape);

@@ -24,7 +24,7 @@ use crate::policy::evidence::MARGIN;
 use crate::policy::extent::{MOST_FORMULAS, SEARCHED_ROWS};
 use crate::search::{
     Claim, Rivals, Step, claims, hear, in_place_of, left_at_targets, nobodys, paid,
-    paid_by_formula, polished, pruned, rivals, search, suspected, tried_beside,
+    paid_by_formula, polished, pruned, rivals, running_off, search, suspected, tried_beside,
 };
 
 /// Runners-up that experiments are to tell from a proposal.
@@ -358,6 +358,11 @@ impl Now {
             if let Some(won) = hear(small, &self.state, &self.found).winner {
                 left.push(won.shown);
                 beaten = won.beaten;
+            } else {
+                let (off, shown): (Vec<_>, Vec<_>) =
+                    running_off(small, &self.state).into_iter().unzip();
+                left.extend(shown);
+                beaten = off;
             }
         }
         if is_named && left.is_empty() {

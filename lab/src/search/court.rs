@@ -150,7 +150,7 @@ fn wave_of_nobody(problem: &Problem, judged: &Judged) -> Option<Structure> {
 }
 
 /// A curve that is beyond chance in any noise, though its values or other data forbid the name.
-fn curve_of_nobody(
+pub(super) fn curve_of_nobody(
     problem: &Problem,
     now: &State,
     judged: &Judged,

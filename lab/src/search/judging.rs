@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use helixlock_plant::Term;
+use helixlock_plant::{Search, Term};
 
 use super::acceptance::at_an_end;
 use super::likeness;
@@ -15,7 +15,7 @@ use crate::model::{
 };
 use crate::noise::{Noise, rms};
 use crate::numerics::{chi_squared_tail, count, in_parallel};
-use crate::policy::chance::NAMED;
+use crate::policy::chance::{NAMED, STANDARD_ERRORS};
 use crate::policy::extent::{NEAR_THE_BEST, SHORTLIST};
 
 /// All candidates on what a model leaves, best evidence first.
@@ -35,20 +35,26 @@ pub(crate) fn tried(problem: &Problem, now: &State) -> Vec<Judged> {
     best_of_each_name(problem, now, all)
 }
 
-/// The best of the candidates that are the same effect as one, on what a model leaves; where to look is told by the
-/// noise that is left with such an effect.
+/// The best of the candidates that are the same effect as one, on what a model leaves.
 #[must_use]
-pub(crate) fn tried_of(
+pub(crate) fn tried_of(problem: &Problem, now: &State, like: (&Term, &[Noise])) -> Option<Judged> {
+    best_of_each_name(problem, now, ways_of(problem, now, like).into_iter()).into_iter().next()
+}
+
+/// All candidates that are the same effect as one, on what a model leaves; where to look is told by the noise that is
+/// left with such an effect.
+#[must_use]
+pub(super) fn ways_of(
     problem: &Problem,
     now: &State,
     (term, noises): (&Term, &[Noise]),
-) -> Option<Judged> {
+) -> Vec<Judged> {
     let stages = [noises, &plain_noises(problem, &now.fit.left)];
     let lists = stages.map(|noises| {
         let stage = Stage::new(problem, &now.columns, noises);
         strongest(&stage, &candidates_like(&stage, &now.components, term), None)
     });
-    judged_shortlist(problem, now, &lists).into_iter().next()
+    judged(problem, now, &lists)
 }
 
 /// The strongest trials under a stage's noise of all there are.
@@ -88,6 +94,11 @@ fn strongest(
 
 /// Trials with their noise fitted anew, the best of each name.
 fn judged_shortlist(problem: &Problem, now: &State, lists: &[(Vec<Trial>, usize)]) -> Vec<Judged> {
+    best_of_each_name(problem, now, judged(problem, now, lists).into_iter())
+}
+
+/// Trials with their noise fitted anew, but for those that leave what another of their name leaves.
+fn judged(problem: &Problem, now: &State, lists: &[(Vec<Trial>, usize)]) -> Vec<Judged> {
     let mut chosen: BTreeMap<String, Vec<&Trial>> = BTreeMap::new();
     for trial in lists.iter().flat_map(|(trials, _)| trials) {
         let known = chosen.entry(trial.component.term.name.clone()).or_default();
@@ -98,11 +109,10 @@ fn judged_shortlist(problem: &Problem, now: &State, lists: &[(Vec<Trial>, usize)
     let tried = count(lists.iter().map(|(_, tried)| *tried).max().unwrap_or(1).max(1));
     let flat = chosen.into_values().flatten();
     let judged = in_parallel(flat, |trial| judge(problem, now, trial, tried));
-    best_of_each_name(problem, now, judged.into_iter().flatten())
+    judged.into_iter().flatten().collect()
 }
 
-/// The best of each name, best evidence first. One that would go on beyond its range stands behind what may be named:
-/// play as it is taken up at once is no less there because a way as long as the stroke follows a bow as well.
+/// The best of each name, best evidence first.
 fn best_of_each_name(
     problem: &Problem,
     now: &State,
@@ -112,15 +122,28 @@ fn best_of_each_name(
     for one in all {
         of_name.entry(one.component.term.name.clone()).or_default().push(one);
     }
-    let may_be_named = |one: &Judged| one.p_value < NAMED && at_an_end(problem, now, one).is_none();
-    let chosen = |mut ways: Vec<Judged>| {
+    let best = of_name.into_values().map(|mut ways| {
         ways.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
-        let place = ways.iter().position(may_be_named).unwrap_or(0);
-        ways.swap_remove(place)
-    };
-    let mut best: Vec<Judged> = of_name.into_values().map(chosen).collect();
+        let place = ways.iter().position(|one| stands_for(problem, now, one, &ways[0]));
+        ways.swap_remove(place.unwrap_or(0))
+    });
+    let mut best: Vec<Judged> = best.collect();
     best.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
     best
+}
+
+/// True of a way of an effect that may be named in the place of the clearest, which may go on beyond its range: it is as
+/// good within two standard errors, or plainer. Play as it is taken up at once is no less there because a way as long as
+/// the stroke follows a bow as well.
+fn stands_for(problem: &Problem, now: &State, one: &Judged, clearest: &Judged) -> bool {
+    let free = |one: &Judged| {
+        let values = one.component.term.parameters.iter();
+        values.filter(|what| what.is_nonlinear() && what.search != Search::Fixed).count()
+    };
+    let is_near = clearest.evidence - one.evidence < STANDARD_ERRORS * STANDARD_ERRORS;
+    (is_near || free(one) < free(clearest))
+        && one.p_value < NAMED
+        && at_an_end(problem, now, one).is_none()
 }
 
 /// Joint fit, evidence, chance and held-out error of one trial.
