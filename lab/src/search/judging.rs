@@ -133,17 +133,21 @@ fn best_of_each_name(
 }
 
 /// True of a way of an effect that may be named in the place of the clearest, which may go on beyond its range: it is as
-/// good within two standard errors, or plainer. Play as it is taken up at once is no less there because a way as long as
-/// the stroke follows a bow as well.
+/// good, or plainer. Play as it is taken up at once is no less there because a way as long as the stroke follows a bow
+/// as well.
 fn stands_for(problem: &Problem, now: &State, one: &Judged, clearest: &Judged) -> bool {
     let free = |one: &Judged| {
         let values = one.component.term.parameters.iter();
         values.filter(|what| what.is_nonlinear() && what.search != Search::Fixed).count()
     };
-    let is_near = clearest.evidence - one.evidence < STANDARD_ERRORS * STANDARD_ERRORS;
-    (is_near || free(one) < free(clearest))
+    (free(one) < free(clearest) || is_as_good(one, clearest))
         && one.p_value < NAMED
         && at_an_end(problem, now, one).is_none()
+}
+
+/// True of a way that is as good as the clearest within two standard errors.
+pub(super) fn is_as_good(one: &Judged, clearest: &Judged) -> bool {
+    clearest.evidence - one.evidence < STANDARD_ERRORS * STANDARD_ERRORS
 }
 
 /// Joint fit, evidence, chance and held-out error of one trial.

@@ -1,8 +1,8 @@
-//! Effects that were the nearest to another shape: beside all others, too, a way beyond their range follows it best.
+//! Effects that were the nearest to another shape: beside all others, too, only a way beyond their range follows it.
 
 use super::acceptance::at_an_end;
 use super::court::curve_of_nobody;
-use super::judging::ways_of;
+use super::judging::{is_as_good, ways_of};
 use crate::hypotheses::Structure;
 use crate::model::{Problem, State};
 
@@ -20,5 +20,7 @@ fn runs_off(problem: &Problem, state: &State, index: usize) -> Option<Structure>
     let ways = ways_of(problem, &fewer, (&state.components[index].term, &state.fit.noises));
     let clearest = ways.iter().max_by(|a, b| a.evidence.total_cmp(&b.evidence))?;
     let why = at_an_end(problem, &fewer, clearest)?;
-    curve_of_nobody(problem, &fewer, clearest, &why)
+    let mut as_good = ways.iter().filter(|one| is_as_good(one, clearest));
+    let ends = as_good.all(|one| at_an_end(problem, &fewer, one).is_some());
+    ends.then(|| curve_of_nobody(problem, &fewer, clearest, &why)).flatten()
 }
