@@ -1,17 +1,20 @@
 //! Effects that were the nearest to another shape: beside all others, too, only a way beyond their range follows it.
 
+use helixlock_plant::{Parameter, Search};
+
 use super::acceptance::at_an_end;
 use super::court::curve_of_nobody;
 use super::judging::{is_as_good, ways_of};
 use crate::hypotheses::Structure;
 use crate::model::{Problem, State};
 
-/// Places of those effects of a model, and what they show.
+/// Places of those effects of a model that are taken up at once, and what they show.
 #[must_use]
 pub(crate) fn running_off(problem: &Problem, state: &State) -> Vec<(usize, Structure)> {
-    let has_a_way =
-        |index: &usize| state.components[*index].term.parameters.iter().any(|what| what.of_way);
-    let places = (0..state.components.len()).filter(has_a_way);
+    let is_at_once = |what: &Parameter| what.of_way && what.search == Search::Fixed;
+    let stood_for_a_way =
+        |index: &usize| state.components[*index].term.parameters.iter().any(is_at_once);
+    let places = (0..state.components.len()).filter(stood_for_a_way);
     places.filter_map(|index| Some((index, runs_off(problem, state, index)?))).collect()
 }
 
