@@ -132,15 +132,14 @@ fn best_of_each_name(
     best
 }
 
-/// True of a way of an effect that may be named in the place of the clearest, which may go on beyond its range: it is as
-/// good, or plainer. Play as it is taken up at once is no less there because a way as long as the stroke follows a bow
-/// as well.
+/// True of a way of an effect that may be named, and is the clearest or plainer than that, which may go on beyond its
+/// range. Play as it is taken up at once is no less there because a way as long as the stroke follows a bow as well.
 fn stands_for(problem: &Problem, now: &State, one: &Judged, clearest: &Judged) -> bool {
     let free = |one: &Judged| {
         let values = one.component.term.parameters.iter();
         values.filter(|what| what.is_nonlinear() && what.search != Search::Fixed).count()
     };
-    (free(one) < free(clearest) || is_as_good(one, clearest))
+    (free(one) < free(clearest) || std::ptr::eq(one, clearest))
         && one.p_value < NAMED
         && at_an_end(problem, now, one).is_none()
 }
