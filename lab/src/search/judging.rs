@@ -15,7 +15,7 @@ use crate::model::{
 };
 use crate::noise::{Noise, rms};
 use crate::numerics::{chi_squared_tail, count, in_parallel};
-use crate::policy::chance::{NAMED, STANDARD_ERRORS};
+use crate::policy::chance::NAMED;
 use crate::policy::extent::{NEAR_THE_BEST, SHORTLIST};
 
 /// All candidates on what a model leaves, best evidence first.
@@ -142,11 +142,6 @@ fn stands_for(problem: &Problem, now: &State, one: &Judged, clearest: &Judged) -
     (free(one) < free(clearest) || std::ptr::eq(one, clearest))
         && one.p_value < NAMED
         && at_an_end(problem, now, one).is_none()
-}
-
-/// True of a way that is as good as the clearest within two standard errors.
-pub(super) fn is_as_good(one: &Judged, clearest: &Judged) -> bool {
-    clearest.evidence - one.evidence < STANDARD_ERRORS * STANDARD_ERRORS
 }
 
 /// Joint fit, evidence, chance and held-out error of one trial.

@@ -1,10 +1,10 @@
-//! Effects that were the nearest to another shape: beside all others, too, only a way beyond their range follows it.
+//! Effects that were the nearest to another shape: beside all others, too, a way beyond their range follows it best.
 
 use helixlock_plant::{Parameter, Search};
 
 use super::acceptance::at_an_end;
 use super::court::curve_of_nobody;
-use super::judging::{is_as_good, ways_of};
+use super::judging::ways_of;
 use crate::hypotheses::Structure;
 use crate::model::{Problem, State};
 
@@ -23,7 +23,5 @@ fn runs_off(problem: &Problem, state: &State, index: usize) -> Option<Structure>
     let ways = ways_of(problem, &fewer, (&state.components[index].term, &state.fit.noises));
     let clearest = ways.iter().max_by(|a, b| a.evidence.total_cmp(&b.evidence))?;
     let why = at_an_end(problem, &fewer, clearest)?;
-    let mut as_good = ways.iter().filter(|one| is_as_good(one, clearest));
-    let ends = as_good.all(|one| at_an_end(problem, &fewer, one).is_some());
-    ends.then(|| curve_of_nobody(problem, &fewer, clearest, &why)).flatten()
+    curve_of_nobody(problem, &fewer, clearest, &why)
 }
