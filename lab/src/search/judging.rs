@@ -132,16 +132,17 @@ fn best_of_each_name(
     best
 }
 
-/// True of a way of an effect that may be named, and is the clearest or plainer than that, which may go on beyond its
-/// range. Play as it is taken up at once is no less there because a way as long as the stroke follows a bow as well.
+/// True of a form of an effect that may be named, and is the clearest or taken up at once. Play is no less there because
+/// a way as long as the stroke follows a bow as well.
 fn stands_for(problem: &Problem, now: &State, one: &Judged, clearest: &Judged) -> bool {
-    let free = |one: &Judged| {
-        let values = one.component.term.parameters.iter();
-        values.filter(|what| what.is_nonlinear() && what.search != Search::Fixed).count()
-    };
-    (free(one) < free(clearest) || std::ptr::eq(one, clearest))
+    (is_at_once(&one.component.term) || std::ptr::eq(one, clearest))
         && one.p_value < NAMED
         && at_an_end(problem, now, one).is_none()
+}
+
+/// True of an effect that takes a way to be taken up elsewhere, and none here.
+pub(super) fn is_at_once(term: &Term) -> bool {
+    term.parameters.iter().any(|what| what.of_way && what.search == Search::Fixed)
 }
 
 /// Joint fit, evidence, chance and held-out error of one trial.
