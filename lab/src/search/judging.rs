@@ -141,7 +141,7 @@ fn stands_for(problem: &Problem, now: &State, one: &Judged, clearest: &Judged) -
 }
 
 /// True of an effect that takes a way to be taken up elsewhere, and none here.
-pub(super) fn is_at_once(term: &Term) -> bool {
+fn is_at_once(term: &Term) -> bool {
     term.parameters.iter().any(|what| what.of_way && what.search == Search::Fixed)
 }
 

@@ -1,16 +1,20 @@
 //! Effects that were the nearest to another shape: beside all others, too, a way beyond their range follows it best.
 
+use helixlock_plant::Parameter;
+
 use super::acceptance::at_an_end;
 use super::court::curve_of_nobody;
-use super::judging::{is_at_once, ways_of};
+use super::judging::ways_of;
 use crate::hypotheses::Structure;
 use crate::model::{Problem, State};
 
-/// Places of those effects of a model that are taken up at once, and what they show.
+/// Places of those effects of a model that may be taken up at once, and what they show.
 #[must_use]
 pub(crate) fn running_off(problem: &Problem, state: &State) -> Vec<(usize, Structure)> {
-    let is_at_once = |index: &usize| is_at_once(&state.components[*index].term);
-    let places = (0..state.components.len()).filter(is_at_once);
+    let may_be_at_once = |what: &Parameter| what.of_way && what.default == Some(0.0);
+    let has_such_a_way =
+        |index: &usize| state.components[*index].term.parameters.iter().any(may_be_at_once);
+    let places = (0..state.components.len()).filter(has_such_a_way);
     places.filter_map(|index| Some((index, runs_off(problem, state, index)?))).collect()
 }
 
