@@ -424,8 +424,7 @@ fn without_untold(
     mut found: Vec<Rivals>,
 ) -> Vec<Rivals> {
     let small = problems.1;
-    let (off, shown): (Vec<_>, Vec<_>) =
-        running_off(small, &steps[steps.len() - 1].state).into_iter().unzip();
+    let (off, shown) = running_off(small, &steps[steps.len() - 1].state);
     found = take_out(problems, (steps, states), (&off, RUNS_OFF), found);
     residual.extend(shown);
     if let Some((waves, shape)) = one_comb(small, &steps[steps.len() - 1].state) {

@@ -359,8 +359,7 @@ impl Now {
                 left.push(won.shown);
                 beaten = won.beaten;
             } else {
-                let (off, shown): (Vec<_>, Vec<_>) =
-                    running_off(small, &self.state).into_iter().unzip();
+                let (off, shown) = running_off(small, &self.state);
                 left.extend(shown);
                 beaten = off;
             }

@@ -10,12 +10,12 @@ use crate::model::{Problem, State};
 
 /// Places of those effects of a model that may be taken up at once, and what they show.
 #[must_use]
-pub(crate) fn running_off(problem: &Problem, state: &State) -> Vec<(usize, Structure)> {
+pub(crate) fn running_off(problem: &Problem, state: &State) -> (Vec<usize>, Vec<Structure>) {
     let may_be_at_once = |what: &Parameter| what.of_way && what.default == Some(0.0);
     let has_such_a_way =
         |index: &usize| state.components[*index].term.parameters.iter().any(may_be_at_once);
     let places = (0..state.components.len()).filter(has_such_a_way);
-    places.filter_map(|index| Some((index, runs_off(problem, state, index)?))).collect()
+    places.filter_map(|index| Some((index, runs_off(problem, state, index)?))).unzip()
 }
 
 fn runs_off(problem: &Problem, state: &State, index: usize) -> Option<Structure> {
